@@ -1,0 +1,45 @@
+// Pore sizes: the probability that a random point of the void space is farther than r from the nearest particle surface,
+// exact, from the volume of the union of balls cut up along the Voronoi (power) cells.
+#pragma once
+
+#include <coagula/common/checks.hpp>
+#include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace coagula::characterize {
+
+struct PoreOptions {
+    Index radii = 200;  ///< number of equally spaced radii from 0 to the largest pore, >= 4
+};
+
+/// The pore-size curve and its moments. Lengths in metres.
+struct PoreSizes {
+    Eigen::VectorXd radius;                 ///< r, equally spaced from 0 to `max` [m]
+    Eigen::VectorXd exclusion_probability;  ///< P(r_P > r); 1 at r = 0, 0 at r = max
+    double mean = unset;                    ///< of the pore radius r_P [m]
+    double second_moment = unset;           ///< mean of r_P^2 [m^2]
+    double median = unset;                  ///< [m]
+    double max = unset;                     ///< radius of the largest pore [m]
+    double void_fraction = unset;           ///< 1 - volume of the union of the spheres / volume measured
+    double volume = unset;                  ///< volume measured: the periodic cell, or the inner cells of an open packing [m^3]
+    Index inner_particles = 0;              ///< particles whose Voronoi cells were measured (all, if periodic)
+    double cell_volume_defect = unset;  ///< |sum of the cell volumes / volume - 1| for periodic packings: a check of the geometry
+};
+
+/// Exact curve. Periodic cells of any orthorhombic shape. In an open packing only particles count whose Voronoi cell no particle
+/// outside the convex hull of the given centres could change.
+PoreSizes measure_pores(const Packing& packing, const PoreOptions& options = {}, const Progress& progress = {});
+
+/// Exclusion probability at the given radii [m] estimated from random points of the void space: a check of the exact curve.
+/// Periodic packings. Standard error sqrt(P (1 - P) / points in the void).
+struct SampledPores {
+    Eigen::VectorXd exclusion_probability;  ///< as many as radii
+    Index void_points = 0;                  ///< sample points that fell into the void space
+};
+SampledPores sample_pores(const Packing& packing, const Eigen::VectorXd& radius, Index points, std::uint64_t seed);
+
+}  // namespace coagula::characterize

@@ -1,0 +1,43 @@
+# What every library of coagula has in common: alias, include folder, warnings, installation of headers and an export set of its own.
+
+set(COAGULA_COMPONENTS "" CACHE INTERNAL "libraries that are installed")
+
+function(coagula_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wmisleading-indentation)
+  if(COAGULA_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(COAGULA_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# coagula_library(<name>): finishes the target coagula_<name> made by the caller.
+function(coagula_library name)
+  set(target coagula_${name})
+  add_library(coagula::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC
+    "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
+    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  coagula_warnings(${target})
+  install(TARGETS ${target} EXPORT coagula_${name}_targets COMPONENT ${name})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
+  install(EXPORT coagula_${name}_targets NAMESPACE coagula:: FILE coagula-${name}-targets.cmake
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/coagula COMPONENT ${name})
+  set(COAGULA_COMPONENTS ${COAGULA_COMPONENTS} ${name} CACHE INTERNAL "libraries that are installed")
+endfunction()
+
+# coagula_install_package(): find_package(coagula COMPONENTS ...) for the installed libraries.
+function(coagula_install_package)
+  set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/coagula)
+  configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/coagulaConfig.cmake.in"
+    "${PROJECT_BINARY_DIR}/coagulaConfig.cmake" INSTALL_DESTINATION ${folder})
+  write_basic_package_version_file("${PROJECT_BINARY_DIR}/coagulaConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+  install(FILES "${PROJECT_BINARY_DIR}/coagulaConfig.cmake" "${PROJECT_BINARY_DIR}/coagulaConfigVersion.cmake"
+    "${PROJECT_SOURCE_DIR}/cmake/FindRandom123.cmake" "${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake"
+    "${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake"
+    DESTINATION ${folder} COMPONENT common)
+endfunction()

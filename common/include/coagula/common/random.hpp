@@ -1,0 +1,31 @@
+// Counter-based random numbers (Philox 4x64-10 of Random123): noise is a function of (seed, purpose, step, particle) and so
+// does not depend on the number of threads or on the order of evaluation.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+
+namespace coagula {
+
+/// What a random number is for; different purposes never share a number.
+enum class RandomPurpose : std::uint64_t {
+    initial_position = 1,
+    radius = 2,
+    pore_sample = 3,
+    brownian_force = 4,
+    perturbation = 5,
+    test = 100,
+};
+
+/// Four independent 64-bit words for one (seed, purpose, step, particle).
+std::array<std::uint64_t, 4> random_bits(std::uint64_t seed, RandomPurpose purpose, std::uint64_t step, std::uint64_t particle);
+
+/// Three independent numbers, uniform in (0, 1).
+Eigen::Vector3d random_uniform(std::uint64_t seed, RandomPurpose purpose, std::uint64_t step, std::uint64_t particle);
+
+/// Three independent standard normal numbers (Box-Muller).
+Eigen::Vector3d random_normal(std::uint64_t seed, RandomPurpose purpose, std::uint64_t step, std::uint64_t particle);
+
+}  // namespace coagula

@@ -1,0 +1,89 @@
+// The HDF5 file of coagula: H5MD 1.1 structure, VTKHDF view, results with units, provenance. See docs/file-format.md.
+#pragma once
+
+#include <coagula/common/checks.hpp>
+#include <coagula/common/contact_network.hpp>
+#include <coagula/common/packing.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace coagula::io {
+
+/// A named array with unit and meaning. `path` is absolute in the file, such as "/characterization/doh/a".
+/// An empty shape is a scalar; values are stored in C order (last index fastest).
+struct Dataset {
+    std::string path;
+    std::vector<std::size_t> shape;
+    std::variant<std::vector<double>, std::vector<std::int64_t>, std::string> values;
+    std::string unit;  ///< UDUNITS text, "1" for pure numbers
+    std::string description;
+};
+
+Dataset scalar(std::string path, double value, std::string unit, std::string description);
+Dataset integer(std::string path, std::int64_t value, std::string description);
+Dataset text(std::string path, std::string value, std::string description);
+Dataset vector(std::string path, const Eigen::VectorXd& values, std::string unit, std::string description);
+Dataset integers(std::string path, const Eigen::VectorXi& values, std::string description);
+/// A d x N matrix of columns is stored as [N][d].
+Dataset columns(std::string path, const Eigen::MatrixXd& values, std::string unit, std::string description);
+/// A matrix as it stands, [rows][cols].
+Dataset matrix(std::string path, const Eigen::MatrixXd& values, std::string unit, std::string description);
+
+/// One value (or vector) per particle, shown by ParaView and OVITO too. Values are d x N.
+struct ParticleField {
+    std::string name;
+    Eigen::MatrixXd values;
+    std::string unit;
+    std::string description;
+};
+
+/// One stage of the history of a file.
+struct Provenance {
+    std::string stage;  ///< "generate vem", "characterize" ...
+    std::string command_line;
+    std::string options;           ///< JSON object of all options with their values
+    std::int64_t seed = -1;        ///< -1: no randomness
+    std::string version;           ///< version + git hash
+    std::string time;              ///< UTC, ISO 8601
+    double seconds = unset;        ///< taken by the stage
+    std::string positions_sha256;  ///< of the positions that went in; empty for a generator
+};
+
+/// What a file holds beyond its results.
+struct Structure {
+    Packing packing;
+    std::optional<ContactNetwork> bonds;
+};
+
+/// Writes a new file: to a temporary name beside it, then renamed. Throws InputError when `path` exists and `overwrite` is false,
+/// std::runtime_error (naming the file) when it cannot be written, e.g. on a full disk; nothing is left behind then.
+void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
+                     const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite);
+
+/// Reads structure and bonds. Throws InputError naming the file and the object when it is missing, truncated, foreign or
+/// inconsistent.
+Structure read_structure(const std::string& path);
+
+/// Copies `source` to `target` (may be the same file) with the groups in `replaced` removed, then adds bonds (if given), fields,
+/// results and a provenance entry; by temporary file and rename. What coagula does not know in the source is kept.
+/// With target != source an existing target needs `overwrite`.
+void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
+                 const std::optional<ContactNetwork>& bonds, const std::vector<ParticleField>& fields,
+                 const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite);
+
+/// All datasets below a group ("/characterization"), sorted by path; empty when the group does not exist.
+std::vector<Dataset> read_results(const std::string& path, const std::string& group);
+
+/// The history, oldest first.
+std::vector<Provenance> read_provenance(const std::string& path);
+
+/// SHA-256 of the positions as stored (hexadecimal).
+std::string positions_sha256(const Packing& packing);
+
+}  // namespace coagula::io
