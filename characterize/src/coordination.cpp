@@ -1,0 +1,1 @@
+#include <coagula/characterize/coordination.hpp>

@@ -1,0 +1,1 @@
+#include <coagula/io/structure_file.hpp>

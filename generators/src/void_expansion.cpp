@@ -1,0 +1,1 @@
+#include <coagula/generators/void_expansion.hpp>

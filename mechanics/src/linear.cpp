@@ -1,0 +1,1 @@
+#include <coagula/mechanics/linear.hpp>
