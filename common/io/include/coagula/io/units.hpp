@@ -1,0 +1,20 @@
+// Quantities as people write them, read with UDUNITS-2: "0.25um", "15 mV", "100N/m".
+#pragma once
+
+#include <coagula/common/checks.hpp>
+
+#include <string>
+
+namespace coagula::io {
+
+/// The number of `unit` ("m", "V", "N/m", UDUNITS text) in a text such as "0.25um", "0.25 um" or "2.5e-7"; a bare number already
+/// is in `unit`. Throws InputError with a sentence that names the text and the expected unit when there is no finite number in
+/// front, the rest is not a unit or the unit has another dimension (a reciprocal, such as Hz for s, is another dimension, and so is
+/// rad/s for Hz). "5ms" are milliseconds, "5 m s" and "5m.s" metre seconds. Safe to call from several threads.
+double parse_quantity(const std::string& text, const std::string& unit);
+
+/// How many `to` are in one `from`: unit_factor("um", "m") is 1e-6. Throws InputError as parse_quantity does, and for a scale with
+/// another zero, such as degrees Celsius.
+double unit_factor(const std::string& from, const std::string& to);
+
+}  // namespace coagula::io

@@ -1,0 +1,155 @@
+#include <coagula/io/units.hpp>
+
+#include <udunits2.h>
+
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <string_view>
+
+namespace coagula::io {
+
+namespace {
+
+using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
+
+/// The UDUNITS database, which is not safe for threads: whoever uses it holds the mutex.
+struct UnitSystem {
+    UnitSystem() : system(nullptr, ut_free_system) {
+        ut_set_error_message_handler(ut_ignore);
+        system.reset(ut_read_xml(nullptr));
+        if (!system) {
+            throw std::runtime_error("the units database of UDUNITS-2 cannot be read (Debian package libudunits2-data)");
+        }
+    }
+    std::unique_ptr<ut_system, decltype(&ut_free_system)> system;
+    std::mutex mutex;
+};
+
+UnitSystem& unit_system() {
+    static UnitSystem units;
+    return units;
+}
+
+/// value * factor + offset.
+struct Conversion {
+    double factor;
+    double offset;
+};
+
+bool is_letter(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// True when every digit belongs to an exponent ("m-3", "s^2", "m2"). UDUNITS takes "m 7" for seven metres and "K @ 273" for a
+/// shifted scale; in a quantity both are slips of the pen.
+bool digits_are_exponents(std::string_view unit) {
+    for (std::size_t i = 0; i < unit.size(); ++i) {
+        if (unit[i] == '@') {
+            return false;
+        }
+        if (std::isdigit(static_cast<unsigned char>(unit[i])) == 0) {
+            continue;
+        }
+        std::size_t before = i;
+        while (before > 0 && (std::isdigit(static_cast<unsigned char>(unit[before - 1])) != 0 || unit[before - 1] == '-' ||
+                              unit[before - 1] == '+' || unit[before - 1] == '^')) {
+            --before;
+        }
+        const bool lone_one = unit == "1" || (before == i && i == 0 && unit.substr(0, 2) == "1/");
+        if (!lone_one && (before == 0 || !(is_letter(unit[before - 1]) || unit[before - 1] == ')'))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Equal dimension in the strict sense: UDUNITS converts reciprocals into each other and takes an angle for a pure number.
+bool same_dimension(const ut_unit* from, const ut_unit* to) {
+    const Unit quotient(ut_divide(from, to), ut_free);
+    if (!quotient || ut_is_dimensionless(quotient.get()) == 0) {
+        return false;
+    }
+    std::array<char, 256> text{};
+    const int length = ut_format(quotient.get(), text.data(), text.size(), UT_ASCII | UT_DEFINITION);
+    return length >= 0 && std::string_view(text.data()).find("rad") == std::string_view::npos;
+}
+
+/// @param what names the text in messages.
+Conversion conversion(const std::string& from, const std::string& to, const std::string& what) {
+    UnitSystem& units = unit_system();
+    const std::lock_guard lock(units.mutex);
+    const Unit target(ut_parse(units.system.get(), to.c_str(), UT_UTF8), ut_free);
+    require(target != nullptr, "'" + to + "' is not a unit");
+    const Unit source(digits_are_exponents(from) ? ut_parse(units.system.get(), from.c_str(), UT_UTF8) : nullptr, ut_free);
+    if (!source) {
+        throw InputError(what + ": '" + from + "' is not a unit (expected: a unit such as " + to + ")");
+    }
+    if (!same_dimension(source.get(), target.get())) {
+        throw InputError(what + ": '" + from + "' has another dimension than the expected unit " + to);
+    }
+    const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(ut_get_converter(source.get(), target.get()), cv_free);
+    if (!converter) {
+        throw InputError(what + ": '" + from + "' cannot be converted into the expected unit " + to);
+    }
+    const double offset = cv_convert_double(converter.get(), 0.0);
+    return {cv_convert_double(converter.get(), 1.0) - offset, offset};
+}
+
+/// `value` if it is a whole number but for the rounding UDUNITS made, otherwise 0.
+double whole_number(double value) {
+    const double nearest = std::round(value);
+    return std::abs(value - nearest) < 1e-14 * nearest ? nearest : 0.0;
+}
+
+/// Divides where the factor is one over a whole number (the prefixes): that rounds once, so 0.3um and 3e-7 are the same number.
+double apply(const Conversion& conversion, double value) {
+    if (const double inverse = whole_number(1 / conversion.factor); inverse > 1) {
+        return value / inverse + conversion.offset;
+    }
+    const double whole = whole_number(conversion.factor);
+    return value * (whole > 0 ? whole : conversion.factor) + conversion.offset;
+}
+
+std::string_view trim(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t");
+    return first == std::string_view::npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+double parse_quantity(const std::string& text, const std::string& unit) {
+    const std::string what = "'" + text + "' is not a quantity in " + unit;
+    std::string_view rest = trim(text);
+    if (rest.starts_with('+') && !rest.starts_with("+-")) {
+        rest.remove_prefix(1);
+    }
+    double value = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    if (error == std::errc::result_out_of_range) {
+        throw InputError(what + ": the number is too large or too small");
+    }
+    if (error != std::errc{} || !std::isfinite(value)) {
+        throw InputError(what + ": it must begin with a finite number");
+    }
+    rest = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
+    const double result = rest.empty() ? value : apply(conversion(std::string(rest), unit, what), value);
+    if (!std::isfinite(result)) {
+        throw InputError(what + ": the number is too large");
+    }
+    return result;
+}
+
+double unit_factor(const std::string& from, const std::string& to) {
+    const std::string what = "'" + from + "' is not a unit of the dimension of " + to;
+    const Conversion found = conversion(std::string(trim(from)), to, what);
+    if (found.offset != 0) {
+        throw InputError(what + ": its zero lies elsewhere");
+    }
+    return apply(found, 1.0);
+}
+
+}  // namespace coagula::io
