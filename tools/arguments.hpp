@@ -1,0 +1,113 @@
+// The command line of a verb: a table of options from which parsing, range checks, the help text and the provenance follow.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace coagula::tools {
+
+/// The values an option may take.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool ends_included = true;
+
+    bool holds(double value) const;
+    /// Such as "> 0", "3 .. 100"; empty when everything is allowed.
+    std::string text() const;
+};
+Range at_least(double low);
+Range above(double low);
+/// Both ends excluded.
+Range between(double low, double high);
+/// Both ends included.
+Range within(double low, double high);
+
+struct Option {
+    enum class Kind { flag, count, quantity, text };
+
+    Kind kind = Kind::flag;
+    std::string name = {};
+    std::string placeholder = {};           ///< of the value in the help text
+    std::string meaning = {};               ///< one line
+    std::string unit = {};                  ///< UDUNITS text of a quantity
+    std::string fallback = {};              ///< default as one would type it; empty: none
+    Range range = {};                       ///< of counts and quantities, in `unit`
+    std::vector<std::string> choices = {};  ///< of a text; empty: any
+    bool required = false;
+    char letter = 0;  ///< short name
+};
+
+Option flag(std::string name, std::string meaning);
+/// A whole number.
+Option count(std::string name, std::string meaning, std::string fallback, Range range);
+/// A number with a unit.
+Option quantity(std::string name, std::string unit, std::string meaning, std::string fallback, Range range);
+Option text(std::string name, std::string placeholder, std::string meaning, std::string fallback = {});
+Option choice(std::string name, std::vector<std::string> choices, std::string meaning, std::string fallback);
+Option required(Option option);
+/// -o FILE
+Option output(std::string meaning);
+
+class Arguments;
+
+/// What the program can be asked to do.
+struct Verb {
+    std::string name;                     ///< "generate vem"
+    std::string summary;                  ///< one line
+    std::string input;                    ///< what the argument without a name is, "FILE.h5"; empty: there is none
+    std::vector<Option> options;          ///< without those that every verb has
+    void (*run)(const Arguments&);        ///< parse -> validate -> call -> write
+    std::vector<std::string> notes = {};  ///< lines below the options in the help text
+};
+
+/// The values of all options of one call: parsed, in SI units and within their ranges.
+class Arguments {
+public:
+    /// Throws InputError with a sentence that names the option and the rule.
+    /// @param words what follows the verb on the command line.
+    Arguments(const Verb& verb, const std::vector<std::string>& words);
+
+    bool help_wanted() const { return help_wanted_; }
+    /// Whether the option has a value, given or default.
+    bool has(const std::string& name) const { return values_.contains(name); }
+    bool flag(const std::string& name) const { return has(name); }
+    std::int64_t count(const std::string& name) const;
+    double quantity(const std::string& name) const;
+    std::optional<double> optional_quantity(const std::string& name) const;
+    const std::string& text(const std::string& name) const;
+    /// The text of an option, or `otherwise` when it was not given.
+    std::string text(const std::string& name, const std::string& otherwise) const;
+    const std::string& input() const { return text("input"); }
+
+    const std::string& verb() const { return verb_; }
+    /// As it could be typed again.
+    const std::string& command_line() const { return command_line_; }
+    /// All options with their values, for the provenance.
+    nlohmann::ordered_json to_json() const;
+
+private:
+    using Value = std::variant<bool, std::int64_t, double, std::string>;
+
+    void store(const Option& option, const std::string& word);
+
+    std::string verb_;
+    std::string command_line_;
+    std::map<std::string, Value> values_;
+    bool help_wanted_ = false;
+};
+
+/// The help text of a verb: one line per option with unit, default and range.
+std::string help_text(const Verb& verb);
+
+/// The parts of a list "a,b,c".
+std::vector<std::string> split(const std::string& list, char separator = ',');
+
+}  // namespace coagula::tools

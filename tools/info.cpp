@@ -1,0 +1,117 @@
+// coagula info: what is in a file.
+#include "report.hpp"
+#include "verbs.hpp"
+
+#include <coagula/common/contact_network.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <sstream>
+
+namespace coagula::tools {
+
+namespace {
+
+Results read_all_results(const std::string& path) {
+    Results results = io::read_results(path, "/characterization");
+    for (io::Dataset& dataset : io::read_results(path, "/mechanics")) {
+        results.push_back(std::move(dataset));
+    }
+    return results;
+}
+
+std::string value_text(const io::Dataset& dataset) {
+    if (const auto* text = std::get_if<std::string>(&dataset.values)) {
+        return *text;
+    }
+    if (!dataset.shape.empty()) {
+        std::string shape;
+        for (const std::size_t length : dataset.shape) {
+            shape += (shape.empty() ? "" : " x ") + std::to_string(length);
+        }
+        return shape + (dataset.shape.size() == 1 ? " values" : " matrix") + (dataset.unit == "1" ? "" : ", " + dataset.unit);
+    }
+    if (const auto* numbers = std::get_if<std::vector<double>>(&dataset.values)) {
+        return with_unit(numbers->front(), dataset.unit);
+    }
+    return std::to_string(std::get<std::vector<std::int64_t>>(dataset.values).front());
+}
+
+Json results_json(const Results& results) {
+    Json json = Json::object();
+    for (const io::Dataset& dataset : results) {
+        json[dataset.path] = {{"value", to_json(dataset)}, {"unit", dataset.unit}, {"description", dataset.description}};
+    }
+    return json;
+}
+
+Json provenance_json(const std::vector<io::Provenance>& history) {
+    Json list = Json::array();
+    for (const io::Provenance& entry : history) {
+        const Json options = Json::parse(entry.options, nullptr, false);
+        list.push_back({{"stage", entry.stage},
+                        {"command_line", entry.command_line},
+                        {"options", options.is_discarded() ? Json(entry.options) : options},
+                        {"seed", entry.seed},
+                        {"version", entry.version},
+                        {"time", entry.time},
+                        {"seconds", entry.seconds},
+                        {"positions_sha256", entry.positions_sha256}});
+    }
+    return list;
+}
+
+Json structure_json(const io::Structure& structure) {
+    const Packing& packing = structure.packing;
+    const Eigen::Vector3d box = packing.cell.lengths();
+    Json json = {
+        {"particles", packing.size()},
+        {"box", {box.x(), box.y(), box.z()}},
+        {"periodic", packing.cell.is_periodic()},
+        {"volume_fraction", volume_fraction(packing)},
+        {"radius", {{"mean", mean_radius(packing)}, {"min", packing.radii.minCoeff()}, {"max", packing.radii.maxCoeff()}}}};
+    json["bonds"] = structure.bonds ? Json(structure.bonds->size()) : Json(nullptr);
+    return json;
+}
+
+Table structure_table(const io::Structure& structure) {
+    const Packing& packing = structure.packing;
+    const std::string spread = is_monodisperse(packing) ? ""
+                                                        : ", from " + with_unit(packing.radii.minCoeff(), "m") + " to " +
+                                                              with_unit(packing.radii.maxCoeff(), "m");
+    return {{"particles", std::to_string(packing.size())},
+            {"box", describe(packing.cell)},
+            {"volume fraction", with_unit(volume_fraction(packing), "1") +
+                                    (packing.cell.is_periodic() ? "" : " of the box that encloses the centres and their spheres")},
+            {"radius", with_unit(mean_radius(packing), "m") + spread},
+            {"bonds", structure.bonds ? std::to_string(structure.bonds->size()) : "none"}};
+}
+
+void run(const Arguments& arguments) {
+    const std::string path = arguments.input();
+    const io::Structure structure = io::read_structure(path);
+    const Results results = read_all_results(path);
+    const std::vector<io::Provenance> history = io::read_provenance(path);
+
+    Json json = structure_json(structure);
+    json["results"] = results_json(results);
+    json["provenance"] = provenance_json(history);
+
+    Table table = structure_table(structure);
+    for (const io::Dataset& dataset : results) {
+        table.emplace_back(dataset.path, value_text(dataset) + "   (" + dataset.description + ")");
+    }
+    for (const io::Provenance& entry : history) {
+        table.emplace_back(entry.time,
+                           entry.command_line + "   (" + with_unit(entry.seconds, "s") + ", coagula " + entry.version + ")");
+    }
+    report(arguments, json, table);
+}
+
+}  // namespace
+
+Verb info_verb() {
+    return {
+        .name = "info", .summary = "what is in a file: structure, results, history", .input = "FILE.h5", .options = {}, .run = run};
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,109 @@
+// coagula: generate, characterize and shear random sphere packings. Chooses the verb and turns exceptions into exit codes.
+#include "arguments.hpp"
+#include "interruption.hpp"
+#include "provenance.hpp"
+#include "verbs.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/common/progress.hpp>
+
+#include <omp.h>
+
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+namespace {
+
+constexpr int failed = 1;
+constexpr int wrong_usage = 2;
+
+std::vector<Verb> all_verbs() {
+    return {generate_vem_verb(), characterize_verb(), shear_verb(), info_verb(), import_verb(), export_verb()};
+}
+
+void print_program_help() {
+    std::cout << "usage: coagula VERB [options]\n\n"
+                 "Random sphere packings and coagulated particle gels: generate, characterize, shear.\n\nverbs:\n";
+    for (const Verb& verb : all_verbs()) {
+        std::string name = verb.name;
+        name.resize(14, ' ');
+        std::cout << "  " << name << verb.summary << '\n';
+    }
+    std::cout
+        << "\noptions:\n"
+           "  -h, --help    print this text; 'coagula VERB --help' lists the options of a verb\n"
+           "      --version print the version\n\n"
+           "Quantities are SI numbers or carry a unit: 0.25um, 100N/m. Exit codes: 0 done, 1 failed, 2 wrong usage or bad input.\n";
+}
+
+/// The verb that the words begin with; they are removed.
+Verb take_verb(std::vector<std::string>& words) {
+    for (const Verb& verb : all_verbs()) {
+        const std::vector<std::string> name = split(verb.name, ' ');
+        if (words.size() >= name.size() && std::equal(name.begin(), name.end(), words.begin())) {
+            words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(name.size()));
+            return verb;
+        }
+    }
+    if (words.front() == "generate") {
+        throw InputError(words.size() > 1 ? "'generate " + words[1] + "' is not a verb: the one generator is 'generate vem'"
+                                          : "'generate' needs the name of a generator: 'generate vem'");
+    }
+    throw InputError("'" + words.front() + "' is not a verb (see 'coagula --help')");
+}
+
+void run(std::vector<std::string> words) {
+    if (words.empty()) {
+        throw InputError("a verb is missing (see 'coagula --help')");
+    }
+    const bool lists_generators = words.size() == 2 && words[0] == "generate" && (words[1] == "--help" || words[1] == "-h");
+    if (words.front() == "--help" || words.front() == "-h" || words.front() == "help" || lists_generators) {
+        print_program_help();
+        return;
+    }
+    if (words.front() == "--version") {
+        std::cout << "coagula " << version_text() << '\n';
+        return;
+    }
+    const Verb verb = take_verb(words);
+    const Arguments arguments(verb, words);
+    if (arguments.help_wanted()) {
+        std::cout << help_text(verb);
+        return;
+    }
+    if (arguments.has("threads")) {
+        omp_set_num_threads(static_cast<int>(arguments.count("threads")));
+    }
+    verb.run(arguments);
+}
+
+int complain(const std::string& sentence, int code) {
+    std::cerr << "coagula: " << sentence << std::endl;
+    return code;
+}
+
+}  // namespace
+
+}  // namespace coagula::tools
+
+int main(int argc, char** argv) {
+    using namespace coagula::tools;
+    install_signal_handlers();
+    try {
+        run(std::vector<std::string>(argv + 1, argv + argc));
+        return 0;
+    } catch (const coagula::InputError& error) {
+        return complain(error.what(), wrong_usage);
+    } catch (const std::invalid_argument& error) {
+        return complain(error.what(), wrong_usage);
+    } catch (const std::bad_alloc&) {
+        return complain("there is not enough memory for this", failed);
+    } catch (const std::exception& error) {
+        return complain(error.what(), failed);
+    }
+}

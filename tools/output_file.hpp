@@ -1,0 +1,17 @@
+// Where results go, checked before the work begins.
+#pragma once
+
+#include "arguments.hpp"
+
+#include <string>
+
+namespace coagula::tools {
+
+/// Throws InputError unless a new file can be made at `path`: its folder exists and can be written, and nothing is there yet
+/// or `force` is set.
+void check_output(const std::string& path, bool force);
+
+/// The file that the results of a stage are added to: --output, or else the input file itself. Checked.
+std::string checked_target(const Arguments& arguments);
+
+}  // namespace coagula::tools

@@ -1,0 +1,123 @@
+#include "report.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <stdexcept>
+
+namespace coagula::tools {
+
+namespace {
+
+template <class T>
+Json to_value(const T& value) {
+    if constexpr (std::is_floating_point_v<T>) {
+        return std::isfinite(value) ? Json(value) : Json(nullptr);
+    } else {
+        return Json(value);
+    }
+}
+
+/// The values from `first` on, nested as the shape from `level` on says.
+template <class T>
+Json nested(const std::vector<T>& values, const std::vector<std::size_t>& shape, std::size_t level, std::size_t& next) {
+    if (level == shape.size()) {
+        return to_value(values.at(next++));
+    }
+    Json list = Json::array();
+    for (std::size_t i = 0; i < shape[level]; ++i) {
+        list.push_back(nested(values, shape, level + 1, next));
+    }
+    return list;
+}
+
+/// Objects are indented, arrays stay on one line.
+void print(std::ostream& stream, const Json& json, const std::string& indent) {
+    if (!json.is_object() || json.empty()) {
+        stream << json.dump();
+        return;
+    }
+    const char* separator = "{\n";
+    for (const auto& [key, value] : json.items()) {
+        stream << separator << indent << "  " << Json(key).dump() << ": ";
+        print(stream, value, indent + "  ");
+        separator = ",\n";
+    }
+    stream << '\n' << indent << '}';
+}
+
+/// The power of 1000 that brings a value between 1 and 1000, as an SI prefix between pico and giga.
+int thousands(double value) {
+    if (value == 0 || !std::isfinite(value)) {
+        return 0;
+    }
+    const int power = static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-9));
+    return std::min(std::max(power, -4), 3);
+}
+
+std::string digits(double value) {
+    std::array<char, 32> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.5g", value);
+    return buffer.data();
+}
+
+}  // namespace
+
+Json to_json(const io::Dataset& dataset) {
+    if (const auto* text = std::get_if<std::string>(&dataset.values)) {
+        return *text;
+    }
+    std::size_t next = 0;
+    if (const auto* numbers = std::get_if<std::vector<double>>(&dataset.values)) {
+        return nested(*numbers, dataset.shape, 0, next);
+    }
+    return nested(std::get<std::vector<std::int64_t>>(dataset.values), dataset.shape, 0, next);
+}
+
+Json to_json(const Results& results, const std::string& group) {
+    Json json = Json::object();
+    for (const io::Dataset& dataset : results) {
+        json[Json::json_pointer(dataset.path.substr(group.size()))] = to_json(dataset);
+    }
+    return json;
+}
+
+std::string with_unit(double value, const std::string& unit) {
+    if (unit == "1" || unit.empty()) {
+        return digits(value);
+    }
+    static constexpr std::array prefixes = {"p", "n", "u", "m", "", "k", "M", "G"};
+    const int power = unit == "m" || unit == "Pa" || unit == "N/m" ? thousands(value) : 0;
+    return digits(value / std::pow(1000.0, power)) + ' ' + prefixes[static_cast<std::size_t>(power + 4)] + unit;
+}
+
+std::string describe(const Cell& cell) {
+    const Eigen::Vector3d lengths = cell.lengths();
+    std::string text;
+    for (const double length : lengths) {
+        text += (text.empty() ? "" : " x ") + with_unit(length, "m");
+    }
+    return text + (cell.is_periodic() ? ", periodic" : ", open");
+}
+
+void report(const Arguments& arguments, const Json& json, const Table& table) {
+    if (arguments.flag("json")) {
+        print(std::cout, json, "");
+        std::cout << '\n';
+    } else if (!arguments.flag("quiet")) {
+        std::size_t width = 0;
+        for (const auto& [label, text] : table) {
+            width = std::max(width, label.size());
+        }
+        for (const auto& [label, text] : table) {
+            std::cout << label << std::string(width + 3 - label.size(), ' ') << text << '\n';
+        }
+    }
+    std::cout.flush();
+    if (!std::cout) {
+        throw std::runtime_error("standard output cannot be written");
+    }
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,38 @@
+// What a verb prints: one JSON object, or a short table. Both are made from the data sets that go into the file.
+#pragma once
+
+#include "arguments.hpp"
+
+#include <coagula/common/cell.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coagula::tools {
+
+using Json = nlohmann::ordered_json;
+using Results = std::vector<io::Dataset>;
+
+/// The values of one data set: a number, a text, or (nested) arrays; what is not a finite number becomes null.
+Json to_json(const io::Dataset& dataset);
+
+/// Data sets below `group` as nested objects: "/characterization/doh/a" is {"doh": {"a": ...}}.
+Json to_json(const Results& results, const std::string& group);
+
+/// A physical value for people: five digits, SI prefix for metres, pascals and newtons, "1.4123 MPa".
+std::string with_unit(double value, const std::string& unit);
+
+/// "10.9 x 10.9 x 10.9 um, periodic".
+std::string describe(const Cell& cell);
+
+/// Label and text of each line.
+using Table = std::vector<std::pair<std::string, std::string>>;
+
+/// Prints the JSON object (--json), nothing (--quiet) or the table. Throws std::runtime_error when standard output takes no more.
+void report(const Arguments& arguments, const Json& json, const Table& table);
+
+}  // namespace coagula::tools

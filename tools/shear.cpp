@@ -1,0 +1,87 @@
+// coagula shear: elastic response of the bonded packing.
+#include "output_file.hpp"
+#include "progress_bar.hpp"
+#include "provenance.hpp"
+#include "report.hpp"
+#include "shear_results.hpp"
+#include "verbs.hpp"
+
+#include <coagula/common/contact_network.hpp>
+#include <coagula/io/structure_file.hpp>
+
+namespace coagula::tools {
+
+namespace {
+
+mechanics::LinearSolver chosen_solver(const std::string& name) {
+    if (name == "direct") {
+        return mechanics::LinearSolver::direct;
+    }
+    return name == "iterative" ? mechanics::LinearSolver::iterative : mechanics::LinearSolver::automatic;
+}
+
+mechanics::LinearOptions linear_options(const Arguments& arguments) {
+    mechanics::LinearOptions options;
+    options.normal_stiffness = arguments.quantity("normal-stiffness");
+    options.shear_stiffness = arguments.quantity("shear-stiffness");
+    options.solver = chosen_solver(arguments.text("solver"));
+    options.memory_limit = arguments.quantity("memory-limit");
+    options.tolerance = arguments.quantity("tolerance");
+    return options;
+}
+
+void check_method(const std::string& method) {
+    if (method != "linear") {
+        throw InputError("--method " + method + " is not available in this version; use --method linear");
+    }
+}
+
+void run(const Arguments& arguments) {
+    const Stopwatch clock;
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    check_method(arguments.text("method"));
+    const mechanics::LinearOptions options = linear_options(arguments);
+    const double tolerance = arguments.quantity("bond-tolerance");
+    const Packing packing = io::read_structure(arguments.input()).packing;
+    const std::string target = checked_target(arguments);
+
+    const ContactNetwork bonds = find_contacts(packing, tolerance);
+    const mechanics::LinearResponse response = mechanics::solve_linear(packing, bonds, options, progress);
+    const Results results = datasets_of(response, tolerance, options);
+    progress.update("writing", 1.0);
+    io::add_results(arguments.input(), target, {"/mechanics/linear"}, bonds, fields_of(response), results,
+                    describe_call(arguments, &packing, clock), arguments.flag("force"));
+
+    Json json = to_json(results, "/mechanics/linear");
+    if (response.floppy_modes < 0) {
+        json["floppy_modes"] = nullptr;
+    }
+    json["output"] = target;
+    json["seconds"] = clock.seconds();
+    Table table = table_of(response);
+    table.emplace_back("written to", target);
+    report(arguments, json, table);
+}
+
+}  // namespace
+
+Verb shear_verb() {
+    return {
+        .name = "shear",
+        .summary = "shear modulus and elastic tensor of the bonded packing",
+        .input = "FILE.h5",
+        .options = {choice("method", {"linear", "quasistatic", "dem"}, "how the response is computed", "linear"),
+                    quantity("normal-stiffness", "N/m", "normal stiffness of a particle, two in series make a contact", "100N/m",
+                             above(0)),
+                    quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", at_least(0)),
+                    quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
+                    choice("solver", {"auto", "direct", "iterative"}, "of the linear equations", "auto"),
+                    quantity("memory-limit", "byte", "memory of the direct solver; beyond it 'auto' iterates", "4GB", above(0)),
+                    quantity("tolerance", "1", "relative residual to which every strain is solved", "1e-10", within(1e-14, 1e-2)),
+                    output("write to a new file; results are added to the input file when not given"),
+                    flag("force", "replace an existing output file")},
+        .run = run,
+        .notes = {"The methods quasistatic and dem are not available in this version."}};
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,20 @@
+// What `coagula shear --method linear` finds as data sets, particle fields and a table.
+#pragma once
+
+#include "report.hpp"
+
+#include <coagula/mechanics/linear.hpp>
+
+#include <vector>
+
+namespace coagula::tools {
+
+/// All scalars and tensors below /mechanics/linear.
+Results datasets_of(const mechanics::LinearResponse& response, double bond_tolerance, const mechanics::LinearOptions& options);
+
+/// Displacements and rotations of the three shears.
+std::vector<io::ParticleField> fields_of(const mechanics::LinearResponse& response);
+
+Table table_of(const mechanics::LinearResponse& response);
+
+}  // namespace coagula::tools

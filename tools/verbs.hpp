@@ -1,0 +1,15 @@
+// The verbs of the program, one file each.
+#pragma once
+
+#include "arguments.hpp"
+
+namespace coagula::tools {
+
+Verb generate_vem_verb();
+Verb characterize_verb();
+Verb shear_verb();
+Verb info_verb();
+Verb import_verb();
+Verb export_verb();
+
+}  // namespace coagula::tools
