@@ -1,0 +1,146 @@
+#include "ball_orthoscheme.hpp"
+#include "coverage.hpp"
+
+#include <vector>
+
+namespace coagula::characterize {
+
+namespace {
+
+double sign(double x) {
+    return x > 0 ? 1.0 : (x < 0 ? -1.0 : 0.0);
+}
+
+/// Sums of volume_inside_ball over many orthoschemes at all radii of a grid. All cases of that function but one are polynomials in
+/// rho: their coefficients are kept as differences that set in at a radius. Only d1 < rho < d2 is evaluated radius by radius.
+class RadialSums {
+public:
+    explicit RadialSums(const RadialGrid& grid) : grid_(grid), coefficients_(3, grid.count + 1), arcs_(grid.count) {
+        coefficients_.setZero();
+        arcs_.setZero();
+    }
+
+    /// Adds the orthoschemes of the counted sites around one edge. The two sites of a side see mirror images.
+    void add(const EdgeGeometry& edge, const std::array<int, 3>& counted) {
+        std::array<double, 3> weight;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const EdgeSide& side = edge.sides[k];
+            const int sites = counted[static_cast<std::size_t>(side.first)] + counted[static_cast<std::size_t>(side.second)];
+            weight[k] = sites * sign(side.foot_distance);
+            if (weight[k] != 0) {
+                add_polynomials(side.first_distance, std::abs(side.foot_distance), edge.height[0], weight[k]);
+                add_polynomials(side.first_distance, std::abs(side.foot_distance), edge.height[1], weight[k]);
+            }
+        }
+        add_arcs(edge, weight);
+    }
+
+    void add(const RadialSums& other) {
+        coefficients_ += other.coefficients_;
+        arcs_ += other.arcs_;
+        cells_ += other.cells_;
+    }
+
+    double cells() const { return cells_; }
+
+    Eigen::VectorXd covered() const {
+        Eigen::VectorXd volume(grid_.count);
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (Index k = 0; k < grid_.count; ++k) {
+            sum += coefficients_.col(k);
+            const double rho = grid_[k];
+            volume[k] = sum[0] + rho * rho * (sum[1] + rho * sum[2]) + arcs_[k];
+        }
+        return volume;
+    }
+
+private:
+    void add_polynomials(double a, double b, double height, double weight) {
+        const double c = std::abs(height);
+        weight *= sign(height);
+        if (weight == 0) {
+            return;
+        }
+        const double d2 = std::sqrt(a * a + b * b + c * c);
+        const double phi = std::atan2(c, b);
+        const double psi = std::atan2(a * c, b * d2);
+        const Eigen::Vector3d within_cone(0, 0, (phi - psi) / 3);
+        const Eigen::Vector3d cut_by_plane(-phi * a * a * a / 6, phi * a / 2, -psi / 3);
+        const Eigen::Vector3d whole(a * b * c / 6, 0, 0);
+        coefficients_.col(0) += weight * within_cone;
+        coefficients_.col(grid_.first_above(a)) += weight * (cut_by_plane - within_cone);
+        coefficients_.col(grid_.first_above(d2)) += weight * (whole - cut_by_plane);
+        cells_ += weight * whole[0];
+    }
+
+    /// The arc terms do not depend on the heights, and d1 is the same for the three sides: ends on opposite sides of the plane of
+    /// the sites cancel up to the smaller d2.
+    void add_arcs(const EdgeGeometry& edge, const std::array<double, 3>& weight) {
+        const double first_distance = edge.sides[0].first_distance;
+        const double squared_d1 = first_distance * first_distance + edge.sides[0].foot_distance * edge.sides[0].foot_distance;
+        const double d1 = std::sqrt(squared_d1);
+        std::array<Index, 2> last;
+        for (std::size_t which = 0; which < 2; ++which) {
+            last[which] = grid_.first_above(std::sqrt(squared_d1 + edge.height[which] * edge.height[which]));
+        }
+        const std::array<double, 2> signs = {sign(edge.height[0]), sign(edge.height[1])};
+        const bool cancel = signs[0] + signs[1] == 0;
+        const Index begin = cancel ? std::min(last[0], last[1]) : grid_.first_above(d1);
+        for (Index k = begin; k < std::max(last[0], last[1]); ++k) {
+            const double times = (k < last[0] ? signs[0] : 0.0) + (k < last[1] ? signs[1] : 0.0);
+            arcs_[k] += times * sum_arc_terms(edge, weight, grid_[k], d1);
+        }
+    }
+
+    static double sum_arc_terms(const EdgeGeometry& edge, const std::array<double, 3>& weight, double rho, double d1) {
+        const double half_chord = std::sqrt(std::max(0.0, (rho - d1) * (rho + d1)));
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (weight[k] != 0) {
+                const EdgeSide& side = edge.sides[k];
+                sum += weight[k] * arc_term(side.first_distance, std::abs(side.foot_distance), rho, half_chord);
+            }
+        }
+        return sum;
+    }
+
+    RadialGrid grid_;
+    Eigen::Matrix3Xd coefficients_;  ///< of 1, rho^2, rho^3: changes at each radius
+    Eigen::VectorXd arcs_;
+    double cells_ = 0;  ///< volume of the whole orthoschemes
+};
+
+void add_edges(const PowerDiagram& diagram, std::size_t begin, std::size_t end, RadialSums& sums) {
+    for (std::size_t k = begin; k < end; ++k) {
+        const DiagramEdge& edge = diagram.edges[k];
+        std::array<int, 3> counted;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            counted[corner] = diagram.counted[static_cast<std::size_t>(edge.around[corner])];
+        }
+        sums.add(measure_edge(diagram, edge), counted);
+    }
+}
+
+}  // namespace
+
+Coverage cover_equal_spheres(const PowerDiagram& diagram, const RadialGrid& ball_radii, const Progress& progress) {
+    // Fixed chunks, summed in order: the result does not depend on the number of threads, and rounding errors stay small.
+    constexpr std::size_t chunks = 256;
+    constexpr std::size_t chunks_per_report = 32;
+    const std::size_t edges = diagram.edges.size();
+    std::vector<RadialSums> partial(chunks, RadialSums(ball_radii));
+    for (std::size_t first = 0; first < chunks; first += chunks_per_report) {
+#pragma omp parallel for schedule(dynamic)
+        for (std::size_t chunk = first; chunk < first + chunks_per_report; ++chunk) {
+            add_edges(diagram, edges * chunk / chunks, edges * (chunk + 1) / chunks, partial[chunk]);
+        }
+        progress.update("pore sizes", 0.3 + 0.7 * static_cast<double>(first + chunks_per_report) / chunks);
+    }
+    RadialSums total(ball_radii);
+    for (const RadialSums& part : partial) {
+        total.add(part);
+    }
+    return {total.covered(), Eigen::VectorXd::Constant(ball_radii.count, total.cells())};
+}
+
+}  // namespace coagula::characterize

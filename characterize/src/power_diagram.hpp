@@ -1,0 +1,69 @@
+// The power diagram of spheres (the Voronoi diagram, if the radii are equal) as a list of its edges, from CGAL's triangulations.
+// Internal; lengths are in any one unit.
+#pragma once
+
+#include <coagula/common/packing.hpp>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace coagula::characterize {
+
+/// An edge of the diagram. It is dual to a triangle of sites; its ends are dual to the two tetrahedra on that triangle.
+struct DiagramEdge {
+    std::array<int, 3> around;  ///< the sites whose cells share the edge
+    std::array<int, 2> apex;    ///< fourth site of the tetrahedra, on the side of the normal (1-0) x (2-0) and on the other
+};
+
+struct PowerDiagram {
+    Eigen::Matrix3Xd positions;            ///< of the sites: the particles in their order, then periodic images
+    Eigen::VectorXd radii;                 ///< of the sites; power of a point = squared distance to the site - radius^2
+    std::vector<char> counted;             ///< 1 for the sites whose cells are to be measured
+    std::vector<DiagramEdge> edges;        ///< bounded edges with a counted site among the three around
+    std::vector<std::array<int, 3>> hull;  ///< triangles of the convex hull, normals outward
+    double margin = 0;                     ///< width of the layer of periodic images
+};
+
+/// The triangle between two sites around an edge and the foot of the edge, seen from either site.
+struct EdgeSide {
+    int first, second;           ///< positions in DiagramEdge::around
+    double first_distance = 0;   ///< a: from the first site to the plane between the two (signed)
+    double second_distance = 0;  ///< a: from the second site to it
+    double foot_distance = 0;    ///< b: from the line of the sites to the line of the edge (signed)
+};
+
+/// Right tetrahedra around one edge: six sites' views times two ends.
+struct EdgeGeometry {
+    std::array<EdgeSide, 3> sides;
+    std::array<double, 2> height;        ///< c: from the plane of the three sites to the ends of the edge (signed); 0 if flat
+    std::array<Eigen::Vector3d, 2> end;  ///< the ends (vertices of the diagram)
+    std::array<double, 2>
+        relative_volume;    ///< 6 x volume of the tetrahedra / longest edge^3; 0 if so flat that its end is undefined
+    double foot_power = 0;  ///< power of the point of the edge's line in the plane of the three sites
+
+    /// A flat tetrahedron adds no volume, wherever its end is taken to be.
+    bool is_flat(std::size_t which) const { return relative_volume[which] == 0; }
+    /// Power of an end with respect to its four sites.
+    double end_power(std::size_t which) const { return foot_power + height[which] * height[which]; }
+};
+EdgeGeometry measure_edge(const PowerDiagram& diagram, const DiagramEdge& edge);
+
+/// Largest power of the vertices of the counted cells: in monodisperse packings, (distance to the nearest sites)^2 - radius^2.
+double largest_vertex_power(const PowerDiagram& diagram);
+
+/// Diagram of the particles in a periodic box; all of them are counted. Images are added in a layer around the box, and the layer
+/// is widened until no particle image beyond it could change a cell.
+/// @param radii of the particles, in place of those in the packing.
+/// @param margin first guess of the width of the layer; <= 0 for a default.
+PowerDiagram periodic_diagram(const Packing& packing, const Eigen::VectorXd& radii, double margin = 0);
+
+/// Diagram of the particles alone.
+PowerDiagram open_diagram(const Packing& packing, const Eigen::VectorXd& radii, std::vector<char> counted);
+
+/// 1 for the sites of an open diagram whose cells no sphere outside the convex hull of the sites could change, if it is no larger
+/// than the largest of the sites. The diagram must count all sites.
+std::vector<char> inner_sites(const PowerDiagram& diagram);
+
+}  // namespace coagula::characterize
