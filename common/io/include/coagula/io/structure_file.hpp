@@ -61,6 +61,10 @@ struct Structure {
     std::optional<ContactNetwork> bonds;
 };
 
+/// Throws InputError when `path` cannot become an output: it exists (without `overwrite`), is no regular file, or its folder is
+/// missing. The writers below ask it too; asking before long work saves the wait.
+void check_output(const std::string& path, bool overwrite);
+
 /// Writes a new file: to a temporary name beside it, then renamed. Throws InputError when `path` exists and `overwrite` is false,
 /// std::runtime_error (naming the file) when it cannot be written, e.g. on a full disk; nothing is left behind then.
 void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,

@@ -1,0 +1,256 @@
+#include "hdf5_file.hpp"
+
+#include <coagula/common/checks.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <numeric>
+
+namespace coagula::io::hdf5 {
+
+namespace {
+
+constexpr std::size_t largest_array = std::size_t{1} << 34;  // values; more is taken for a damaged header
+
+Handle file_access() {
+    Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_file_locking(properties.get(), true, true);  // not every file system can lock
+    return properties;
+}
+
+herr_t append_name(hid_t /*group*/, const char* name, const H5L_info_t* /*info*/, void* names) {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+}
+
+std::string why_not_opened(const std::string& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) {
+        return "does not exist";
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        return "is not a regular file";
+    }
+    const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
+    if (is_hdf5 == 0) {
+        return "is not an HDF5 file";
+    }
+    return is_hdf5 > 0 ? "is truncated or damaged" : "cannot be read";
+}
+
+Shape extent_of(const Handle& space) {
+    const int rank = H5Sget_simple_extent_ndims(space.get());
+    std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
+    H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+    return {extent.begin(), extent.end()};
+}
+
+/// Texts of a dataset or attribute of strings, of fixed or variable length. `read(type, buffer)` fills the buffer.
+template <class Read>
+std::vector<std::string> read_texts(const Handle& type, const Handle& space, Read&& read) {
+    const std::size_t number = File::count(extent_of(space));
+    std::vector<std::string> texts;
+    if (H5Tget_class(type.get()) != H5T_STRING) {
+        return texts;
+    }
+    if (H5Tis_variable_str(type.get()) > 0) {
+        std::vector<char*> pointers(number, nullptr);
+        if (read(type.get(), pointers.data()) < 0) {
+            return texts;
+        }
+        for (const char* pointer : pointers) {
+            texts.emplace_back(pointer == nullptr ? "" : pointer);
+        }
+        H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, pointers.data());
+        return texts;
+    }
+    const std::size_t length = H5Tget_size(type.get());
+    std::vector<char> characters(number * length);
+    if (read(type.get(), characters.data()) < 0) {
+        return texts;
+    }
+    for (std::size_t i = 0; i < number; ++i) {
+        const std::string padded(characters.data() + i * length, length);
+        const std::string text = padded.substr(0, padded.find('\0'));
+        texts.push_back(text.substr(0, text.find_last_not_of(' ') + 1));
+    }
+    return texts;
+}
+
+}  // namespace
+
+File File::open(const std::string& path) {
+    const SilentErrors silent;
+    Handle id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access().get()), H5Fclose);
+    if (!id) {
+        throw InputError(path + " " + why_not_opened(path));
+    }
+    return {path, std::move(id)};
+}
+
+void File::fail(const std::string& object, const std::string& rule) const {
+    throw InputError(path_ + ": " + object + " " + rule);
+}
+
+std::size_t File::count(const Shape& shape) {
+    return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+bool File::has(const std::string& object) const {
+    for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
+        const std::string part = object.substr(0, end);
+        if (part != "/" && !part.empty() && H5Lexists(id_.get(), part.c_str(), H5P_DEFAULT) <= 0) {
+            return false;
+        }
+        if (end == std::string::npos) {
+            return true;
+        }
+    }
+}
+
+Handle File::open_object(const std::string& object) const {
+    return {has(object) ? H5Oopen(id_.get(), object.c_str(), H5P_DEFAULT) : H5I_INVALID_HID, H5Oclose};
+}
+
+bool File::is_group(const std::string& object) const {
+    const Handle opened = open_object(object);
+    return opened && H5Iget_type(opened.get()) == H5I_GROUP;
+}
+
+bool File::is_dataset(const std::string& object) const {
+    const Handle opened = open_object(object);
+    return opened && H5Iget_type(opened.get()) == H5I_DATASET;
+}
+
+std::vector<std::string> File::children(const std::string& group) const {
+    std::vector<std::string> names;
+    const Handle opened = open_object(group);
+    if (opened && H5Literate(opened.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, append_name, &names) < 0) {
+        fail(group, "cannot be listed: the file is damaged");
+    }
+    return names;
+}
+
+std::vector<std::string> File::datasets_below(const std::string& object) const {
+    if (is_dataset(object)) {
+        return {object};
+    }
+    std::vector<std::string> names;
+    const Handle opened = open_object(object);
+    if (opened && H5Lvisit(opened.get(), H5_INDEX_NAME, H5_ITER_INC, append_name, &names) < 0) {
+        fail(object, "cannot be listed: the file is damaged");
+    }
+    std::vector<std::string> datasets;
+    for (const std::string& name : names) {
+        const std::string full = object + (object.ends_with('/') ? "" : "/") + name;
+        if (is_dataset(full)) {
+            datasets.push_back(full);
+        }
+    }
+    std::sort(datasets.begin(), datasets.end());
+    return datasets;
+}
+
+Handle File::open_dataset(const std::string& dataset) const {
+    if (!has(dataset)) {
+        fail(dataset, "is missing");
+    }
+    Handle opened = open_object(dataset);
+    if (!opened || H5Iget_type(opened.get()) != H5I_DATASET) {
+        fail(dataset, "is not a dataset");
+    }
+    return opened;
+}
+
+Content File::content(const std::string& dataset) const {
+    const Handle opened = open_dataset(dataset);
+    const Handle type(H5Dget_type(opened.get()), H5Tclose);
+    switch (H5Tget_class(type.get())) {
+        case H5T_FLOAT:
+            return Content::real;
+        case H5T_INTEGER:
+            return Content::integer;
+        case H5T_STRING:
+            return Content::text;
+        default:
+            return Content::other;
+    }
+}
+
+Shape File::shape(const std::string& dataset) const {
+    const Handle opened = open_dataset(dataset);
+    const Handle space(H5Dget_space(opened.get()), H5Sclose);
+    if (H5Sget_simple_extent_type(space.get()) == H5S_NULL) {
+        fail(dataset, "is empty");
+    }
+    Shape shape = extent_of(space);
+    std::size_t room = largest_array;
+    for (const std::size_t length : shape) {
+        if (length > room) {
+            fail(dataset, "has an impossible size: the file is damaged");
+        }
+        room /= std::max<std::size_t>(length, 1);
+    }
+    return shape;
+}
+
+Handle File::slice_of(const std::string& dataset, std::size_t frame) const {
+    const Handle opened = open_dataset(dataset);
+    Handle space(H5Dget_space(opened.get()), H5Sclose);
+    const Shape shape = extent_of(space);
+    std::vector<hsize_t> start(shape.size(), 0);
+    std::vector<hsize_t> extent(shape.begin(), shape.end());
+    start[0] = frame;
+    extent[0] = 1;
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
+    return space;
+}
+
+void File::read_numbers(const std::string& dataset, hid_t memory_type, void* values, const Handle& slice) const {
+    const Handle opened = open_dataset(dataset);
+    const Content found = content(dataset);
+    if (found != Content::real && found != Content::integer) {
+        fail(dataset, "does not hold numbers");
+    }
+    Handle memory;
+    if (slice) {
+        const auto selected = static_cast<hsize_t>(H5Sget_select_npoints(slice.get()));
+        memory = Handle(H5Screate_simple(1, &selected, nullptr), H5Sclose);
+    }
+    if (H5Dread(opened.get(), memory_type, slice ? memory.get() : H5S_ALL, slice ? slice.get() : H5S_ALL, H5P_DEFAULT, values) <
+        0) {
+        fail(dataset, "cannot be read: the file is damaged");
+    }
+}
+
+std::string File::read_text(const std::string& dataset) const {
+    const Handle opened = open_dataset(dataset);
+    const Handle type(H5Dget_type(opened.get()), H5Tclose);
+    const Handle space(H5Dget_space(opened.get()), H5Sclose);
+    const auto texts = read_texts(type, space, [&](hid_t memory, void* buffer) {
+        return H5Dread(opened.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
+    });
+    if (texts.size() != 1) {
+        fail(dataset, "is not a text");
+    }
+    return texts[0];
+}
+
+std::vector<std::string> File::texts_attribute(const std::string& object, const std::string& name) const {
+    const Handle opened = open_object(object);
+    if (!opened || H5Aexists(opened.get(), name.c_str()) <= 0) {
+        return {};
+    }
+    const Handle attribute(H5Aopen(opened.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+    const Handle space(H5Aget_space(attribute.get()), H5Sclose);
+    return read_texts(type, space, [&](hid_t memory, void* buffer) { return H5Aread(attribute.get(), memory, buffer); });
+}
+
+std::string File::attribute(const std::string& object, const std::string& name) const {
+    const auto texts = texts_attribute(object, name);
+    return texts.size() == 1 ? texts[0] : "";
+}
+
+}  // namespace coagula::io::hdf5

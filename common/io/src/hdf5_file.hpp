@@ -1,0 +1,171 @@
+// A thin layer over the HDF5 C API: handles that close themselves, typed arrays, attributes, sentences instead of error stacks.
+#pragma once
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coagula::io::hdf5 {
+
+using Shape = std::vector<std::size_t>;
+
+/// An HDF5 identifier that is closed at the end of its life.
+class Handle {
+public:
+    using Close = herr_t (*)(hid_t);
+    Handle() = default;
+    Handle(hid_t id, Close close) : id_(id), close_(close) {}
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        std::swap(close_, other.close_);
+        return *this;
+    }
+    ~Handle() {
+        if (id_ >= 0) {
+            close_(id_);
+        }
+    }
+    hid_t get() const { return id_; }
+    explicit operator bool() const { return id_ >= 0; }
+
+private:
+    hid_t id_ = H5I_INVALID_HID;
+    Close close_ = nullptr;
+};
+
+/// Keeps HDF5 from printing its error stack while it lives.
+class SilentErrors {
+public:
+    SilentErrors() {
+        H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    ~SilentErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+    SilentErrors(const SilentErrors&) = delete;
+    SilentErrors& operator=(const SilentErrors&) = delete;
+
+private:
+    H5E_auto2_t print_ = nullptr;
+    void* data_ = nullptr;
+};
+
+/// The type of a number in memory and (little endian) in the file.
+template <class T>
+struct NumberType;
+template <>
+struct NumberType<double> {
+    static hid_t memory() { return H5T_NATIVE_DOUBLE; }
+    static hid_t file() { return H5T_IEEE_F64LE; }
+};
+template <>
+struct NumberType<float> {
+    static hid_t memory() { return H5T_NATIVE_FLOAT; }
+    static hid_t file() { return H5T_IEEE_F32LE; }
+};
+template <>
+struct NumberType<std::int64_t> {
+    static hid_t memory() { return H5T_NATIVE_INT64; }
+    static hid_t file() { return H5T_STD_I64LE; }
+};
+template <>
+struct NumberType<std::int32_t> {
+    static hid_t memory() { return H5T_NATIVE_INT32; }
+    static hid_t file() { return H5T_STD_I32LE; }
+};
+template <>
+struct NumberType<std::uint8_t> {
+    static hid_t memory() { return H5T_NATIVE_UINT8; }
+    static hid_t file() { return H5T_STD_U8LE; }
+};
+
+/// What a dataset holds, as far as coagula reads it.
+enum class Content { real, integer, text, other };
+
+/// An open file. What cannot be read throws InputError ("FILE: OBJECT rule"); a new file is built in memory, so that neither a full
+/// disk nor an interruption can leave a part of it behind, and reaches the disk by save().
+class File {
+public:
+    static File open(const std::string& path);
+    static File create(const std::string& path);
+
+    /// Writes a created file to its path by temporary file and rename.
+    void save(bool overwrite) const;
+
+    [[noreturn]] void fail(const std::string& object, const std::string& rule) const;
+
+    const std::string& path() const { return path_; }
+    bool has(const std::string& object) const;
+    bool is_group(const std::string& object) const;
+    bool is_dataset(const std::string& object) const;
+    /// Names of the links of a group, sorted.
+    std::vector<std::string> children(const std::string& group) const;
+    /// Paths of all datasets at or below an object, sorted.
+    std::vector<std::string> datasets_below(const std::string& object) const;
+
+    Content content(const std::string& dataset) const;
+    Shape shape(const std::string& dataset) const;
+    template <class T>
+    std::vector<T> read(const std::string& dataset) const {
+        std::vector<T> values(count(shape(dataset)));
+        read_numbers(dataset, NumberType<T>::memory(), values.data(), Handle());
+        return values;
+    }
+    /// The last slice along the first axis.
+    template <class T>
+    std::vector<T> read_last(const std::string& dataset) const {
+        Shape slice = shape(dataset);
+        const std::size_t frames = slice.at(0);
+        slice[0] = 1;
+        std::vector<T> values(count(slice));
+        read_numbers(dataset, NumberType<T>::memory(), values.data(), slice_of(dataset, frames - 1));
+        return values;
+    }
+    std::string read_text(const std::string& dataset) const;
+    /// The text of an attribute; empty when there is none (or none that is text).
+    std::string attribute(const std::string& object, const std::string& name) const;
+    std::vector<std::string> texts_attribute(const std::string& object, const std::string& name) const;
+
+    void create_group(const std::string& group);
+    /// Writes numbers, replacing what was there; groups on the way are made. Arrays over 1 kB are chunked, shuffled and deflated.
+    template <class T>
+    void write(const std::string& dataset, const Shape& shape, const T* values) {
+        write_numbers(dataset, shape, NumberType<T>::file(), NumberType<T>::memory(), values);
+    }
+    void write_text(const std::string& dataset, const std::string& text);
+    void describe(const std::string& object, const std::string& unit, const std::string& description);
+    void set_attribute(const std::string& object, const std::string& name, const std::string& text);
+    /// The same with a text of fixed length, which is what the VTK reader wants.
+    void set_fixed_attribute(const std::string& object, const std::string& name, const std::string& text);
+    void set_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts);
+    /// Small vectors; one value without brackets is a scalar.
+    void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
+    void set_attribute(const std::string& object, const std::string& name, const std::vector<std::int64_t>& values);
+    void set_reference(const std::string& object, const std::string& name, const std::string& referred);
+    void link(const std::string& existing, const std::string& name);
+    void remove(const std::string& object);
+    /// Everything in `source`: groups, links, references and attributes of the root.
+    void copy_all_from(const File& source);
+
+    static std::size_t count(const Shape& shape);
+
+private:
+    File(std::string path, Handle id) : path_(std::move(path)), id_(std::move(id)) {}
+    Handle open_object(const std::string& object) const;
+    Handle open_dataset(const std::string& dataset) const;
+    Handle slice_of(const std::string& dataset, std::size_t frame) const;
+    void read_numbers(const std::string& dataset, hid_t memory_type, void* values, const Handle& slice) const;
+    void write_numbers(const std::string& dataset, const Shape& shape, hid_t file_type, hid_t memory_type, const void* values);
+    void write_attribute(const std::string& object, const std::string& name, hid_t type, const Handle& space, const void* values);
+
+    SilentErrors silent_;
+    std::string path_;
+    Handle id_;
+};
+
+}  // namespace coagula::io::hdf5

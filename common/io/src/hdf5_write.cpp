@@ -1,0 +1,221 @@
+// The half of hdf5::File that writes.
+#include <iterator>
+#include <stdexcept>
+
+#include "atomic_file.hpp"
+#include "hdf5_file.hpp"
+
+namespace coagula::io::hdf5 {
+
+namespace {
+
+Handle file_access_in_memory() {
+    constexpr std::size_t growth = std::size_t{1} << 24;
+    Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fapl_core(properties.get(), growth, false);
+    return properties;
+}
+
+/// A new text type; H5T_VARIABLE or a length in bytes.
+Handle text_type(std::size_t length) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type.get(), length);
+    if (length == H5T_VARIABLE) {
+        H5Tset_cset(type.get(), H5T_CSET_UTF8);
+    }
+    return type;
+}
+
+Handle scalar_space() {
+    return {H5Screate(H5S_SCALAR), H5Sclose};
+}
+
+Handle array_space(const Shape& shape) {
+    if (shape.empty()) {
+        return scalar_space();
+    }
+    const std::vector<hsize_t> extent(shape.begin(), shape.end());
+    return {H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose};
+}
+
+/// No time stamps, so that equal values give equal bytes; arrays over 1 kB in compressed chunks of at most 1 MB or so.
+Handle creation_properties(const Shape& shape, std::size_t value_size) {
+    constexpr std::size_t smallest_compressed = 1024;
+    constexpr std::size_t largest_chunk = std::size_t{1} << 20;
+    Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(properties.get(), false);
+    const std::size_t bytes = File::count(shape) * value_size;
+    if (shape.empty() || bytes <= smallest_compressed) {
+        return properties;
+    }
+    std::vector<hsize_t> chunk(shape.begin(), shape.end());
+    for (std::size_t axis = 0, size = bytes; axis < chunk.size() && size > largest_chunk; ++axis) {
+        const std::size_t slice = size / chunk[axis];
+        chunk[axis] = std::max<std::size_t>(1, largest_chunk / slice);
+        size = slice * chunk[axis];
+    }
+    H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+    H5Pset_shuffle(properties.get());
+    H5Pset_deflate(properties.get(), 4);
+    return properties;
+}
+
+Handle link_creation() {
+    Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_create_intermediate_group(properties.get(), 1);
+    return properties;
+}
+
+Handle group_creation() {
+    Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+    H5Pset_obj_track_times(properties.get(), false);
+    return properties;
+}
+
+/// Copies what is attached to one object to another one of the same file.
+void copy_attributes(const Handle& from, const Handle& to) {
+    const int number = std::max(H5Aget_num_attrs(from.get()), 0);
+    for (int i = 0; i < number; ++i) {
+        const Handle source(
+            H5Aopen_by_idx(from.get(), ".", H5_INDEX_NAME, H5_ITER_INC, static_cast<hsize_t>(i), H5P_DEFAULT, H5P_DEFAULT),
+            H5Aclose);
+        const Handle type(H5Aget_type(source.get()), H5Tclose);
+        const Handle space(H5Aget_space(source.get()), H5Sclose);
+        std::vector<char> name(static_cast<std::size_t>(H5Aget_name(source.get(), 0, nullptr)) + 1);
+        H5Aget_name(source.get(), name.size(), name.data());
+        std::vector<char> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)) *
+                                 H5Tget_size(type.get()));
+        const Handle copy(H5Acreate2(to.get(), name.data(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        if (copy && !values.empty() && H5Aread(source.get(), type.get(), values.data()) >= 0) {
+            H5Awrite(copy.get(), type.get(), values.data());
+            H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, values.data());
+        }
+    }
+}
+
+void require_written(bool done, const std::string& path, const std::string& object) {
+    if (!done) {
+        throw std::runtime_error("cannot write " + path + ": HDF5 refuses " + object);
+    }
+}
+
+}  // namespace
+
+File File::create(const std::string& path) {
+    const SilentErrors silent;
+    const Handle access = file_access_in_memory();
+    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_obj_track_times(creation.get(), false);
+    Handle id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
+    require_written(static_cast<bool>(id), path, "a new file");
+    return {path, std::move(id)};
+}
+
+void File::save(bool overwrite) const {
+    require_written(H5Fflush(id_.get(), H5F_SCOPE_LOCAL) >= 0, path_, "to flush");
+    const ssize_t size = H5Fget_file_image(id_.get(), nullptr, 0);
+    std::vector<char> image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    require_written(size > 0 && H5Fget_file_image(id_.get(), image.data(), image.size()) == size, path_, "the file image");
+    write_file(path_, image, overwrite);
+}
+
+void File::create_group(const std::string& group) {
+    if (!has(group)) {
+        const Handle created(H5Gcreate2(id_.get(), group.c_str(), link_creation().get(), group_creation().get(), H5P_DEFAULT),
+                             H5Gclose);
+        require_written(static_cast<bool>(created), path_, group);
+    }
+}
+
+void File::write_numbers(const std::string& dataset, const Shape& shape, hid_t file_type, hid_t memory_type, const void* values) {
+    remove(dataset);
+    const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), file_type, array_space(shape).get(), link_creation().get(),
+                                    creation_properties(shape, H5Tget_size(file_type)).get(), H5P_DEFAULT),
+                         H5Dclose);
+    require_written(
+        created && (count(shape) == 0 || H5Dwrite(created.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0), path_,
+        dataset);
+}
+
+void File::write_text(const std::string& dataset, const std::string& text) {
+    remove(dataset);
+    const Handle type = text_type(H5T_VARIABLE);
+    const char* pointer = text.c_str();
+    const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), type.get(), scalar_space().get(), link_creation().get(),
+                                    creation_properties({}, 1).get(), H5P_DEFAULT),
+                         H5Dclose);
+    require_written(
+        created && H5Dwrite(created.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<const void*>(&pointer)) >= 0,
+        path_, dataset);
+}
+
+void File::write_attribute(const std::string& object, const std::string& name, hid_t type, const Handle& space,
+                           const void* values) {
+    const Handle opened = open_object(object);
+    if (H5Aexists(opened.get(), name.c_str()) > 0) {
+        H5Adelete(opened.get(), name.c_str());
+    }
+    const Handle attribute(H5Acreate2(opened.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    require_written(attribute && H5Awrite(attribute.get(), type, values) >= 0, path_, object + " attribute " + name);
+}
+
+void File::describe(const std::string& object, const std::string& unit, const std::string& description) {
+    set_attribute(object, "unit", unit);
+    set_attribute(object, "description", description);
+}
+
+void File::set_attribute(const std::string& object, const std::string& name, const std::string& text) {
+    const char* pointer = text.c_str();
+    write_attribute(object, name, text_type(H5T_VARIABLE).get(), scalar_space(), static_cast<const void*>(&pointer));
+}
+
+void File::set_fixed_attribute(const std::string& object, const std::string& name, const std::string& text) {
+    write_attribute(object, name, text_type(text.size()).get(), scalar_space(), text.data());
+}
+
+void File::set_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts) {
+    std::vector<const char*> pointers;
+    std::transform(texts.begin(), texts.end(), std::back_inserter(pointers), [](const std::string& text) { return text.c_str(); });
+    write_attribute(object, name, text_type(H5T_VARIABLE).get(), array_space({texts.size()}), pointers.data());
+}
+
+void File::set_attribute(const std::string& object, const std::string& name, std::int64_t value) {
+    write_attribute(object, name, H5T_NATIVE_INT64, scalar_space(), &value);
+}
+
+void File::set_attribute(const std::string& object, const std::string& name, const std::vector<std::int64_t>& values) {
+    write_attribute(object, name, H5T_NATIVE_INT64, array_space({values.size()}), values.data());
+}
+
+void File::set_reference(const std::string& object, const std::string& name, const std::string& referred) {
+    hobj_ref_t reference{};
+    require_written(H5Rcreate(&reference, id_.get(), referred.c_str(), H5R_OBJECT, H5I_INVALID_HID) >= 0, path_, referred);
+    write_attribute(object, name, H5T_STD_REF_OBJ, scalar_space(), &reference);
+}
+
+void File::link(const std::string& existing, const std::string& name) {
+    require_written(H5Lcreate_hard(id_.get(), existing.c_str(), id_.get(), name.c_str(), link_creation().get(), H5P_DEFAULT) >= 0,
+                    path_, name);
+}
+
+void File::remove(const std::string& object) {
+    require_written(!has(object) || H5Ldelete(id_.get(), object.c_str(), H5P_DEFAULT) >= 0, path_, object);
+}
+
+void File::copy_all_from(const File& source) {
+    const std::string staging = "/.copy";
+    const Handle properties(H5Pcreate(H5P_OBJECT_COPY), H5Pclose);
+    H5Pset_copy_object(properties.get(), H5O_COPY_EXPAND_REFERENCE_FLAG);
+    if (H5Ocopy(source.id_.get(), "/", id_.get(), staging.c_str(), properties.get(), H5P_DEFAULT) < 0) {
+        source.fail("/", "cannot be copied: the file is damaged");
+    }
+    for (const std::string& name : children(staging)) {
+        const std::string from = staging + "/" + name;
+        require_written(H5Lmove(id_.get(), from.c_str(), id_.get(), ("/" + name).c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, path_,
+                        name);
+    }
+    copy_attributes(open_object(staging), open_object("/"));
+    remove(staging);
+}
+
+}  // namespace coagula::io::hdf5

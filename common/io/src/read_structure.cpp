@@ -1,0 +1,255 @@
+#include "read_structure.hpp"
+
+#include <coagula/io/units.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "layout.hpp"
+
+namespace coagula::io {
+
+namespace {
+
+using hdf5::File;
+using hdf5::Shape;
+
+std::string shape_text(const Shape& shape) {
+    std::string text;
+    for (const std::size_t length : shape) {
+        text.append("[").append(std::to_string(length)).append("]");
+    }
+    return shape.empty() ? "of a single number" : text;
+}
+
+void require_shape(const File& file, const std::string& object, const Shape& expected) {
+    const Shape found = file.shape(object);
+    if (found != expected) {
+        file.fail(object, "has the shape " + shape_text(found) + ", but " + shape_text(expected) + " is expected");
+    }
+}
+
+/// How many of the unit of a dataset are in a metre.
+double per_metre(const File& file, const std::string& object) {
+    const std::string unit = file.attribute(object, "unit");
+    if (unit.empty()) {
+        file.fail(object, "carries no unit");
+    }
+    try {
+        return unit_factor("m", unit == "A" ? "angstrom" : unit);  // H5MD files name the angstrom so; UDUNITS means the ampere
+    } catch (const std::exception&) {
+        file.fail(object, "has the unit '" + unit + "', which is not a length");
+    }
+}
+
+/// An H5MD element: `object`/value with one slice per frame where it depends on time, otherwise `object` itself.
+struct Element {
+    std::string data;
+    bool has_frames;
+};
+
+Element find_element(const File& file, const std::string& object) {
+    const bool has_frames = file.is_group(object);
+    return {has_frames ? object + "/value" : object, has_frames};
+}
+
+/// `step` and `time` hold one number per frame (or the increment).
+void require_frames(const File& file, const std::string& object, std::size_t frames) {
+    for (const char* name : {"/step", "/time"}) {
+        if (file.has(object + name) && !file.shape(object + name).empty()) {
+            require_shape(file, object + name, {frames});
+        }
+    }
+}
+
+/// The last frame of an element whose slice has the shape `slice`, in metres.
+std::vector<double> read_lengths(const File& file, const std::string& object, const Shape& slice) {
+    const Element element = find_element(file, object);
+    Shape expected = slice;
+    if (element.has_frames) {
+        const Shape found = file.shape(element.data);
+        if (found.empty() || found[0] == 0) {
+            file.fail(element.data, "has no frame");
+        }
+        expected.insert(expected.begin(), found[0]);
+        require_frames(file, object, found[0]);
+    }
+    require_shape(file, element.data, expected);
+    std::vector<double> values = element.has_frames ? file.read_last<double>(element.data) : file.read<double>(element.data);
+    const double divisor = per_metre(file, element.data);
+    for (double& value : values) {
+        value /= divisor;
+    }
+    return values;
+}
+
+std::size_t number_of_particles(const File& file, const std::string& position) {
+    const Element element = find_element(file, position);
+    const Shape shape = file.shape(element.data);
+    const std::size_t rank = element.has_frames ? 3 : 2;
+    if (shape.size() != rank || shape.back() != 3) {
+        file.fail(element.data, "has the shape " + shape_text(shape) + ", but [frames][particles][3] is expected");
+    }
+    if (shape[rank - 2] == 0) {
+        file.fail(element.data, "has no particles");
+    }
+    if (shape[rank - 2] > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+        file.fail(element.data, "has more than 2^31 - 1 particles");
+    }
+    return shape[rank - 2];
+}
+
+bool read_periodicity(const File& file, const std::string& box) {
+    const auto boundary = file.texts_attribute(box, "boundary");
+    if (boundary.size() != 3) {
+        file.fail(box, "must have an attribute 'boundary' of three texts");
+    }
+    for (const std::string& axis : boundary) {
+        if ((axis != "periodic" && axis != "none") || axis != boundary[0]) {
+            file.fail(
+                box, "has the boundary '" + axis + "': coagula reads boxes that are 'periodic' along all axes or 'none' along all");
+        }
+    }
+    return boundary[0] == "periodic";
+}
+
+/// Edge lengths from a vector or a diagonal matrix.
+Eigen::Vector3d read_edges(const File& file, const std::string& edges) {
+    const Element element = find_element(file, edges);
+    const std::size_t rank = file.shape(element.data).size() - (element.has_frames ? 1 : 0);
+    if (rank == 1) {
+        const auto lengths = read_lengths(file, edges, {3});
+        return Eigen::Vector3d::Map(lengths.data());
+    }
+    const auto values = read_lengths(file, edges, {3, 3});
+    const Eigen::Matrix3d matrix = Eigen::Matrix3d::Map(values.data());
+    if (!matrix.allFinite()) {
+        file.fail(element.data, "has an edge that is not a finite number");
+    }
+    if (!matrix.isDiagonal(0)) {
+        file.fail(element.data, "is a sheared box, which coagula does not read");
+    }
+    return matrix.diagonal();
+}
+
+Cell read_cell(const File& file, const std::string& box) {
+    if (!file.is_group(box)) {
+        file.fail(box, "is missing");
+    }
+    const bool periodic = read_periodicity(file, box);
+    const Eigen::Vector3d lengths = read_edges(file, box + "/edges");
+    for (const double length : lengths) {
+        if (!(std::isfinite(length) && length > 0)) {
+            file.fail(box + "/edges", "has an edge of " + to_text(length) + " m, but edges must be finite and positive");
+        }
+    }
+    if (periodic) {
+        return Cell::periodic(lengths);
+    }
+    const std::string origin = box + "/origin";
+    const auto lower = file.has(origin) ? read_lengths(file, origin, {3}) : std::vector<double>(3, 0.0);
+    return Cell::open(Eigen::Vector3d::Map(lower.data()), lengths);
+}
+
+/// Also the names other programs use.
+std::string radius_object(const File& file, const std::string& group) {
+    for (const char* name : {"/radius", "/radii"}) {
+        if (file.has(group + name)) {
+            return group + name;
+        }
+    }
+    file.fail(group + "/radius", "is missing: without radii this is not a packing of spheres");
+}
+
+Packing read_packing(const File& file, const std::string& group) {
+    const std::string position = group + "/position";
+    const std::size_t particles = number_of_particles(file, position);
+    const auto coordinates = read_lengths(file, position, {particles, 3});
+    const auto radii = read_lengths(file, radius_object(file, group), {particles});
+    if (const std::string id = group + "/id"; file.is_dataset(id)) {
+        require_shape(file, id, {particles});
+    }
+    const auto number = static_cast<Index>(particles);
+    const Packing packing{read_cell(file, group + "/box"), Eigen::Matrix3Xd::Map(coordinates.data(), 3, number),
+                          Eigen::VectorXd::Map(radii.data(), number)};
+    try {
+        check(packing, file.path() + ": " + group);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(error.what());
+    }
+    if (const double fraction = volume_fraction(packing); fraction > 1) {
+        file.fail(group, "is overfull: its spheres take " + to_text(fraction) + " of the volume of the box");
+    }
+    return packing;
+}
+
+Eigen::Matrix3Xd read_branches(const File& file, const Packing& packing, const ContactNetwork& bonds) {
+    const auto number = static_cast<std::size_t>(bonds.size());
+    Eigen::Matrix3Xd branches(3, bonds.size());
+    if (file.has(layout::branch_vectors)) {
+        const auto values = read_lengths(file, layout::branch_vectors, {number, 3});
+        branches = Eigen::Matrix3Xd::Map(values.data(), 3, bonds.size());
+    } else {
+        for (Index bond = 0; bond < bonds.size(); ++bond) {
+            branches.col(bond) =
+                packing.cell.minimum_image(packing.positions.col(bonds.ends(1, bond)) - packing.positions.col(bonds.ends(0, bond)));
+        }
+    }
+    for (Index bond = 0; bond < bonds.size(); ++bond) {
+        const double length = branches.col(bond).norm();
+        if (!(std::isfinite(length) && length > 0)) {
+            file.fail(layout::branch_vectors, "has bond " + std::to_string(bond) + " of length " + to_text(length) + " m");
+        }
+    }
+    return branches;
+}
+
+std::optional<ContactNetwork> read_bonds(const File& file, const Packing& packing) {
+    if (!file.has(layout::bonds)) {
+        return std::nullopt;
+    }
+    const Shape shape = file.shape(layout::bonds);
+    if (shape.size() != 2 || shape[1] != 2) {
+        file.fail(layout::bonds, "has the shape " + shape_text(shape) + ", but [bonds][2] is expected");
+    }
+    const auto ends = file.read<std::int64_t>(layout::bonds);
+    ContactNetwork bonds;
+    bonds.particles = packing.size();
+    bonds.ends.resize(2, static_cast<Index>(shape[0]));
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        if (ends[i] < 0 || ends[i] >= packing.size()) {
+            file.fail(layout::bonds, "has bond " + std::to_string(i / 2) + " to particle " + std::to_string(ends[i]) +
+                                         ", but particles are numbered from 0 to " + std::to_string(packing.size() - 1));
+        }
+        bonds.ends.data()[i] = static_cast<std::int32_t>(ends[i]);
+    }
+    bonds.branch = read_branches(file, packing, bonds);
+    return bonds;
+}
+
+}  // namespace
+
+std::string particles_group(const File& file) {
+    if (!file.is_group(layout::metadata) || !file.is_group(layout::particles)) {
+        file.fail(file.is_group(layout::metadata) ? layout::particles : layout::metadata, "is missing: this is not an H5MD file");
+    }
+    const auto groups = file.children(layout::particles);
+    if (file.is_group(layout::trajectory)) {
+        return layout::trajectory;
+    }
+    if (groups.size() != 1) {
+        file.fail(layout::trajectory, "is missing");
+    }
+    return std::string(layout::particles) + "/" + groups[0];
+}
+
+Structure read_structure(const File& file) {
+    const Packing packing = read_packing(file, particles_group(file));
+    return {packing, read_bonds(file, packing)};
+}
+
+Structure read_structure(const std::string& path) {
+    return read_structure(File::open(path));
+}
+
+}  // namespace coagula::io

@@ -1,0 +1,158 @@
+#include "results.hpp"
+
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+
+#include "layout.hpp"
+
+namespace coagula::io {
+
+namespace {
+
+using hdf5::Content;
+using hdf5::File;
+
+std::size_t extent(Eigen::Index length) {
+    return static_cast<std::size_t>(length);
+}
+
+/// A template so that strings, which are no arrays, are told apart by overload.
+template <class T>
+void write_values(File& file, const Dataset& dataset, const std::vector<T>& values) {
+    require(File::count(dataset.shape) == values.size(), dataset.path + " has " + std::to_string(values.size()) +
+                                                             " values, but its shape asks for " +
+                                                             std::to_string(File::count(dataset.shape)));
+    file.write(dataset.path, dataset.shape, values.data());
+}
+
+void write_values(File& file, const Dataset& dataset, const std::string& text) {
+    require(dataset.shape.empty(), dataset.path + " is a text and cannot have a shape");
+    file.write_text(dataset.path, text);
+}
+
+/// The next number and the stage with underscores: "0002_characterize".
+std::string provenance_name(const File& file, std::string stage) {
+    for (char& c : stage) {
+        c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    }
+    const std::vector<std::string> entries = file.children(layout::provenance);
+    const int last = entries.empty() ? 0 : std::atoi(entries.back().c_str());
+    std::array<char, 16> number{};
+    std::snprintf(number.data(), number.size(), "%04d_", last + 1);
+    return number.data() + stage;
+}
+
+std::string text_or_nothing(const File& file, const std::string& path) {
+    return file.has(path) ? file.read_text(path) : "";
+}
+
+template <class T>
+T number_or(const File& file, const std::string& path, T otherwise) {
+    const auto values = file.has(path) ? file.read<T>(path) : std::vector<T>{};
+    return values.size() == 1 ? values[0] : otherwise;
+}
+
+}  // namespace
+
+Dataset scalar(std::string path, double value, std::string unit, std::string description) {
+    return {std::move(path), {}, std::vector<double>{value}, std::move(unit), std::move(description)};
+}
+
+Dataset integer(std::string path, std::int64_t value, std::string description) {
+    return {std::move(path), {}, std::vector<std::int64_t>{value}, "1", std::move(description)};
+}
+
+Dataset text(std::string path, std::string value, std::string description) {
+    return {std::move(path), {}, std::move(value), "1", std::move(description)};
+}
+
+Dataset vector(std::string path, const Eigen::VectorXd& values, std::string unit, std::string description) {
+    return {std::move(path),
+            {extent(values.size())},
+            std::vector<double>(values.begin(), values.end()),
+            std::move(unit),
+            std::move(description)};
+}
+
+Dataset integers(std::string path, const Eigen::VectorXi& values, std::string description) {
+    return {std::move(path),
+            {extent(values.size())},
+            std::vector<std::int64_t>(values.begin(), values.end()),
+            "1",
+            std::move(description)};
+}
+
+Dataset columns(std::string path, const Eigen::MatrixXd& values, std::string unit, std::string description) {
+    return {std::move(path),
+            {extent(values.cols()), extent(values.rows())},
+            std::vector<double>(values.data(), values.data() + values.size()),
+            std::move(unit),
+            std::move(description)};
+}
+
+Dataset matrix(std::string path, const Eigen::MatrixXd& values, std::string unit, std::string description) {
+    return columns(std::move(path), values.transpose(), std::move(unit), std::move(description));
+}
+
+void write_dataset(File& file, const Dataset& dataset) {
+    require(dataset.path.size() > 1 && dataset.path.starts_with('/') && !dataset.path.ends_with('/'),
+            "'" + dataset.path + "' is not the path of a dataset");
+    std::visit([&](const auto& values) { write_values(file, dataset, values); }, dataset.values);
+    file.describe(dataset.path, dataset.unit, dataset.description);
+}
+
+void write_provenance(File& file, const Provenance& entry) {
+    const std::string group = std::string(layout::provenance) + "/" + provenance_name(file, entry.stage) + "/";
+    write_dataset(file, text(group + "stage", entry.stage, "what was done"));
+    write_dataset(file, text(group + "command_line", entry.command_line, "the command as it was given"));
+    write_dataset(file, text(group + "options", entry.options, "all options with their values, a JSON object"));
+    write_dataset(file, integer(group + "seed", entry.seed, "seed of the random numbers; -1: there were none"));
+    write_dataset(file, text(group + "version", entry.version, "version of coagula"));
+    write_dataset(file, text(group + "time", entry.time, "when it was done (UTC, ISO 8601)"));
+    write_dataset(file, scalar(group + "seconds", entry.seconds, "s", "time it took"));
+    write_dataset(file, text(group + "positions_sha256", entry.positions_sha256,
+                             "SHA-256 of the positions that went in (nm, little-endian doubles); empty for a generator"));
+}
+
+std::vector<Dataset> read_results(const std::string& path, const std::string& group) {
+    const File file = File::open(path);
+    std::vector<Dataset> results;
+    for (const std::string& name : file.datasets_below(group)) {
+        Dataset dataset{name, file.shape(name), {}, file.attribute(name, "unit"), file.attribute(name, "description")};
+        const Content content = file.content(name);
+        if (content == Content::real) {
+            dataset.values = file.read<double>(name);
+        } else if (content == Content::integer) {
+            dataset.values = file.read<std::int64_t>(name);
+        } else if (content == Content::text && dataset.shape.empty()) {
+            dataset.values = file.read_text(name);
+        } else {
+            continue;  // not one of ours
+        }
+        results.push_back(std::move(dataset));
+    }
+    return results;
+}
+
+std::vector<Provenance> read_provenance(const std::string& path) {
+    const File file = File::open(path);
+    std::vector<Provenance> history;
+    for (const std::string& name : file.children(layout::provenance)) {
+        const std::string group = std::string(layout::provenance) + "/" + name + "/";
+        Provenance entry;
+        entry.stage = text_or_nothing(file, group + "stage");
+        entry.command_line = text_or_nothing(file, group + "command_line");
+        entry.options = text_or_nothing(file, group + "options");
+        entry.seed = number_or<std::int64_t>(file, group + "seed", -1);
+        entry.version = text_or_nothing(file, group + "version");
+        entry.time = text_or_nothing(file, group + "time");
+        entry.seconds = number_or<double>(file, group + "seconds", unset);
+        entry.positions_sha256 = text_or_nothing(file, group + "positions_sha256");
+        history.push_back(std::move(entry));
+    }
+    return history;
+}
+
+}  // namespace coagula::io

@@ -1,0 +1,16 @@
+// Results and history as datasets of a structure file.
+#pragma once
+
+#include <coagula/io/structure_file.hpp>
+
+#include "hdf5_file.hpp"
+
+namespace coagula::io {
+
+/// Writes a dataset, replacing one of the same path. Throws std::invalid_argument when the shape does not fit the values.
+void write_dataset(hdf5::File& file, const Dataset& dataset);
+
+/// Appends an entry to /provenance.
+void write_provenance(hdf5::File& file, const Provenance& entry);
+
+}  // namespace coagula::io

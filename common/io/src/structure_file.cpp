@@ -1,1 +1,0 @@
-#include <coagula/io/structure_file.hpp>

@@ -1,0 +1,126 @@
+#include <coagula/io/text_formats.hpp>
+
+#include <coagula/io/structure_file.hpp>
+
+#include <filesystem>
+
+#include "atomic_file.hpp"
+#include "text_reader.hpp"
+
+namespace coagula::io {
+
+namespace {
+
+/// Three numbers with a separator, each the shortest text that reads back as the same number.
+std::string triple(const Eigen::Vector3d& values, char separator = ' ') {
+    return to_text(values[0]) + separator + to_text(values[1]) + separator + to_text(values[2]);
+}
+
+std::string csv_text(const Packing& packing) {
+    std::string out = "x [m],y [m],z [m],radius [m]\n";
+    for (Index particle = 0; particle < packing.size(); ++particle) {
+        out += triple(packing.positions.col(particle), ',');
+        out += ',' + to_text(packing.radii[particle]) + '\n';
+    }
+    return out;
+}
+
+std::string extended_xyz_text(const Packing& packing) {
+    const Eigen::Matrix3d edges = packing.cell.edges();
+    std::string out = std::to_string(packing.size()) + "\nLattice=\"" + triple(edges.col(0)) + ' ' + triple(edges.col(1)) + ' ' +
+                      triple(edges.col(2)) + "\" Origin=\"" + triple(packing.cell.origin()) + "\" pbc=\"" +
+                      (packing.cell.is_periodic() ? "T T T" : "F F F") +
+                      "\" Properties=species:S:1:pos:R:3:radius:R:1 length_unit=m\n";
+    for (Index particle = 0; particle < packing.size(); ++particle) {
+        out += "X " + triple(packing.positions.col(particle)) + ' ' + to_text(packing.radii[particle]) + '\n';
+    }
+    return out;
+}
+
+/// LAMMPS refuses a density of zero; a packing has none, so this stands in until `set group all density` is given.
+constexpr const char* placeholder_density = "1000";
+
+std::string lammps_header(const Packing& packing, const std::optional<ContactNetwork>& bonds) {
+    const Eigen::Vector3d lower = packing.cell.origin();
+    const Eigen::Vector3d upper = lower + packing.cell.lengths();
+    std::string out = "coagula packing, units = si, boundary = ";
+    out += packing.cell.is_periodic() ? "p p p" : "f f f";
+    out += bonds ? ", atom_style = hybrid sphere bond" : ", atom_style = sphere";
+    out += ", the density is a placeholder\n\n" + std::to_string(packing.size()) + " atoms\n1 atom types\n";
+    if (bonds) {
+        out += std::to_string(bonds->size()) + " bonds\n1 bond types\n";
+    }
+    out += '\n';
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string name(1, "xyz"[axis]);
+        out += to_text(lower[axis]) + ' ' + to_text(upper[axis]) + ' ' + name + "lo " + name + "hi\n";
+    }
+    return out;
+}
+
+std::string lammps_text(const Packing& packing, const std::optional<ContactNetwork>& bonds) {
+    std::string out = lammps_header(packing, bonds) + (bonds ? "\nAtoms # hybrid\n\n" : "\nAtoms # sphere\n\n");
+    for (Index particle = 0; particle < packing.size(); ++particle) {
+        const std::string diameter = to_text(2 * packing.radii[particle]) + ' ' + placeholder_density;
+        const std::string position = triple(packing.positions.col(particle));
+        out += std::to_string(particle + 1) + " 1 " + (bonds ? position + ' ' + diameter + " 1" : diameter + ' ' + position) + '\n';
+    }
+    if (bonds && bonds->size() > 0) {
+        out += "\nBonds\n\n";
+        for (Index bond = 0; bond < bonds->size(); ++bond) {
+            out += std::to_string(bond + 1) + " 1 " + std::to_string(bonds->ends(0, bond) + 1) + ' ' +
+                   std::to_string(bonds->ends(1, bond) + 1) + '\n';
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+TextFormat format_from_name(const std::string& path) {
+    const std::string ending = lower_case(std::filesystem::path(path).extension().string());
+    if (ending == ".csv") {
+        return TextFormat::csv;
+    }
+    if (ending == ".xyz" || ending == ".extxyz") {
+        return TextFormat::extended_xyz;
+    }
+    if (ending == ".data" || ending == ".lmp" || ending == ".lammps") {
+        return TextFormat::lammps_data;
+    }
+    throw InputError(path + " has no ending that names a format: .csv; .xyz, .extxyz; .data, .lmp, .lammps");
+}
+
+Packing read_text(const std::string& path, TextFormat format, const ImportOptions& options) {
+    LineReader file(path);
+    try {
+        switch (format) {
+            case TextFormat::csv:
+                return finish(path, read_csv(file, options), options);
+            case TextFormat::extended_xyz:
+                return finish(path, read_extended_xyz(file, options), options);
+            case TextFormat::lammps_data:
+                return finish(path, read_lammps_data(file, options), options);
+        }
+    } catch (const std::invalid_argument& error) {
+        const std::string sentence = error.what();
+        throw InputError(sentence.starts_with(path) ? sentence : path + ": " + sentence);
+    }
+    throw std::invalid_argument("unknown text format");
+}
+
+void write_text(const std::string& path, TextFormat format, const Packing& packing, const std::optional<ContactNetwork>& bonds,
+                bool overwrite) {
+    check_output(path, overwrite);
+    check(packing);
+    switch (format) {
+        case TextFormat::csv:
+            return write_file(path, csv_text(packing), overwrite);
+        case TextFormat::extended_xyz:
+            return write_file(path, extended_xyz_text(packing), overwrite);
+        case TextFormat::lammps_data:
+            return write_file(path, lammps_text(packing, bonds), overwrite);
+    }
+}
+
+}  // namespace coagula::io

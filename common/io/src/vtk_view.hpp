@@ -1,0 +1,22 @@
+// The group /VTKHDF that lets ParaView open a structure file: particles as vertices, bonds as lines.
+#pragma once
+
+#include <coagula/io/structure_file.hpp>
+
+#include <optional>
+#include <vector>
+
+#include "hdf5_file.hpp"
+
+namespace coagula::io {
+
+/// Writes points, cells and the point data radius.
+void write_view(hdf5::File& file, const Packing& packing, const std::optional<ContactNetwork>& bonds);
+
+/// Writes (or replaces) the cells and the point data coordination.
+void write_view_bonds(hdf5::File& file, const Packing& packing, const std::optional<ContactNetwork>& bonds);
+
+/// Writes (or replaces) a field of the point data. Throws std::invalid_argument when its size is not that of the packing.
+void write_view_field(hdf5::File& file, Index particles, const ParticleField& field);
+
+}  // namespace coagula::io

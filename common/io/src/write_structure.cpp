@@ -1,0 +1,164 @@
+#include <coagula/io/structure_file.hpp>
+
+#include <openssl/evp.h>
+
+#include <array>
+
+#include "hdf5_file.hpp"
+#include "layout.hpp"
+#include "read_structure.hpp"
+#include "results.hpp"
+#include "vtk_view.hpp"
+
+namespace coagula::io {
+
+namespace {
+
+using hdf5::File;
+
+std::string in_trajectory(const std::string& name) {
+    return std::string(layout::trajectory) + "/" + name;
+}
+
+/// H5MD 1.1, section "H5MD root level", with its units module.
+void write_metadata(File& file) {
+    const std::string metadata = layout::metadata;
+    for (const char* group : {"/author", "/creator", "/modules/units"}) {
+        file.create_group(metadata + group);
+    }
+    file.set_attribute(metadata, "version", std::vector<std::int64_t>{1, 1});
+    file.set_attribute(metadata + "/author", "name", "not stated");
+    file.set_attribute(metadata + "/creator", "name", "coagula");
+    file.set_attribute(metadata + "/creator", "version", COAGULA_VERSION);
+    file.set_attribute(metadata + "/modules/units", "version", std::vector<std::int64_t>{1, 0});
+    file.set_attribute(metadata + "/modules/units", "system", "SI");
+}
+
+void write_positions(File& file, const Packing& packing) {
+    const Eigen::Matrix3Xd positions = layout::stored_positions(packing);
+    const std::string position = in_trajectory("position");
+    file.write(position + "/value", {1, static_cast<std::size_t>(packing.size()), 3}, positions.data());
+    file.describe(position + "/value", "nm", "centres of the particles");
+    const std::int64_t step = 0;
+    file.write(position + "/step", {1}, &step);
+    file.describe(position + "/step", "1", "number of the frame");
+    const double time = 0;
+    file.write(position + "/time", {1}, &time);
+    file.describe(position + "/time", "s", "time of the frame");
+}
+
+void write_box(File& file, const Cell& cell) {
+    const std::string box = in_trajectory("box");
+    const Eigen::Matrix3d edges = cell.edges() * layout::nanometres;
+    file.write(box + "/edges/value", {1, 3, 3}, edges.data());
+    file.describe(box + "/edges/value", "nm", "edge vectors of the box, one per row");
+    file.link(in_trajectory("position/step"), box + "/edges/step");
+    file.link(in_trajectory("position/time"), box + "/edges/time");
+    const Eigen::Vector3d origin = cell.origin() * layout::nanometres;
+    file.write(box + "/origin", {3}, origin.data());
+    file.describe(box + "/origin", "nm", "corner of the box with the smallest coordinates");
+    file.set_attribute(box, "dimension", std::int64_t{3});
+    file.set_attribute(box, "boundary", std::vector<std::string>(3, cell.is_periodic() ? "periodic" : "none"));
+}
+
+void write_particles(File& file, const Packing& packing) {
+    write_positions(file, packing);
+    write_box(file, packing.cell);
+    const auto particles = static_cast<std::size_t>(packing.size());
+    const Eigen::VectorXd radii = packing.radii * layout::nanometres;
+    file.write(in_trajectory("radius"), {particles}, radii.data());
+    file.describe(in_trajectory("radius"), "nm", "radii of the particles");
+    std::vector<std::int64_t> ids(particles);
+    for (std::size_t particle = 0; particle < particles; ++particle) {
+        ids[particle] = static_cast<std::int64_t>(particle);
+    }
+    file.write(in_trajectory("id"), {particles}, ids.data());
+    file.describe(in_trajectory("id"), "1", "numbers by which the particles are named");
+}
+
+void write_bonds(File& file, const std::string& particles_group, const ContactNetwork& bonds) {
+    const auto number = static_cast<std::size_t>(bonds.size());
+    file.write(layout::bonds, {number, 2}, bonds.ends.data());
+    file.describe(layout::bonds, "1", "ids of the two particles that each bond joins");
+    file.set_reference(layout::bonds, "particles_group", particles_group);
+    file.write(layout::branch_vectors, {number, 3}, bonds.branch.data());
+    file.describe(layout::branch_vectors, "m", "from the first to the second centre of each bond, through the periodic boundary");
+}
+
+void check_structure(const Packing& packing, const std::optional<ContactNetwork>& bonds) {
+    check(packing);
+    require(!bonds || bonds->particles == packing.size(), "the bonds are those of another packing");
+}
+
+}  // namespace
+
+void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
+                     const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite) {
+    check_output(path, overwrite);
+    check_structure(structure.packing, structure.bonds);
+    File file = File::create(path);
+    write_metadata(file);
+    write_particles(file, structure.packing);
+    if (structure.bonds) {
+        write_bonds(file, layout::trajectory, *structure.bonds);
+    }
+    write_view(file, structure.packing, structure.bonds);
+    for (const ParticleField& field : fields) {
+        write_view_field(file, structure.packing.size(), field);
+    }
+    for (const Dataset& dataset : results) {
+        write_dataset(file, dataset);
+    }
+    write_provenance(file, provenance);
+    file.save(overwrite);
+}
+
+void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
+                 const std::optional<ContactNetwork>& bonds, const std::vector<ParticleField>& fields,
+                 const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite) {
+    const bool in_place = source == target;
+    check_output(target, overwrite || in_place);
+    const File old = File::open(source);
+    const Structure structure = read_structure(old);
+    check_structure(structure.packing, bonds);
+    File file = File::create(target);
+    file.copy_all_from(old);
+    for (const std::string& group : replaced) {
+        file.remove(group);
+    }
+    if (bonds) {
+        write_bonds(file, particles_group(old), *bonds);
+    }
+    if (!file.has(layout::view)) {
+        write_view(file, structure.packing, bonds ? bonds : structure.bonds);
+    } else if (bonds) {
+        write_view_bonds(file, structure.packing, bonds);
+    }
+    for (const ParticleField& field : fields) {
+        write_view_field(file, structure.packing.size(), field);
+    }
+    for (const Dataset& dataset : results) {
+        write_dataset(file, dataset);
+    }
+    write_provenance(file, provenance);
+    file.save(overwrite || in_place);
+}
+
+std::string positions_sha256(const Packing& packing) {
+    const Eigen::Matrix3Xd positions = layout::stored_positions(packing);
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int length = 0;
+    const auto bytes = static_cast<std::size_t>(positions.size()) * sizeof(double);
+    if (EVP_Digest(positions.data(), bytes, digest.data(), &length, EVP_sha256(), nullptr) != 1) {
+        throw std::runtime_error("OpenSSL cannot compute a SHA-256");
+    }
+    const char* digits = "0123456789abcdef";
+    std::string text;
+    for (unsigned int i = 0; i < length; ++i) {
+        text += digits[digest[i] >> 4];
+        text += digits[digest[i] & 15];
+    }
+    return text;
+}
+
+}  // namespace coagula::io
