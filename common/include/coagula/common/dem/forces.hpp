@@ -1,0 +1,272 @@
+// Force evaluation: loops over pairs and bonds, templates over the contact law.
+#pragma once
+
+#include <coagula/common/contact_law.hpp>
+#include <coagula/common/dem/particle_system.hpp>
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+
+namespace coagula::dem {
+
+/// A force along the line of centres that depends on the overlap alone: RepulsiveSpring, BondSpring.
+template <class Law>
+concept CentralLaw = requires(const Law& law, double overlap) {
+    { law.force(overlap) } -> std::convertible_to<double>;
+    { law.energy(overlap) } -> std::convertible_to<double>;
+};
+
+/// A force that depends on the displacement at the contact point, shear included: BondedContact. It turns particles.
+template <class Law>
+concept ShearLaw = requires(const Law& law, const Eigen::Vector3d& displacement, const Eigen::Vector3d& normal) {
+    { law.force(displacement, normal) } -> std::convertible_to<Eigen::Vector3d>;
+    { law.energy(displacement, normal) } -> std::convertible_to<double>;
+};
+
+/// Who acts: unbonded pairs through `contact`, which must vanish without overlap, and bonds through `bond`.
+template <CentralLaw ContactLaw, class BondLaw>
+struct Interactions {
+    ContactLaw contact;
+    BondLaw bond;
+    bool bond_on_touch = false;  ///< unbonded particles that come to overlap are bonded from then on, rest length r_i + r_j
+
+    /// Whether moments act.
+    static constexpr bool turns = ShearLaw<BondLaw>;
+};
+
+namespace detail {
+
+inline std::size_t at(std::int32_t slot) {
+    return static_cast<std::size_t>(slot);
+}
+
+inline Quad padded(const Eigen::Vector3d& vector) {
+    return {vector[0], vector[1], vector[2], 0.0};
+}
+
+/// Copies the particles into their ghosts and clears the forces.
+template <bool Turns>
+void prepare(Slots& slots, const Chunk& chunk) {
+    for (std::size_t ghost = at(chunk.own_end); ghost < at(chunk.end); ++ghost) {
+        slots.position[ghost] = slots.position[at(slots.source[ghost])] + slots.shift[ghost];
+    }
+    for (std::size_t slot = at(chunk.begin); slot < at(chunk.end); ++slot) {
+        slots.force[slot].setZero();
+    }
+    if constexpr (Turns) {
+        for (std::size_t ghost = at(chunk.own_end); ghost < at(chunk.end); ++ghost) {
+            slots.turn[ghost] = slots.turn[at(slots.source[ghost])];
+        }
+        for (std::size_t slot = at(chunk.begin); slot < at(chunk.end); ++slot) {
+            slots.moment[slot].setZero();
+        }
+    }
+}
+
+/// Lists the pairs of the chunk that overlap; returns their number. Without branches, since hardly any can be predicted.
+inline std::size_t find_touching(const Slots& slots, Chunk& chunk) {
+    chunk.touching.resize(chunk.pairs.size());
+    std::size_t count = 0;
+    for (std::size_t number = 0; number < chunk.pairs.size(); ++number) {
+        const Quad& first = slots.position[at(chunk.pairs[number].first)];
+        const Quad& second = slots.position[at(chunk.pairs[number].second)];
+        const double reach = first[3] + second[3];
+        chunk.touching[count] = static_cast<std::int32_t>(number);
+        count += (second - first).template head<3>().squaredNorm() < reach * reach ? 1 : 0;
+    }
+    return count;
+}
+
+/// Moves the first `count` touching pairs to the bonds.
+inline void bond_touching(const Slots& slots, Chunk& chunk, std::size_t count) {
+    if (count == 0) {
+        return;
+    }
+    std::size_t kept = at(chunk.touching[0]);
+    std::size_t next = 0;
+    for (std::size_t number = kept; number < chunk.pairs.size(); ++number) {
+        const SlotPair pair = chunk.pairs[number];
+        if (next < count && at(chunk.touching[next]) == number) {
+            const Quad& first = slots.position[at(pair.first)];
+            const Quad& second = slots.position[at(pair.second)];
+            const Eigen::Vector3d branch = (second - first).template head<3>();
+            chunk.bonds.push_back({pair, first[3] + second[3], Eigen::Vector3d::Zero(), branch});
+            ++next;
+        } else {
+            chunk.pairs[kept++] = pair;
+        }
+    }
+    chunk.pairs.resize(kept);
+}
+
+/// Force on the first end of a pair that pushes it away from the second; zero for coincident centres.
+template <CentralLaw Law>
+Quad central_force(const Law& law, const Quad& separation, double rest_length) {
+    const double distance = std::sqrt(separation.template head<3>().squaredNorm());
+    return (-law.force(rest_length - distance) / std::max(distance, 1e-300)) * separation;
+}
+
+template <CentralLaw Law>
+void add_contact_forces(Slots& slots, Chunk& chunk, const Law& law, bool bond_on_touch) {
+    const std::size_t count = find_touching(slots, chunk);
+    for (std::size_t entry = 0; entry < count; ++entry) {
+        const SlotPair pair = chunk.pairs[at(chunk.touching[entry])];
+        Quad separation = slots.position[at(pair.second)] - slots.position[at(pair.first)];
+        const double reach = slots.position[at(pair.second)][3] + slots.position[at(pair.first)][3];
+        separation[3] = 0;
+        const Quad force = central_force(law, separation, reach);
+        slots.force[at(pair.first)] += force;
+        slots.force[at(pair.second)] -= force;
+    }
+    if (bond_on_touch) {
+        bond_touching(slots, chunk, count);
+    }
+}
+
+template <CentralLaw Law>
+void add_bond_forces(Slots& slots, Chunk& chunk, const Law& law) {
+    for (const SlotBond& bond : chunk.bonds) {
+        Quad separation = slots.position[at(bond.ends.second)] - slots.position[at(bond.ends.first)];
+        separation[3] = 0;
+        const Quad force = central_force(law, separation, bond.rest_length);
+        slots.force[at(bond.ends.first)] += force;
+        slots.force[at(bond.ends.second)] -= force;
+    }
+}
+
+/// Brings the shear displacement of a bond up to date (Cundall and Strack 1979, eq. 2 of Schenker et al. 2012): it turns with the
+/// contact plane and with the spin of the pair about its axis, and grows by the tangential motion at the contact point.
+/// Everything is taken at the middle of the step, so a rigid rotation by an angle t adds an error of order t^3 only.
+/// @param lever_first,lever_second distances of the contact point from the two centres [m].
+inline void update_shear(SlotBond& bond, const Eigen::Vector3d& branch, double distance, const Quad& turn_first,
+                         const Quad& turn_second, double lever_first, double lever_second) {
+    const Eigen::Vector3d moved = branch - bond.branch;
+    const Eigen::Vector3d axis = (0.5 / distance) * (branch + bond.branch);
+    const Eigen::Vector3d first = turn_first.template head<3>();
+    const Eigen::Vector3d second = turn_second.template head<3>();
+    const Eigen::Vector3d rolled = moved - (lever_first * first + lever_second * second).cross(axis);
+    // Turn of the contact plane, and of the pair about its axis.
+    const Eigen::Vector3d turn = axis.cross(moved) / distance + (0.5 * (first + second).dot(axis)) * axis;
+    Eigen::Vector3d shear = bond.shear + turn.cross(bond.shear + 0.5 * turn.cross(bond.shear)) + rolled;
+    const Eigen::Vector3d normal = branch / distance;
+    shear -= shear.dot(normal) * normal;
+    bond.shear = shear;
+    bond.branch = branch;
+}
+
+template <ShearLaw Law>
+void add_bond_forces(Slots& slots, Chunk& chunk, const Law& law) {
+    for (SlotBond& bond : chunk.bonds) {
+        const std::size_t i = at(bond.ends.first);
+        const std::size_t j = at(bond.ends.second);
+        const Eigen::Vector3d branch = (slots.position[j] - slots.position[i]).template head<3>();
+        const double distance = std::max(branch.norm(), 1e-300);
+        const Eigen::Vector3d normal = branch / distance;
+        // The contact point divides the line of centres in the ratio of the radii, d r_i / (r_i + r_j), as in the linear solver.
+        const double lever_i = distance * slots.position[i][3] / (slots.position[i][3] + slots.position[j][3]);
+        const double lever_j = distance - lever_i;
+        update_shear(bond, branch, distance, slots.turn[i], slots.turn[j], lever_i, lever_j);
+        const Eigen::Vector3d force = law.force((distance - bond.rest_length) * normal + bond.shear, normal);
+        const Eigen::Vector3d moment = normal.cross(force);
+        slots.force[i] += padded(force);
+        slots.force[j] -= padded(force);
+        slots.moment[i] += padded(lever_i * moment);
+        slots.moment[j] += padded(lever_j * moment);
+    }
+}
+
+template <class Laws>
+void evaluate(Slots& slots, Chunk& chunk, const Laws& laws) {
+    prepare<Laws::turns>(slots, chunk);
+    // Bonds first: a touching pair that becomes a bond has its force from the contact in this evaluation.
+    add_bond_forces(slots, chunk, laws.bond);
+    add_contact_forces(slots, chunk, laws.contact, laws.bond_on_touch);
+}
+
+/// Adds to the forces (or moments) on the own slots of a chunk what acts on their ghosts, in a fixed order.
+inline void collect(const Slots& slots, const Chunk& chunk, std::vector<Quad>& values) {
+    for (std::size_t entry = chunk.handed_begin; entry < chunk.handed_end; ++entry) {
+        values[at(slots.handed[entry].first)] += values[at(slots.handed[entry].second)];
+    }
+}
+
+template <bool Turns>
+void collect_all(Slots& slots, const Chunk& chunk) {
+    collect(slots, chunk, slots.force);
+    if constexpr (Turns) {
+        collect(slots, chunk, slots.moment);
+    }
+}
+
+/// Runs `work(chunk)` for all chunks in parallel; chunks do not write to each other's slots within one call.
+template <class Work>
+void for_each_chunk(ParticleSystem& system, Work&& work) {
+    std::vector<Chunk>& chunks = system.chunks();
+    const auto count = static_cast<std::ptrdiff_t>(chunks.size());
+#pragma omp parallel for schedule(dynamic) if (count > 1)
+    for (std::ptrdiff_t chunk = 0; chunk < count; ++chunk) {
+        work(chunks[static_cast<std::size_t>(chunk)]);
+    }
+}
+
+}  // namespace detail
+
+/// Evaluates forces and moments at the present positions and leaves them in the system.
+template <class Laws>
+void compute_forces(ParticleSystem& system, const Laws& laws) {
+    system.refresh();
+    Slots& slots = system.slots();
+    detail::for_each_chunk(system, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws); });
+    detail::for_each_chunk(system, [&](Chunk& chunk) {
+        detail::collect_all<Laws::turns>(slots, chunk);
+        for (std::size_t slot = detail::at(chunk.begin); slot < detail::at(chunk.own_end); ++slot) {
+            slots.turn[slot].setZero();  // now contained in the shear displacements
+        }
+    });
+}
+
+/// Energy stored in contacts and bonds [J] at the last force evaluation.
+template <class Laws>
+double potential_energy(const ParticleSystem& system, const Laws& laws) {
+    const Slots& slots = system.slots();
+    double energy = 0;
+    const auto separation = [&](const SlotPair& pair) {
+        const Quad shift = slots.shift[detail::at(pair.second)];
+        const std::size_t source = detail::at(slots.source[detail::at(pair.second)]);
+        const Quad& first = slots.position[detail::at(pair.first)];
+        return Eigen::Vector3d((slots.position[source] + shift - first).template head<3>());
+    };
+    for (const Chunk& chunk : system.chunks()) {
+        for (const SlotPair& pair : chunk.pairs) {
+            const double reach = slots.position[detail::at(pair.first)][3] + slots.position[detail::at(pair.second)][3];
+            energy += laws.contact.energy(reach - separation(pair).norm());
+        }
+        for (const SlotBond& bond : chunk.bonds) {
+            const Eigen::Vector3d branch = separation(bond.ends);
+            const double stretch = branch.norm() - bond.rest_length;
+            if constexpr (Laws::turns) {
+                const Eigen::Vector3d normal = branch.normalized();
+                energy += laws.bond.energy(stretch * normal + bond.shear, normal);
+            } else {
+                energy += laws.bond.energy(-stretch);
+            }
+        }
+    }
+    return energy;
+}
+
+/// Energy of motion of translation and rotation [J].
+inline double kinetic_energy(const ParticleSystem& system) {
+    const Slots& slots = system.slots();
+    double energy = 0;
+    for (const Chunk& chunk : system.chunks()) {
+        for (std::size_t slot = detail::at(chunk.begin); slot < detail::at(chunk.own_end); ++slot) {
+            energy += 0.5 * slots.velocity[slot].squaredNorm() / slots.inverse_mass[slot];
+            energy += 0.5 * slots.spin[slot].squaredNorm() / slots.inverse_inertia[slot];
+        }
+    }
+    return energy;
+}
+
+}  // namespace coagula::dem

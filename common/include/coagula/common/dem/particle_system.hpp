@@ -1,0 +1,146 @@
+// Moving spheres with their neighbour list, laid out for speed: the state behind the explicit stepper and the minimiser.
+#pragma once
+
+#include <coagula/common/cell.hpp>
+#include <coagula/common/contact_network.hpp>
+#include <coagula/common/packing.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <vector>
+
+namespace coagula::dem {
+
+/// Three components and a companion number, padded so that two vector registers hold them.
+using Quad = Eigen::Vector4d;
+
+/// Two slots (see Slots) whose particles may touch.
+struct SlotPair {
+    std::int32_t first;
+    std::int32_t second;
+};
+
+/// A bond between two slots and its memory.
+struct SlotBond {
+    SlotPair ends;
+    double rest_length;      ///< centre distance without normal force [m]
+    Eigen::Vector3d shear;   ///< shear displacement of second against first at the contact point [m]
+    Eigen::Vector3d branch;  ///< centre of second minus centre of first when `shear` was last brought up to date [m]
+};
+
+/// A part of space: the particles it owns, copies of the particles of other parts (ghosts) that they may touch, and the pairs.
+/// Each pair and bond belongs to one chunk; its first slot is owned by the chunk. The number of chunks depends on the number of
+/// particles only, so that sums over chunks in order do not depend on the number of threads.
+struct Chunk {
+    std::int32_t begin = 0;    ///< own slots are [begin, own_end)
+    std::int32_t own_end = 0;  ///< ghosts are [own_end, end)
+    std::int32_t end = 0;
+    std::vector<SlotPair> pairs;  ///< unbonded pairs nearer than r_i + r_j + skin when the list was made
+    std::vector<SlotBond> bonds;
+    std::size_t handed_begin = 0;  ///< forces from ghosts for this chunk are entries [handed_begin, handed_end) of Slots::handed
+    std::size_t handed_end = 0;
+    std::vector<std::int32_t> touching;  ///< scratch: pairs that overlap
+    double displacement_squared = 0;     ///< largest since the list was made [m^2]
+};
+
+/// Per-slot arrays. A slot is a particle (own) or a periodic image or copy of one (ghost); ghosts are refreshed before each force
+/// evaluation, and the forces on them are handed to their particle afterwards.
+struct Slots {
+    std::vector<Quad> position;  ///< x, y, z, radius [m]
+    std::vector<Quad> velocity;  ///< [m/s]
+    std::vector<Quad> force;     ///< [N]
+    std::vector<Quad> spin;      ///< angular velocity [rad/s]
+    std::vector<Quad> turn;      ///< rotation since the last force evaluation [rad]
+    std::vector<Quad> moment;    ///< [N m]
+    std::vector<Quad> reference;  ///< position when the list was made [m]
+    std::vector<double> inverse_mass;     ///< [1/kg]
+    std::vector<double> inverse_inertia;  ///< [1/(kg m^2)]
+    std::vector<std::int32_t> particle;   ///< number of the particle in the caller's order
+    std::vector<std::int32_t> source;     ///< own slot that a ghost copies; an own slot names itself
+    std::vector<Eigen::Vector3i> images;  ///< periods that a ghost is away from its source
+    std::vector<Quad> shift;              ///< the same as a length [m]
+    std::vector<SlotPair> handed;              ///< own slot and ghost of it, sorted: whose forces go where
+};
+
+/// A bond in the caller's particle numbers.
+struct Bond {
+    std::int32_t first = 0;
+    std::int32_t second = 0;
+    Eigen::Vector3i images = Eigen::Vector3i::Zero();  ///< the bond reaches the image of `second` that is so many periods away
+    double rest_length = 0;                            ///< [m]
+    Eigen::Vector3d shear = Eigen::Vector3d::Zero();   ///< shear displacement [m]
+    Eigen::Vector3d branch = Eigen::Vector3d::Zero();  ///< centre of second minus centre of first [m]
+};
+
+/// Spheres that move. Input and output are in the caller's order; inside, particles are sorted in space and grouped in chunks.
+class ParticleSystem {
+public:
+    /// Masses are 1 until set, inertias those of solid spheres, velocities zero.
+    /// @param skin the neighbour list holds pairs nearer than r_i + r_j + skin [m], > 0; it is made anew as soon as an unlisted pair
+    ///        could touch.
+    ParticleSystem(const Cell& cell, const Eigen::Matrix3Xd& positions, const Eigen::VectorXd& radii, double skin);
+
+    Index size() const { return static_cast<Index>(radii_.size()); }
+    const Cell& cell() const { return cell_; }
+
+    /// [kg]; inertias become those of solid spheres, 2/5 m r^2.
+    void set_masses(const Eigen::VectorXd& masses);
+    /// [m]; masses and inertias stay.
+    void set_radii(const Eigen::VectorXd& radii);
+    /// 3 x N [m/s].
+    void set_velocities(const Eigen::Matrix3Xd& velocities);
+    /// Angular velocities, 3 x N [rad/s].
+    void set_spins(const Eigen::Matrix3Xd& spins);
+    /// Bonds pairs (each once, not yet bonded); rest length r_i + r_j. Branches name the image meant and are measured anew.
+    void add_bonds(const ContactNetwork& pairs);
+
+    Eigen::Matrix3Xd positions() const;   ///< wrapped into a periodic cell [m]
+    Eigen::Matrix3Xd velocities() const;  ///< [m/s]
+    Eigen::Matrix3Xd spins() const;       ///< [rad/s]
+    Eigen::Matrix3Xd forces() const;      ///< of the last evaluation [N]
+    Eigen::Matrix3Xd moments() const;     ///< of the last evaluation [N m]
+    const Eigen::VectorXd& radii() const { return radii_; }
+    Packing packing() const { return {cell_, positions(), radii_}; }
+    std::vector<Bond> bonds() const;
+    /// The bonds with their present branches, sorted as find_contacts does.
+    ContactNetwork bond_network() const;
+
+    /// Makes the neighbour list anew if it may lack a pair nearer than r_i + r_j + margin, that is if
+    /// 2 (largest displacement + growth of a radius) + margin > skin. @param margin [m], < skin.
+    void refresh(double margin = 0);
+    /// How often the list has been made.
+    Index list_builds() const { return list_builds_; }
+
+    /// For the loops over pairs and particles (forces.hpp, stepper.hpp, minimise.hpp).
+    Slots& slots() { return slots_; }
+    const Slots& slots() const { return slots_; }
+    std::vector<Chunk>& chunks() { return chunks_; }
+    const std::vector<Chunk>& chunks() const { return chunks_; }
+
+private:
+    /// State in the caller's order, between two lists.
+    struct Snapshot {
+        std::vector<Quad> position, velocity, spin, turn, force, moment;
+        std::vector<double> inverse_mass, inverse_inertia;
+        std::vector<Bond> bonds;
+    };
+    Snapshot snapshot() const;
+    void wrap(Snapshot& state) const;
+    void rebuild(Snapshot state);
+    Eigen::Matrix3Xd in_callers_order(const std::vector<Quad>& values) const;
+    void set_in_slots(std::vector<Quad>& values, const Eigen::Matrix3Xd& given, const char* name);
+
+    Cell cell_;
+    double skin_;
+    Eigen::VectorXd radii_;        ///< caller's order [m]
+    Eigen::VectorXd list_radii_;   ///< when the list was made [m]
+    double growth_ = 0;            ///< of a radius since then, the largest [m]
+    Index list_builds_ = 0;
+    Slots slots_;
+    std::vector<Chunk> chunks_;
+    std::vector<std::int32_t> slot_of_;  ///< own slot of each particle
+};
+
+}  // namespace coagula::dem

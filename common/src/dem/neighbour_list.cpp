@@ -1,0 +1,144 @@
+#include "neighbour_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace coagula::dem {
+
+namespace {
+
+/// Interleaves the lowest ten bits of three numbers.
+std::uint64_t morton_code(const Eigen::Array3i& box) {
+    std::uint64_t code = 0;
+    for (unsigned bit = 0; bit < 10; ++bit) {
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            const auto value = static_cast<std::uint64_t>(box[axis]);
+            code |= ((value >> bit) & 1U) << (3 * bit + axis);
+        }
+    }
+    return code;
+}
+
+}  // namespace
+
+NeighbourSearch::NeighbourSearch(const Cell& cell, const std::vector<Quad>& position, double skin)
+    : periodic_(cell.is_periodic()), skin_(skin), lower_(cell.origin()), lengths_(cell.lengths()) {
+    choose_boxes(cell, position, skin);
+    rank_boxes();
+    const std::size_t particles = position.size();
+    std::vector<std::size_t> place(particles);
+    start_.assign(rank_.size() + 1, 0);
+    for (std::size_t particle = 0; particle < particles; ++particle) {
+        place[particle] = rank_of(box_of(position[particle]));
+        ++start_[place[particle] + 1];
+    }
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
+    order_.resize(particles);
+    smallest_.assign(rank_.size(), std::numeric_limits<double>::infinity());
+    sorted_.resize(particles);
+    for (std::size_t particle = 0; particle < particles; ++particle) {
+        const auto number = static_cast<std::size_t>(next[place[particle]]++);
+        order_[number] = static_cast<std::int32_t>(particle);
+        sorted_[number] = position[particle];
+        smallest_[place[particle]] = std::min(smallest_[place[particle]], position[particle][3]);
+    }
+}
+
+void NeighbourSearch::choose_boxes(const Cell& cell, const std::vector<Quad>& position, double skin) {
+    double sum = 0;
+    for (const Quad& sphere : position) {
+        sum += sphere[3];
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(1, position.size()));
+    // The reach of a mean particle, but at most about two boxes per particle.
+    const double edge = std::max(2 * sum / count + skin, std::cbrt(0.5 * cell.volume() / count));
+    for (int axis = 0; axis < 3; ++axis) {
+        boxes_[axis] = static_cast<int>(std::clamp(lengths_[axis] / edge, 1.0, 1000.0));
+    }
+}
+
+void NeighbourSearch::rank_boxes() {
+    std::vector<std::pair<std::uint64_t, std::int32_t>> codes;
+    codes.reserve(static_cast<std::size_t>(boxes_.prod()));
+    for (int z = 0; z < boxes_[2]; ++z) {
+        for (int y = 0; y < boxes_[1]; ++y) {
+            for (int x = 0; x < boxes_[0]; ++x) {
+                codes.emplace_back(morton_code({x, y, z}), static_cast<std::int32_t>(codes.size()));
+            }
+        }
+    }
+    std::sort(codes.begin(), codes.end());
+    rank_.resize(codes.size());
+    for (std::size_t place = 0; place < codes.size(); ++place) {
+        rank_[static_cast<std::size_t>(codes[place].second)] = static_cast<std::int32_t>(place);
+    }
+}
+
+Eigen::Array3i NeighbourSearch::box_of(const Quad& position) const {
+    const Eigen::Array3d fraction = (position.head<3>().array() - lower_) / lengths_;
+    // Rounding may put a wrapped point on the upper face; in an open cell particles may leave the box.
+    return (fraction * boxes_.cast<double>()).floor().max(0).min((boxes_ - 1).cast<double>()).cast<int>();
+}
+
+std::size_t NeighbourSearch::rank_of(const Eigen::Array3i& box) const {
+    return static_cast<std::size_t>(rank_[static_cast<std::size_t>((box[2] * boxes_[1] + box[1]) * boxes_[0] + box[0])]);
+}
+
+void NeighbourSearch::find_pairs_of(std::int32_t first, std::vector<ListedPair>& pairs) const {
+    const Quad& centre = sorted_[static_cast<std::size_t>(first)];
+    const Eigen::Array3i home = box_of(centre);
+    const Eigen::Array3i reach = ((2 * centre[3] + skin_) * boxes_.cast<double>() / lengths_).ceil().cast<int>();
+    for (int dz = -reach[2]; dz <= reach[2]; ++dz) {
+        const Place z = place_along(2, home[2] + dz);
+        for (int dy = -reach[1]; dy <= reach[1]; ++dy) {
+            const Place y = place_along(1, home[1] + dy);
+            if (!z.exists || !y.exists) {
+                continue;
+            }
+            const std::int32_t* row = rank_.data() + (z.box * boxes_[1] + y.box) * boxes_[0];
+            for (int dx = -reach[0]; dx <= reach[0]; ++dx) {
+                const Place x = place_along(0, home[0] + dx);
+                if (x.exists) {
+                    const int side = dz != 0 ? dz : (dy != 0 ? dy : dx);
+                    search_box(first, static_cast<std::size_t>(row[x.box]), side, {x.images, y.images, z.images}, pairs);
+                }
+            }
+        }
+    }
+}
+
+/// Brings a box number along an axis into the cell.
+NeighbourSearch::Place NeighbourSearch::place_along(int axis, int box) const {
+    const int count = boxes_[axis];
+    if (box >= 0 && box < count) {
+        return {box, 0, true};
+    }
+    const int images = box >= 0 ? box / count : -((count - 1 - box) / count);
+    return {box - images * count, images, periodic_};
+}
+
+/// @param side sign of the box's place relative to the own box; equal particles are paired on the positive side only.
+void NeighbourSearch::search_box(std::int32_t first, std::size_t place, int side, const Eigen::Vector3i& images,
+                                 std::vector<ListedPair>& pairs) const {
+    const Quad& centre = sorted_[static_cast<std::size_t>(first)];
+    if (smallest_[place] > centre[3] || (side < 0 && smallest_[place] == centre[3])) {
+        return;
+    }
+    const Eigen::Vector3d origin = centre.head<3>() - images.cast<double>().cwiseProduct(lengths_.matrix());
+    for (std::int32_t second = start_[place]; second < start_[place + 1]; ++second) {
+        const Quad& other = sorted_[static_cast<std::size_t>(second)];
+        const double limit = centre[3] + other[3] + skin_;
+        if ((other.head<3>() - origin).squaredNorm() >= limit * limit) {
+            continue;
+        }
+        const bool equal_counts = side > 0 || (side == 0 && second > first);
+        if (other[3] < centre[3] || (other[3] == centre[3] && equal_counts)) {
+            pairs.push_back({first, second, images});
+        }
+    }
+}
+
+}  // namespace coagula::dem

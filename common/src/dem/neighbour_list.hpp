@@ -1,0 +1,60 @@
+// Neighbour search for the moving spheres: sorts them in space and finds the pairs of each chunk.
+#pragma once
+
+#include <coagula/common/dem/particle_system.hpp>
+
+#include <array>
+#include <vector>
+
+namespace coagula::dem {
+
+/// A pair found by the search, or a bond: particles by sorted number, `second` displaced by `images` periods.
+struct ListedPair {
+    std::int32_t first;
+    std::int32_t second;
+    Eigen::Vector3i images;
+};
+
+/// Particles sorted by boxes that follow a space-filling (Morton) curve, so that neighbours in space are near in memory.
+///
+/// Each pair is found from its larger particle, whose search reaches 2 r + skin; equal ones find each other once because only one
+/// half of the boxes around (and of the own box) is looked at. So a few large spheres do not slow down the search for the small
+/// ones, and boxes narrower than a particle's reach see all periodic images.
+class NeighbourSearch {
+public:
+    /// @param position wrapped into the cell; fourth component: radius [m].
+    NeighbourSearch(const Cell& cell, const std::vector<Quad>& position, double skin);
+
+    /// Particle of each sorted number.
+    const std::vector<std::int32_t>& order() const { return order_; }
+
+    /// Appends the pairs whose larger (or first) particle has sorted number `first`.
+    void find_pairs_of(std::int32_t first, std::vector<ListedPair>& pairs) const;
+
+private:
+    /// A box number inside the cell, and how many periods away it was.
+    struct Place {
+        int box;
+        int images;
+        bool exists;  ///< false outside an open cell
+    };
+    Place place_along(int axis, int box) const;
+    void choose_boxes(const Cell& cell, const std::vector<Quad>& position, double skin);
+    void rank_boxes();
+    Eigen::Array3i box_of(const Quad& position) const;
+    std::size_t rank_of(const Eigen::Array3i& box) const;
+    void search_box(std::int32_t first, std::size_t place, int side, const Eigen::Vector3i& images, std::vector<ListedPair>& pairs) const;
+
+    bool periodic_;
+    double skin_;
+    Eigen::Array3d lower_;
+    Eigen::Array3d lengths_;
+    Eigen::Array3i boxes_;
+    std::vector<std::int32_t> rank_;   ///< place of each box along the curve
+    std::vector<std::int32_t> start_;  ///< first sorted number of each place, and the end
+    std::vector<double> smallest_;     ///< radius in each place
+    std::vector<std::int32_t> order_;
+    std::vector<Quad> sorted_;
+};
+
+}  // namespace coagula::dem

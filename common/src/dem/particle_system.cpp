@@ -1,0 +1,459 @@
+#include <coagula/common/dem/particle_system.hpp>
+
+#include <coagula/common/checks.hpp>
+
+#include "neighbour_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace coagula::dem {
+
+namespace {
+
+std::size_t at(std::int32_t index) {
+    return static_cast<std::size_t>(index);
+}
+
+/// About 512 particles each: they and their ghosts stay in a core's nearest cache, and there is work for many threads.
+std::int32_t chunk_count(std::size_t particles) {
+    return static_cast<std::int32_t>(std::clamp<std::size_t>(particles / 512, 1, 1024));
+}
+
+/// Sortable name of a particle image: sorted number and periods.
+std::uint64_t image_key(std::int32_t number, const Eigen::Vector3i& images) {
+    std::uint64_t key = static_cast<std::uint64_t>(number);
+    for (const int periods : images) {
+        key = (key << 10U) | static_cast<std::uint64_t>(periods + 512);
+    }
+    return key;
+}
+
+/// The particles of one chunk and the pairs and bonds it evaluates, before slots are known.
+struct ChunkPlan {
+    std::int32_t first = 0;  ///< sorted numbers [first, last)
+    std::int32_t last = 0;
+    std::vector<ListedPair> pairs;
+    std::vector<ListedPair> bonds;
+    std::vector<std::size_t> bond_numbers;
+    std::vector<std::uint64_t> ghosts;
+
+    bool owns(const ListedPair& pair) const { return pair.images.isZero() && pair.second >= first && pair.second < last; }
+
+    void list_ghosts() {
+        for (const auto* list : {&pairs, &bonds}) {
+            for (const ListedPair& pair : *list) {
+                if (!owns(pair)) {
+                    ghosts.push_back(image_key(pair.second, pair.images));
+                }
+            }
+        }
+        std::sort(ghosts.begin(), ghosts.end());
+        ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    }
+
+    std::int32_t slot_of_second(const ListedPair& pair, std::int32_t begin) const {
+        if (owns(pair)) {
+            return begin + (pair.second - first);
+        }
+        const auto ghost = std::lower_bound(ghosts.begin(), ghosts.end(), image_key(pair.second, pair.images));
+        return begin + (last - first) + static_cast<std::int32_t>(ghost - ghosts.begin());
+    }
+};
+
+/// Bonded partners of each particle, both ways, so that the search can leave bonded pairs out.
+class BondPartners {
+public:
+    BondPartners(const std::vector<Bond>& bonds, std::size_t particles, const std::vector<std::int32_t>& sorted_of)
+        : start_(particles + 1, 0) {
+        for (const Bond& bond : bonds) {
+            ++start_[at(sorted_of[at(bond.first)]) + 1];
+            ++start_[at(sorted_of[at(bond.second)]) + 1];
+        }
+        std::partial_sum(start_.begin(), start_.end(), start_.begin());
+        partner_.resize(2 * bonds.size());
+        std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+        for (const Bond& bond : bonds) {
+            const std::int32_t first = sorted_of[at(bond.first)];
+            const std::int32_t second = sorted_of[at(bond.second)];
+            partner_[next[at(first)]++] = image_key(second, bond.images);
+            partner_[next[at(second)]++] = image_key(first, -bond.images);
+        }
+    }
+
+    bool bonded(const ListedPair& pair) const {
+        const auto begin = partner_.begin() + static_cast<std::ptrdiff_t>(start_[at(pair.first)]);
+        const auto end = partner_.begin() + static_cast<std::ptrdiff_t>(start_[at(pair.first) + 1]);
+        return begin != end && std::find(begin, end, image_key(pair.second, pair.images)) != end;
+    }
+
+private:
+    std::vector<std::size_t> start_;
+    std::vector<std::uint64_t> partner_;
+};
+
+std::vector<ChunkPlan> split(std::size_t particles) {
+    const std::int32_t count = chunk_count(particles);
+    std::vector<ChunkPlan> plans(at(count));
+    for (std::int32_t chunk = 0; chunk < count; ++chunk) {
+        const auto boundary = [&](std::int32_t c) { return static_cast<std::int32_t>(at(c) * particles / at(count)); };
+        plans[at(chunk)].first = boundary(chunk);
+        plans[at(chunk)].last = boundary(chunk + 1);
+    }
+    return plans;
+}
+
+void assign_bonds(std::vector<ChunkPlan>& plans, const std::vector<Bond>& bonds, const std::vector<std::int32_t>& sorted_of) {
+    for (std::size_t number = 0; number < bonds.size(); ++number) {
+        const Bond& bond = bonds[number];
+        const std::int32_t first = sorted_of[at(bond.first)];
+        const auto owner = std::upper_bound(plans.begin(), plans.end(), first,
+                                            [](std::int32_t value, const ChunkPlan& plan) { return value < plan.last; });
+        owner->bonds.push_back({first, sorted_of[at(bond.second)], bond.images});
+        owner->bond_numbers.push_back(number);
+    }
+}
+
+/// Finds the pairs and ghosts of every chunk.
+std::vector<ChunkPlan> plan_chunks(const NeighbourSearch& search, const std::vector<Bond>& bonds) {
+    const std::vector<std::int32_t>& order = search.order();
+    std::vector<std::int32_t> sorted_of(order.size());
+    for (std::size_t number = 0; number < order.size(); ++number) {
+        sorted_of[at(order[number])] = static_cast<std::int32_t>(number);
+    }
+    const BondPartners partners(bonds, order.size(), sorted_of);
+    std::vector<ChunkPlan> plans = split(order.size());
+    assign_bonds(plans, bonds, sorted_of);
+#pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
+    for (std::size_t chunk = 0; chunk < plans.size(); ++chunk) {
+        ChunkPlan& plan = plans[chunk];
+        for (std::int32_t number = plan.first; number < plan.last; ++number) {
+            search.find_pairs_of(number, plan.pairs);
+        }
+        if (!bonds.empty()) {
+            std::erase_if(plan.pairs, [&](const ListedPair& pair) { return partners.bonded(pair); });
+        }
+        plan.list_ghosts();
+    }
+    return plans;
+}
+
+template <class Value>
+std::vector<Value> blank(std::size_t size, const Value& value) {
+    return std::vector<Value>(size, value);
+}
+
+void resize(Slots& slots, std::size_t size) {
+    const Quad zero = Quad::Zero();
+    for (auto* values : {&slots.position, &slots.velocity, &slots.force, &slots.spin, &slots.turn, &slots.moment, &slots.reference,
+                         &slots.shift}) {
+        *values = blank(size, zero);
+    }
+    slots.inverse_mass = blank(size, 0.0);
+    slots.inverse_inertia = blank(size, 0.0);
+    slots.particle = blank(size, std::int32_t{-1});
+    slots.source = blank(size, std::int32_t{-1});
+    slots.images = blank<Eigen::Vector3i>(size, Eigen::Vector3i::Zero());
+}
+
+/// Lists which ghost hands its force to which slot, in the order of the receiving slots.
+void link_ghosts(Slots& slots, std::vector<Chunk>& chunks) {
+    slots.handed.clear();
+    for (const Chunk& chunk : chunks) {
+        for (std::int32_t ghost = chunk.own_end; ghost < chunk.end; ++ghost) {
+            slots.handed.push_back({slots.source[at(ghost)], ghost});
+        }
+    }
+    const auto earlier = [](const SlotPair& a, const SlotPair& b) { return a.first < b.first; };
+    std::stable_sort(slots.handed.begin(), slots.handed.end(), earlier);
+    for (Chunk& chunk : chunks) {
+        const auto from = std::lower_bound(slots.handed.begin(), slots.handed.end(), SlotPair{chunk.begin, 0}, earlier);
+        const auto to = std::lower_bound(from, slots.handed.end(), SlotPair{chunk.own_end, 0}, earlier);
+        chunk.handed_begin = static_cast<std::size_t>(from - slots.handed.begin());
+        chunk.handed_end = static_cast<std::size_t>(to - slots.handed.begin());
+    }
+}
+
+Quad padded(const Eigen::Vector3d& vector) {
+    return {vector[0], vector[1], vector[2], 0.0};
+}
+
+}  // namespace
+
+ParticleSystem::ParticleSystem(const Cell& cell, const Eigen::Matrix3Xd& positions, const Eigen::VectorXd& radii, double skin)
+    : cell_(cell), skin_(require_positive(skin, "the skin of the neighbour list", "m")), radii_(radii), list_radii_(radii) {
+    require(positions.cols() > 0 && positions.cols() == radii.size(),
+            "the particle system has " + std::to_string(positions.cols()) + " positions and " + std::to_string(radii.size()) +
+                " radii, but needs at least one particle and as many radii");
+    const auto particles = static_cast<std::size_t>(radii.size());
+    Snapshot state;
+    state.position.resize(particles);
+    for (std::size_t particle = 0; particle < particles; ++particle) {
+        const auto column = static_cast<Index>(particle);
+        state.position[particle] = padded(positions.col(column));
+        state.position[particle][3] = require_positive(radii[column], "the radius of particle " + std::to_string(particle), "m");
+    }
+    for (auto* values : {&state.velocity, &state.spin, &state.turn, &state.force, &state.moment}) {
+        values->assign(particles, Quad::Zero());
+    }
+    state.inverse_mass.assign(particles, 1.0);
+    state.inverse_inertia.resize(particles);
+    for (std::size_t particle = 0; particle < particles; ++particle) {
+        const double radius = state.position[particle][3];
+        state.inverse_inertia[particle] = 2.5 / (radius * radius);
+    }
+    rebuild(std::move(state));
+}
+
+ParticleSystem::Snapshot ParticleSystem::snapshot() const {
+    const auto particles = slot_of_.size();
+    Snapshot state;
+    const auto collect = [&](auto& target, const auto& source) {
+        target.resize(particles);
+        for (std::size_t particle = 0; particle < particles; ++particle) {
+            target[particle] = source[at(slot_of_[particle])];
+        }
+    };
+    collect(state.position, slots_.position);
+    collect(state.velocity, slots_.velocity);
+    collect(state.spin, slots_.spin);
+    collect(state.turn, slots_.turn);
+    collect(state.force, slots_.force);
+    collect(state.moment, slots_.moment);
+    collect(state.inverse_mass, slots_.inverse_mass);
+    collect(state.inverse_inertia, slots_.inverse_inertia);
+    state.bonds = bonds();
+    return state;
+}
+
+/// Brings all particles into the periodic cell; bonds keep their images.
+void ParticleSystem::wrap(Snapshot& state) const {
+    std::vector<Eigen::Vector3i> moved(state.position.size());
+    for (std::size_t particle = 0; particle < state.position.size(); ++particle) {
+        Quad& position = state.position[particle];
+        const Eigen::Vector3d before = position.head<3>();
+        const Eigen::Array3d periods = (before - cell_.origin()).array() / cell_.lengths().array();
+        if (!(periods.abs() < 500).all()) {
+            throw std::runtime_error("particle " + std::to_string(particle) +
+                                     " has left all bounds: the time step is too large for the stiffness of the contacts");
+        }
+        const Eigen::Vector3d after = cell_.wrap(before);
+        position.head<3>() = after;
+        moved[particle] = ((before - after).array() / cell_.lengths().array()).round().cast<int>();
+    }
+    for (Bond& bond : state.bonds) {
+        bond.images += moved[at(bond.second)] - moved[at(bond.first)];
+    }
+}
+
+void ParticleSystem::rebuild(Snapshot state) {
+    wrap(state);
+    const NeighbourSearch search(cell_, state.position, skin_);
+    const std::vector<ChunkPlan> plans = plan_chunks(search, state.bonds);
+    std::size_t total = 0;
+    for (const ChunkPlan& plan : plans) {
+        total += at(plan.last - plan.first) + plan.ghosts.size();
+    }
+    require(total < 2000000000U, "the particle system has too many pairs for 32-bit slots");
+    resize(slots_, total);
+    slot_of_.resize(state.position.size());
+    chunks_.assign(plans.size(), Chunk{});
+    std::int32_t begin = 0;
+    for (std::size_t number = 0; number < plans.size(); ++number) {
+        const ChunkPlan& plan = plans[number];
+        Chunk& chunk = chunks_[number];
+        chunk.begin = begin;
+        chunk.own_end = begin + plan.last - plan.first;
+        chunk.end = chunk.own_end + static_cast<std::int32_t>(plan.ghosts.size());
+        begin = chunk.end;
+        for (std::int32_t slot = chunk.begin; slot < chunk.own_end; ++slot) {
+            const std::int32_t particle = search.order()[at(plan.first + slot - chunk.begin)];
+            slot_of_[at(particle)] = slot;
+            slots_.position[at(slot)] = slots_.reference[at(slot)] = state.position[at(particle)];
+            slots_.velocity[at(slot)] = state.velocity[at(particle)];
+            slots_.spin[at(slot)] = state.spin[at(particle)];
+            slots_.turn[at(slot)] = state.turn[at(particle)];
+            slots_.force[at(slot)] = state.force[at(particle)];
+            slots_.moment[at(slot)] = state.moment[at(particle)];
+            slots_.inverse_mass[at(slot)] = state.inverse_mass[at(particle)];
+            slots_.inverse_inertia[at(slot)] = state.inverse_inertia[at(particle)];
+            slots_.particle[at(slot)] = particle;
+            slots_.source[at(slot)] = slot;
+        }
+    }
+#pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
+    for (std::size_t number = 0; number < plans.size(); ++number) {
+        const ChunkPlan& plan = plans[number];
+        Chunk& chunk = chunks_[number];
+        for (std::size_t ghost = 0; ghost < plan.ghosts.size(); ++ghost) {
+            const std::size_t slot = at(chunk.own_end) + ghost;
+            const std::uint64_t key = plan.ghosts[ghost];
+            slots_.source[slot] = slot_of_[at(search.order()[key >> 30U])];
+            for (unsigned axis = 0; axis < 3; ++axis) {
+                const int images = static_cast<int>((key >> (10U * (2U - axis))) & 1023U) - 512;
+                slots_.images[slot][axis] = images;
+                slots_.shift[slot][axis] = images * cell_.edges()(axis, axis);
+            }
+            slots_.particle[slot] = slots_.particle[at(slots_.source[slot])];
+        }
+        chunk.pairs.reserve(plan.pairs.size());
+        for (const ListedPair& pair : plan.pairs) {
+            chunk.pairs.push_back({chunk.begin + pair.first - plan.first, plan.slot_of_second(pair, chunk.begin)});
+        }
+        for (std::size_t entry = 0; entry < plan.bonds.size(); ++entry) {
+            const Bond& bond = state.bonds[plan.bond_numbers[entry]];
+            const SlotPair ends{chunk.begin + plan.bonds[entry].first - plan.first, plan.slot_of_second(plan.bonds[entry], chunk.begin)};
+            chunk.bonds.push_back({ends, bond.rest_length, bond.shear, bond.branch});
+        }
+    }
+    link_ghosts(slots_, chunks_);
+    list_radii_ = radii_;
+    growth_ = 0;
+    ++list_builds_;
+}
+
+void ParticleSystem::refresh(double margin) {
+    double displacement_squared = 0;
+    for (const Chunk& chunk : chunks_) {
+        displacement_squared = std::max(displacement_squared, chunk.displacement_squared);
+    }
+    if (!(2 * (std::sqrt(displacement_squared) + growth_) + margin <= skin_)) {
+        rebuild(snapshot());
+    }
+}
+
+void ParticleSystem::set_masses(const Eigen::VectorXd& masses) {
+    require(masses.size() == size(), "the particle system has " + std::to_string(size()) + " particles, but " +
+                                         std::to_string(masses.size()) + " masses were given");
+    for (Index particle = 0; particle < size(); ++particle) {
+        const double mass = require_positive(masses[particle], "the mass of particle " + std::to_string(particle), "kg");
+        const std::size_t slot = at(slot_of_[static_cast<std::size_t>(particle)]);
+        slots_.inverse_mass[slot] = 1 / mass;
+        slots_.inverse_inertia[slot] = 2.5 / (mass * radii_[particle] * radii_[particle]);
+    }
+}
+
+void ParticleSystem::set_radii(const Eigen::VectorXd& radii) {
+    require(radii.size() == size(), "the particle system has " + std::to_string(size()) + " particles, but " +
+                                        std::to_string(radii.size()) + " radii were given");
+    radii_ = radii;
+    growth_ = std::max(0.0, (radii_ - list_radii_).maxCoeff());
+    for (Index particle = 0; particle < size(); ++particle) {
+        slots_.position[at(slot_of_[static_cast<std::size_t>(particle)])][3] =
+            require_positive(radii[particle], "the radius of particle " + std::to_string(particle), "m");
+    }
+}
+
+void ParticleSystem::set_in_slots(std::vector<Quad>& values, const Eigen::Matrix3Xd& given, const char* name) {
+    require(given.cols() == size(), "the particle system has " + std::to_string(size()) + " particles, but " +
+                                        std::to_string(given.cols()) + " " + name + " were given");
+    for (Index particle = 0; particle < size(); ++particle) {
+        values[at(slot_of_[static_cast<std::size_t>(particle)])] = padded(given.col(particle));
+    }
+}
+
+void ParticleSystem::set_velocities(const Eigen::Matrix3Xd& velocities) {
+    set_in_slots(slots_.velocity, velocities, "velocities");
+}
+
+void ParticleSystem::set_spins(const Eigen::Matrix3Xd& spins) {
+    set_in_slots(slots_.spin, spins, "angular velocities");
+}
+
+void ParticleSystem::add_bonds(const ContactNetwork& pairs) {
+    require(pairs.particles == size(), "the bonds are those of " + std::to_string(pairs.particles) +
+                                           " particles, but the particle system has " + std::to_string(size()));
+    Snapshot state = snapshot();
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        Bond bond;
+        bond.first = pairs.ends(0, pair);
+        bond.second = pairs.ends(1, pair);
+        const Eigen::Vector3d direct = (state.position[at(bond.second)] - state.position[at(bond.first)]).head<3>();
+        if (cell_.is_periodic()) {
+            const Eigen::Array3d periods = (pairs.branch.col(pair) - direct).array() / cell_.lengths().array();
+            bond.images = periods.round().cast<int>();
+        }
+        bond.branch = direct + bond.images.cast<double>().cwiseProduct(cell_.lengths());
+        bond.rest_length = radii_[bond.first] + radii_[bond.second];
+        state.bonds.push_back(bond);
+    }
+    rebuild(std::move(state));
+}
+
+Eigen::Matrix3Xd ParticleSystem::in_callers_order(const std::vector<Quad>& values) const {
+    Eigen::Matrix3Xd result(3, size());
+    for (Index particle = 0; particle < size(); ++particle) {
+        result.col(particle) = values[at(slot_of_[static_cast<std::size_t>(particle)])].head<3>();
+    }
+    return result;
+}
+
+Eigen::Matrix3Xd ParticleSystem::positions() const {
+    Eigen::Matrix3Xd result = in_callers_order(slots_.position);
+    for (auto position : result.colwise()) {
+        position = cell_.wrap(position);
+    }
+    return result;
+}
+
+Eigen::Matrix3Xd ParticleSystem::velocities() const {
+    return in_callers_order(slots_.velocity);
+}
+
+Eigen::Matrix3Xd ParticleSystem::spins() const {
+    return in_callers_order(slots_.spin);
+}
+
+Eigen::Matrix3Xd ParticleSystem::forces() const {
+    return in_callers_order(slots_.force);
+}
+
+Eigen::Matrix3Xd ParticleSystem::moments() const {
+    return in_callers_order(slots_.moment);
+}
+
+std::vector<Bond> ParticleSystem::bonds() const {
+    std::vector<Bond> bonds;
+    for (const Chunk& chunk : chunks_) {
+        for (const SlotBond& bond : chunk.bonds) {
+            const std::size_t first = at(bond.ends.first);
+            const std::size_t second = at(bond.ends.second);
+            bonds.push_back({slots_.particle[first], slots_.particle[second], slots_.images[second], bond.rest_length, bond.shear,
+                             bond.branch});
+        }
+    }
+    return bonds;
+}
+
+ContactNetwork ParticleSystem::bond_network() const {
+    struct Entry {
+        std::int32_t first, second;
+        Eigen::Vector3d branch;
+    };
+    std::vector<Entry> entries;
+    for (const Bond& bond : bonds()) {
+        const Quad& from = slots_.position[at(slot_of_[at(bond.first)])];
+        const Quad& to = slots_.position[at(slot_of_[at(bond.second)])];
+        const Eigen::Vector3d branch = (to - from).head<3>() + bond.images.cast<double>().cwiseProduct(cell_.lengths());
+        const bool swapped = bond.first > bond.second;
+        entries.push_back(swapped ? Entry{bond.second, bond.first, -branch} : Entry{bond.first, bond.second, branch});
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        const auto key = [](const Entry& e) { return std::make_tuple(e.first, e.second, e.branch[0], e.branch[1], e.branch[2]); };
+        return key(a) < key(b);
+    });
+    ContactNetwork network;
+    network.particles = size();
+    network.ends.resize(2, static_cast<Index>(entries.size()));
+    network.branch.resize(3, static_cast<Index>(entries.size()));
+    for (std::size_t entry = 0; entry < entries.size(); ++entry) {
+        network.ends.col(static_cast<Index>(entry)) << entries[entry].first, entries[entry].second;
+        network.branch.col(static_cast<Index>(entry)) = entries[entry].branch;
+    }
+    return network;
+}
+
+}  // namespace coagula::dem

@@ -1,0 +1,72 @@
+#include <coagula/common/dem/relax.hpp>
+
+#include <coagula/common/dem/minimise.hpp>
+#include <coagula/common/dem/stepper.hpp>
+
+#include <string>
+
+namespace coagula::dem {
+
+namespace {
+
+/// Time in units of sqrt(mass / normal stiffness), which is 1 s by the choice of the mass.
+constexpr double time_step = 0.3;
+constexpr double longest_time_step = 0.5;
+
+void check_options(const RelaxOptions& options) {
+    require_positive(options.normal_stiffness, "the normal contact stiffness", "N/m");
+    require_non_negative(options.shear_stiffness, "the shear contact stiffness", "N/m");
+    require_positive(options.tolerance, "the tolerance of the relaxation");
+    require(options.max_iterations > 0, "the relaxation needs at least one iteration");
+}
+
+/// Calls `advance()`, which returns the rms force, until that is small enough.
+template <class Advance>
+void iterate(Relaxation& result, double force_unit, const RelaxOptions& options, const Progress& progress, Advance&& advance) {
+    while (result.iterations < options.max_iterations && !result.converged) {
+        result.rms_force = advance() / force_unit;
+        result.converged = result.rms_force < options.tolerance;
+        if (result.iterations++ % 50 == 0) {
+            progress.update("relaxation", 0.0, "rms force " + to_text(result.rms_force));
+        }
+    }
+}
+
+template <class BondLaw>
+Relaxation relax_with(const Packing& packing, const ContactNetwork& bonds, const BondLaw& bond, const RelaxOptions& options,
+                      const Progress& progress) {
+    const double radius = mean_radius(packing);
+    ParticleSystem system(packing.cell, packing.positions, packing.radii, 0.1 * radius);
+    system.set_masses(Eigen::VectorXd::Constant(packing.size(), options.normal_stiffness));
+    system.add_bonds(bonds);
+    const Interactions<RepulsiveSpring, BondLaw> laws{RepulsiveSpring(options.normal_stiffness), bond, options.bond_on_touch};
+    const double force_unit = options.normal_stiffness * radius;
+    Relaxation result;
+    if (options.method == RelaxMethod::fire) {
+        Fire fire(system, laws, time_step, longest_time_step);
+        iterate(result, force_unit, options, progress, [&] { return fire.iterate(); });
+    } else {
+        const bool stopped = options.method == RelaxMethod::stopped_steps;
+        const StepOptions stepping{time_step, stopped ? 0.0 : options.damping, stopped};
+        check(stepping);
+        iterate(result, force_unit, options, progress, [&] {
+            step(system, laws, stepping);
+            return rms_force(system);
+        });
+    }
+    result.packing = system.packing();
+    result.bonds = system.bond_network();
+    return result;
+}
+
+}  // namespace
+
+Relaxation relax(const Packing& packing, const ContactNetwork& bonds, const RelaxOptions& options, const Progress& progress) {
+    check_options(options);
+    if (options.shear_stiffness > 0) {
+        return relax_with(packing, bonds, BondedContact(options.normal_stiffness, options.shear_stiffness), options, progress);
+    }
+    return relax_with(packing, bonds, BondSpring(options.normal_stiffness), options, progress);
+}
+
+}  // namespace coagula::dem

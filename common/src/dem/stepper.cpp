@@ -1,0 +1,23 @@
+#include <coagula/common/dem/stepper.hpp>
+
+namespace coagula::dem {
+
+void check(const StepOptions& options) {
+    require_positive(options.time_step, "the time step", "s");
+    require(options.damping >= 0 && options.damping < 1,
+            "the damping coefficient is " + to_text(options.damping) + ", but must lie in [0, 1)");
+}
+
+double rms_force(const ParticleSystem& system, Index particles) {
+    const Index counted = particles < 0 ? system.size() : particles;
+    const Slots& slots = system.slots();
+    double sum = 0;
+    for (const Chunk& chunk : system.chunks()) {
+        for (std::size_t slot = detail::at(chunk.begin); slot < detail::at(chunk.own_end); ++slot) {
+            sum += slots.particle[slot] < counted ? slots.force[slot].squaredNorm() : 0.0;
+        }
+    }
+    return counted > 0 ? std::sqrt(sum / static_cast<double>(counted)) : 0.0;
+}
+
+}  // namespace coagula::dem

@@ -1,0 +1,34 @@
+// Radii of the particles: monodisperse, normal, lognormal or from a table.
+#pragma once
+
+#include <coagula/common/checks.hpp>
+#include <coagula/common/packing.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace coagula::generators {
+
+enum class SizeKind {
+    monodisperse,
+    normal,     ///< cut off 3 standard deviations from the mean
+    lognormal,  ///< its logarithm is normal, cut off at 3 standard deviations of the logarithm
+    table,      ///< given radii with given number fractions
+};
+
+/// Distribution of the radius by number. Lengths in metres.
+struct SizeDistribution {
+    SizeKind kind = SizeKind::monodisperse;
+    double mean_radius = unset;         ///< not for `table`
+    double relative_deviation = unset;  ///< standard deviation over mean of the uncut distribution: normal 0 .. 0.3, lognormal 0 .. 0.5
+    Eigen::VectorXd table_radius;       ///< `table`: any number of radii [m] ...
+    Eigen::VectorXd table_fraction;     ///< ... and the share of particles with each, > 0; scaled to the sum 1
+};
+
+/// n radii [m] in random order. Stratified: one from each of n equally probable intervals (in a table: the nearest whole numbers of
+/// particles), so that few particles represent the distribution, too. For the continuous kinds the radii are scaled to the exact
+/// mean. Throws std::invalid_argument when a parameter is missing or out of range.
+Eigen::VectorXd draw_radii(const SizeDistribution& sizes, Index n, std::uint64_t seed);
+
+}  // namespace coagula::generators
