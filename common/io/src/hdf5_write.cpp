@@ -209,6 +209,11 @@ void File::copy_all_from(const File& source) {
     if (H5Ocopy(source.id_.get(), "/", id_.get(), staging.c_str(), properties.get(), H5P_DEFAULT) < 0) {
         source.fail("/", "cannot be copied: the file is damaged");
     }
+    for (const std::string& name : children("/")) {
+        if ("/" + name != staging) {
+            remove("/" + name);  // H5Ocopy gives every object that a reference points to a second name, "~obj_pointed_by_..."
+        }
+    }
     for (const std::string& name : children(staging)) {
         const std::string from = staging + "/" + name;
         require_written(H5Lmove(id_.get(), from.c_str(), id_.get(), ("/" + name).c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, path_,
