@@ -29,7 +29,7 @@ using Regular = CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_s
 constexpr double flatness = 1e-11;
 
 /// More sites than this do not fit into the memory of the machines this is made for.
-constexpr double most_sites = 1e8;
+constexpr double most_sites = 3e7;
 
 /// Vertices of the facet opposite to vertex i of a cell, in the order that turns its normal towards vertex i.
 constexpr std::array<std::array<int, 3>, 4> facet_of_cell = {{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
@@ -58,6 +58,21 @@ void collect_edges(const Triangulation& triangulation, PowerDiagram& diagram) {
     }
 }
 
+/// Which of its two cells a facet is reported from, and hence the order and sense of the edges, depends on memory addresses in
+/// CGAL. A fixed order makes sums over the edges repeatable to the last bit.
+void put_in_order(std::vector<DiagramEdge>& edges) {
+    for (DiagramEdge& edge : edges) {
+        auto& around = edge.around;
+        std::rotate(around.begin(), std::min_element(around.begin(), around.end()), around.end());
+        if (around[1] > around[2]) {
+            std::swap(around[1], around[2]);
+            std::swap(edge.apex[0], edge.apex[1]);
+        }
+    }
+    std::sort(edges.begin(), edges.end(),
+              [](const DiagramEdge& one, const DiagramEdge& other) { return one.around < other.around; });
+}
+
 template <class Triangulation>
 void triangulate(PowerDiagram& diagram) {
     using Point = typename Triangulation::Point;
@@ -75,6 +90,7 @@ void triangulate(PowerDiagram& diagram) {
     diagram.edges.clear();
     diagram.hull.clear();
     collect_edges(triangulation, diagram);
+    put_in_order(diagram.edges);
 }
 
 void find_edges(PowerDiagram& diagram) {
@@ -297,8 +313,12 @@ double largest_vertex_power(const PowerDiagram& diagram) {
 }
 
 PowerDiagram periodic_diagram(const Packing& packing, const Eigen::VectorXd& radii, double margin) {
-    const double spacing = std::cbrt(packing.cell.volume() / static_cast<double>(packing.size()));
-    margin = margin > 0 ? margin : 2.5 * spacing;
+    const auto particles = static_cast<double>(packing.size());
+    if (margin <= 0) {
+        // Somewhere along the longest side is a slab of thickness length / particles without a centre: some cells are that large.
+        const double slab = packing.cell.lengths().maxCoeff() / particles;
+        margin = std::max(2.5 * std::cbrt(packing.cell.volume() / particles), 0.5 * slab);
+    }
     while (true) {
         PowerDiagram diagram = periodic_sites(packing, radii, margin);
         find_edges(diagram);
