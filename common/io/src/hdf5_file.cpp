@@ -86,7 +86,7 @@ File File::open(const std::string& path) {
     if (!id) {
         throw InputError(path + " " + why_not_opened(path));
     }
-    return {path, std::move(id)};
+    return {path, nullptr, std::move(id)};
 }
 
 void File::fail(const std::string& object, const std::string& rule) const {
@@ -212,6 +212,13 @@ void File::read_numbers(const std::string& dataset, hid_t memory_type, void* val
     const Content found = content(dataset);
     if (found != Content::real && found != Content::integer) {
         fail(dataset, "does not hold numbers");
+    }
+    const Handle properties(H5Dget_create_plist(opened.get()), H5Pclose);
+    const bool chunked = H5Pget_layout(properties.get()) == H5D_CHUNKED;
+    const Handle type(H5Dget_type(opened.get()), H5Tclose);
+    const std::size_t stored = H5Dget_storage_size(opened.get());
+    if (!chunked && stored > 0 && stored < count(shape(dataset)) * H5Tget_size(type.get())) {
+        fail(dataset, "is stored in less room than it needs: the file is damaged");  // HDF5 1.10 would read past the end
     }
     Handle memory;
     if (slice) {

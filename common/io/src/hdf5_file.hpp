@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,8 +23,9 @@ public:
     Handle(hid_t id, Close close) : id_(id), close_(close) {}
     Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
     Handle& operator=(Handle&& other) noexcept {
-        std::swap(id_, other.id_);
-        std::swap(close_, other.close_);
+        Handle old(std::move(*this));
+        id_ = std::exchange(other.id_, H5I_INVALID_HID);
+        close_ = other.close_;
         return *this;
     }
     ~Handle() {
@@ -84,6 +86,9 @@ struct NumberType<std::uint8_t> {
     static hid_t file() { return H5T_STD_U8LE; }
 };
 
+/// The bytes of a file that was built in memory.
+using MemoryImage = std::unique_ptr<char, decltype(&std::free)>;
+
 /// What a dataset holds, as far as coagula reads it.
 enum class Content { real, integer, text, other };
 
@@ -94,8 +99,8 @@ public:
     static File open(const std::string& path);
     static File create(const std::string& path);
 
-    /// Writes a created file to its path by temporary file and rename.
-    void save(bool overwrite) const;
+    /// Closes a created file and writes it to its path by temporary file and rename.
+    void save(bool overwrite);
 
     [[noreturn]] void fail(const std::string& object, const std::string& rule) const;
 
@@ -155,7 +160,9 @@ public:
     static std::size_t count(const Shape& shape);
 
 private:
-    File(std::string path, Handle id) : path_(std::move(path)), id_(std::move(id)) {}
+    File(std::string path, std::unique_ptr<MemoryImage> image, Handle id)
+        : path_(std::move(path)), image_(std::move(image)), id_(std::move(id)) {}
+    void make_room(const std::string& object);
     Handle open_object(const std::string& object) const;
     Handle open_dataset(const std::string& dataset) const;
     Handle slice_of(const std::string& dataset, std::size_t frame) const;
@@ -165,6 +172,7 @@ private:
 
     SilentErrors silent_;
     std::string path_;
+    std::unique_ptr<MemoryImage> image_;  ///< of a created file, filled when it is closed; outlives the handle
     Handle id_;
 };
 

@@ -1,4 +1,6 @@
 // The half of hdf5::File that writes.
+#include <cstdlib>
+#include <cstring>
 #include <iterator>
 #include <stdexcept>
 
@@ -9,10 +11,44 @@ namespace coagula::io::hdf5 {
 
 namespace {
 
-Handle file_access_in_memory() {
+// The callbacks by which HDF5 handles the memory of a file that lies there. They leave it behind when the file is closed.
+
+void* allocate_image(std::size_t size, H5FD_file_image_op_t /*why*/, void* /*image*/) {
+    return std::malloc(size);
+}
+
+void* copy_image(void* to, const void* from, std::size_t size, H5FD_file_image_op_t /*why*/, void* /*image*/) {
+    return std::memcpy(to, from, size);
+}
+
+void* resize_image(void* memory, std::size_t size, H5FD_file_image_op_t /*why*/, void* /*image*/) {
+    return std::realloc(memory, size);
+}
+
+herr_t leave_image(void* memory, H5FD_file_image_op_t why, void* image) {
+    if (why == H5FD_FILE_IMAGE_OP_FILE_CLOSE) {
+        static_cast<MemoryImage*>(image)->reset(static_cast<char*>(memory));
+    } else {
+        std::free(memory);
+    }
+    return 0;
+}
+
+void* share_image(void* image) {
+    return image;
+}
+
+herr_t forget_image(void* /*image*/) {
+    return 0;
+}
+
+Handle file_access_in_memory(MemoryImage& image) {
     constexpr std::size_t growth = std::size_t{1} << 24;
     Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_core(properties.get(), growth, false);
+    H5Pset_libver_bounds(properties.get(), H5F_LIBVER_V18, H5F_LIBVER_V18);  // object headers carry checksums
+    H5FD_file_image_callbacks_t callbacks{allocate_image, copy_image, resize_image, leave_image, share_image, forget_image, &image};
+    H5Pset_file_image_callbacks(properties.get(), &callbacks);
     return properties;
 }
 
@@ -60,12 +96,6 @@ Handle creation_properties(const Shape& shape, std::size_t value_size) {
     return properties;
 }
 
-Handle link_creation() {
-    Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(properties.get(), 1);
-    return properties;
-}
-
 Handle group_creation() {
     Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
     H5Pset_obj_track_times(properties.get(), false);
@@ -103,33 +133,44 @@ void require_written(bool done, const std::string& path, const std::string& obje
 
 File File::create(const std::string& path) {
     const SilentErrors silent;
-    const Handle access = file_access_in_memory();
+    auto image = std::make_unique<MemoryImage>(nullptr, std::free);
+    const Handle access = file_access_in_memory(*image);
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_obj_track_times(creation.get(), false);
     Handle id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
     require_written(static_cast<bool>(id), path, "a new file");
-    return {path, std::move(id)};
+    return {path, std::move(image), std::move(id)};
 }
 
-void File::save(bool overwrite) const {
-    require_written(H5Fflush(id_.get(), H5F_SCOPE_LOCAL) >= 0, path_, "to flush");
-    const ssize_t size = H5Fget_file_image(id_.get(), nullptr, 0);
-    std::vector<char> image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
-    require_written(size > 0 && H5Fget_file_image(id_.get(), image.data(), image.size()) == size, path_, "the file image");
-    write_file(path_, image, overwrite);
+void File::save(bool overwrite) {
+    require_written(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL) >= 0, path_, "to flush");
+    id_ = Handle();
+    require_written(static_cast<bool>(*image_), path_, "to close");
+    // The end of the file by its superblock (HDF5 File Format Specification, version 2: bytes 28 to 35); the memory is larger.
+    // H5Fget_file_image is of no use: the superblock that it gives has a wrong checksum in HDF5 1.10.
+    std::uint64_t size = 0;
+    std::memcpy(&size, image_->get() + 28, sizeof size);
+    write_file(path_, {image_->get(), size}, overwrite);
 }
 
 void File::create_group(const std::string& group) {
-    if (!has(group)) {
-        const Handle created(H5Gcreate2(id_.get(), group.c_str(), link_creation().get(), group_creation().get(), H5P_DEFAULT),
-                             H5Gclose);
-        require_written(static_cast<bool>(created), path_, group);
+    if (group.empty() || has(group)) {
+        return;
     }
+    make_room(group);
+    const Handle created(H5Gcreate2(id_.get(), group.c_str(), H5P_DEFAULT, group_creation().get(), H5P_DEFAULT), H5Gclose);
+    require_written(static_cast<bool>(created), path_, group);
+}
+
+/// Removes what bears the name and makes the groups on the way to it. (HDF5 would make them, too, but with time stamps.)
+void File::make_room(const std::string& object) {
+    remove(object);
+    create_group(object.substr(0, object.rfind('/')));
 }
 
 void File::write_numbers(const std::string& dataset, const Shape& shape, hid_t file_type, hid_t memory_type, const void* values) {
-    remove(dataset);
-    const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), file_type, array_space(shape).get(), link_creation().get(),
+    make_room(dataset);
+    const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), file_type, array_space(shape).get(), H5P_DEFAULT,
                                     creation_properties(shape, H5Tget_size(file_type)).get(), H5P_DEFAULT),
                          H5Dclose);
     require_written(
@@ -138,10 +179,10 @@ void File::write_numbers(const std::string& dataset, const Shape& shape, hid_t f
 }
 
 void File::write_text(const std::string& dataset, const std::string& text) {
-    remove(dataset);
+    make_room(dataset);
     const Handle type = text_type(H5T_VARIABLE);
     const char* pointer = text.c_str();
-    const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), type.get(), scalar_space().get(), link_creation().get(),
+    const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), type.get(), scalar_space().get(), H5P_DEFAULT,
                                     creation_properties({}, 1).get(), H5P_DEFAULT),
                          H5Dclose);
     require_written(
@@ -194,8 +235,9 @@ void File::set_reference(const std::string& object, const std::string& name, con
 }
 
 void File::link(const std::string& existing, const std::string& name) {
-    require_written(H5Lcreate_hard(id_.get(), existing.c_str(), id_.get(), name.c_str(), link_creation().get(), H5P_DEFAULT) >= 0,
-                    path_, name);
+    make_room(name);
+    require_written(H5Lcreate_hard(id_.get(), existing.c_str(), id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, path_,
+                    name);
 }
 
 void File::remove(const std::string& object) {

@@ -3,6 +3,7 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <filesystem>
 
 #include "hdf5_file.hpp"
 #include "layout.hpp"
@@ -116,7 +117,8 @@ void write_structure(const std::string& path, const Structure& structure, const 
 void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
                  const std::optional<ContactNetwork>& bonds, const std::vector<ParticleField>& fields,
                  const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite) {
-    const bool in_place = source == target;
+    std::error_code missing;
+    const bool in_place = std::filesystem::equivalent(source, target, missing);
     check_output(target, overwrite || in_place);
     const File old = File::open(source);
     const Structure structure = read_structure(old);
