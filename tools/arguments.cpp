@@ -158,8 +158,7 @@ std::string Range::text() const {
     const bool has_high = std::isfinite(high);
     const std::string equal = ends_included ? "= " : " ";
     if (has_low && has_high) {
-        return ends_included ? to_text(low) + " .. " + to_text(high)
-                             : "greater than " + to_text(low) + " and less than " + to_text(high);
+        return ends_included ? to_text(low) + " .. " + to_text(high) : "> " + to_text(low) + " and < " + to_text(high);
     }
     return has_low ? ">" + equal + to_text(low) : (has_high ? "<" + equal + to_text(high) : "");
 }
@@ -196,7 +195,7 @@ Option count(std::string name, std::string meaning, std::string fallback, Range 
 Option quantity(std::string name, std::string unit, std::string meaning, std::string fallback, Range range) {
     return {.kind = Option::Kind::quantity,
             .name = std::move(name),
-            .placeholder = unit == "1" ? "X" : "X" + unit,
+            .placeholder = "X",
             .meaning = std::move(meaning),
             .unit = unit,
             .fallback = std::move(fallback),

@@ -20,7 +20,7 @@ struct Range {
     bool ends_included = true;
 
     bool holds(double value) const;
-    /// Such as "> 0", "3 .. 100"; empty when everything is allowed.
+    /// Such as "> 0", "> 0 and < 1", "3 .. 100"; empty when everything is allowed.
     std::string text() const;
 };
 Range at_least(double low);

@@ -1,6 +1,9 @@
 #include "characterize_results.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace coagula::tools {
 
@@ -35,7 +38,14 @@ void append_coordination(Results& results, const characterize::Coordination& coo
     const auto add = [&results](const std::string& name, double value, const std::string& description) {
         results.push_back(io::scalar(group + name, value, "1", description));
     };
-    add("coordination", coordination.mean, "mean number of contacts of a particle, rattlers included");
+    const bool has_surface = coordination.inner_particles < coordination.contacts.particles;
+    add("coordination", coordination.mean,
+        std::string("mean number of contacts of ") + (has_surface ? "an inner particle" : "a particle") + ", rattlers included");
+    if (has_surface) {
+        results.push_back(io::integer(group + "inner_particles", coordination.inner_particles,
+                                      "particles that no neighbour beyond the free surface could touch: the means are over these"));
+        add("coordination_all", coordination.mean_all, "mean number of contacts of a particle, those at the free surface included");
+    }
     add("contact_tolerance", tolerance, "pairs nearer than (1 + tolerance) (r_i + r_j) are in contact");
     add("coordination_without_rattlers", coordination.mean_without_rattlers, "contacts among the other particles, per particle");
     add("rattler_fraction", coordination.rattler_fraction, "fraction of the particles that carry no load");
@@ -111,8 +121,12 @@ void append_check(Results& results, const SampledCheck& check) {
                                  "sampled P(r_P > r) at the radii of pore_curve"));
 }
 
+/// "0.4566 +- 0.0014": as many decimals as the error has with two digits.
 std::string with_error(double value, double error) {
-    return with_unit(value, "1") + " +- " + with_unit(error, "1");
+    const int decimals = error > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12) : 5;
+    std::array<char, 64> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.*f +- %.*f", decimals, value, decimals, error);
+    return buffer.data();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "progress_bar.hpp"
 #include "provenance.hpp"
 #include "report.hpp"
+#include "size_distribution_text.hpp"
 #include "verbs.hpp"
 
 #include <coagula/generators/void_expansion.hpp>
@@ -20,7 +21,9 @@ generators::VoidExpansionOptions expansion_options(const Arguments& arguments) {
     options.target_coordination = arguments.quantity("target-coordination");
     options.contact_tolerance = arguments.quantity("contact-tolerance");
     options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    options.radii = Eigen::VectorXd::Constant(options.particles, arguments.quantity("radius"));
+    options.radii =
+        generators::draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
+                               options.particles, options.seed);
     return options;
 }
 
@@ -77,7 +80,7 @@ Verb generate_vem_verb() {
                     count("voids", "number of void particles, fewer make it more heterogeneous; half of N when not given", "",
                           within(0, 1e9)),
                     required(quantity("volume-fraction", "1", "volume of the spheres over that of the box", "", between(0, 0.64))),
-                    required(quantity("radius", "m", "(mean) radius of the particles", "", above(0))),
+                    quantity("radius", "m", "mean radius of the particles; required, unless a table gives the radii", "", above(0)),
                     text("size-distribution", "NAME",
                          "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) "
                          "or FILE.csv",

@@ -1,6 +1,7 @@
 #include "output_file.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/structure_file.hpp>
 
 #include <unistd.h>
 
@@ -17,23 +18,18 @@ void check_folder(const std::string& path) {
     const fs::path parent = fs::path(path).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     if (!fs::is_directory(folder)) {
-        throw InputError(path + " cannot be written: there is no folder " + folder);
+        throw InputError("cannot write " + path + ": there is no folder " + folder);
     }
     if (access(folder.c_str(), W_OK | X_OK) != 0) {
-        throw InputError(path + " cannot be written: no permission to write in the folder " + folder);
+        throw InputError("cannot write " + path + ": no permission to write in the folder " + folder);
     }
 }
 
 }  // namespace
 
 void check_output(const std::string& path, bool force) {
+    io::check_output(path, force);
     check_folder(path);
-    if (fs::is_directory(path)) {
-        throw InputError(path + " cannot be written: it is a folder");
-    }
-    if (fs::exists(path) && !force) {
-        throw InputError(path + " already exists; give another name or --force to replace it");
-    }
 }
 
 std::string checked_target(const Arguments& arguments) {

@@ -6,8 +6,12 @@
 #include "shear_results.hpp"
 #include "verbs.hpp"
 
+#include <coagula/characterize/inner_particles.hpp>
+#include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>
+
+#include <algorithm>
 
 namespace coagula::tools {
 
@@ -27,6 +31,7 @@ mechanics::LinearOptions linear_options(const Arguments& arguments) {
     options.solver = chosen_solver(arguments.text("solver"));
     options.memory_limit = arguments.quantity("memory-limit");
     options.tolerance = arguments.quantity("tolerance");
+    options.modulus_tolerance = arguments.quantity("modulus-tolerance");
     return options;
 }
 
@@ -36,15 +41,27 @@ void check_method(const std::string& method) {
     }
 }
 
+/// A sample with a free surface is strained by its outer particles, those whose Voronoi cells the surroundings could change; the
+/// stress is averaged over the cells of the others.
+void hold_surface(const Packing& packing, mechanics::LinearOptions& options) {
+    const std::vector<bool> inner = characterize::inner_particles(packing);
+    options.held.resize(inner.size());
+    std::transform(inner.begin(), inner.end(), options.held.begin(), [](bool is_inner) { return !is_inner; });
+    options.volume = characterize::measure_pores(packing, {.radii = 4}).volume;
+}
+
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     check_method(arguments.text("method"));
-    const mechanics::LinearOptions options = linear_options(arguments);
+    mechanics::LinearOptions options = linear_options(arguments);
     const double tolerance = arguments.quantity("bond-tolerance");
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
 
+    if (!packing.cell.is_periodic()) {
+        hold_surface(packing, options);
+    }
     const ContactNetwork bonds = find_contacts(packing, tolerance);
     const mechanics::LinearResponse response = mechanics::solve_linear(packing, bonds, options, progress);
     const Results results = datasets_of(response, tolerance, options);
@@ -77,7 +94,9 @@ Verb shear_verb() {
                     quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
                     choice("solver", {"auto", "direct", "iterative"}, "of the linear equations", "auto"),
                     quantity("memory-limit", "byte", "memory of the direct solver; beyond it 'auto' iterates", "4GB", above(0)),
-                    quantity("tolerance", "1", "relative residual to which every strain is solved", "1e-10", within(1e-14, 1e-2)),
+                    quantity("tolerance", "1", "direct solver: relative residual of every strain", "1e-10", within(1e-14, 1e-2)),
+                    quantity("modulus-tolerance", "1", "iterative solver: estimated relative error of the moduli", "1e-5",
+                             within(1e-12, 1e-2)),
                     output("write to a new file; results are added to the input file when not given"),
                     flag("force", "replace an existing output file")},
         .run = run,

@@ -1,5 +1,6 @@
 #include "shear_results.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace coagula::tools {
@@ -48,6 +49,19 @@ void append_network(Results& results, const LinearResponse& response, double bon
                                  "of a contact: two particles in series"));
 }
 
+void append_boundary(Results& results, const mechanics::LinearOptions& options) {
+    const bool periodic = options.held.empty();
+    results.push_back(io::text(group + "boundary", periodic ? "periodic" : "held surface",
+                               periodic
+                                   ? "the cell is periodic"
+                                   : "particles at the free surface follow the strain, the stress is averaged over the others"));
+    if (!periodic) {
+        results.push_back(io::integer(group + "held_particles", std::count(options.held.begin(), options.held.end(), true),
+                                      "particles that follow the strain"));
+        results.push_back(io::scalar(group + "volume", options.volume, "m3", "volume of the other particles' Voronoi cells"));
+    }
+}
+
 void append_moduli(Results& results, const LinearResponse& response) {
     const auto add = [&results](const std::string& name, double value, const std::string& description) {
         results.push_back(io::scalar(group + name, value, "Pa", description));
@@ -87,6 +101,7 @@ void append_solution(Results& results, const LinearResponse& response) {
 Results datasets_of(const LinearResponse& response, double bond_tolerance, const mechanics::LinearOptions& options) {
     Results results;
     append_network(results, response, bond_tolerance, options);
+    append_boundary(results, options);
     append_moduli(results, response);
     append_tensors(results, response);
     append_solution(results, response);

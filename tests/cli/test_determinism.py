@@ -1,0 +1,60 @@
+"""The same command with the same seed gives the same bytes in every data set, /provenance aside, for any number of threads."""
+
+import unittest
+
+from support import ProgramTest, VEM
+
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
+
+def data_sets(path):
+    """Raw bytes, type and attributes by path."""
+    found = {}
+
+    def visit(name, item):
+        if isinstance(item, h5py.Dataset) and not name.startswith("provenance"):
+            found[name] = (item.dtype, item.shape, item[()].tobytes() if item.shape is not None else b"",
+                           {key: str(value) for key, value in item.attrs.items()})
+
+    with h5py.File(path) as file:
+        file.visititems(visit)
+    return found
+
+
+@unittest.skipIf(h5py is None, "needs python3-h5py")
+class SameBytes(ProgramTest):
+    def make(self, name, threads, seed=1):
+        common = ["--threads", threads, "--quiet"]
+        self.succeed(*VEM, "--seed", seed, "-o", name, *common)
+        self.succeed("characterize", name, "--samples", 20000, *common)
+        self.succeed("shear", name, *common)
+        return data_sets(self.folder / name)
+
+    def test_one_and_two_threads(self):
+        one = self.make("one.h5", 1)
+        two = self.make("two.h5", 2)
+        self.assertGreater(len(one), 60)
+        self.assertIn("mechanics/linear/elastic_tensor", one)
+        self.assertEqual(one.keys(), two.keys())
+        for name in one:
+            self.assertEqual(one[name], two[name], name)
+
+    def test_another_seed_gives_another_packing(self):
+        one = self.make("one.h5", 2, seed=1)
+        other = self.make("other.h5", 2, seed=2)
+        self.assertNotEqual(one["particles/trajectory/position/value"], other["particles/trajectory/position/value"])
+
+    def test_repeating_a_stage_replaces_its_results(self):
+        self.make("a.h5", 2)
+        first = data_sets(self.folder / "a.h5")
+        self.succeed("characterize", "a.h5", "--samples", 20000)
+        self.succeed("shear", "a.h5")
+        self.assertEqual(first, data_sets(self.folder / "a.h5"))
+        self.assertEqual(len(self.succeed_json("info", "a.h5")["provenance"]), 5)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,62 @@
+"""Ctrl-C: a sentence, exit code 1, nothing left behind; a second one ends at once."""
+
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from support import PROGRAM, ProgramTest, checksum
+
+LONG_RUN = ["generate", "vem", "--particles", "100000", "--volume-fraction", "0.4", "--radius", "1um", "--seed", "1", "-o", "out.h5"]
+
+
+class Interruption(ProgramTest):
+    def start(self, *words):
+        process = subprocess.Popen([PROGRAM, *words], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        time.sleep(1.5)
+        self.assertIsNone(process.poll(), "the run was over before it could be interrupted")
+        return process
+
+    def interrupt(self, process, number=signal.SIGINT):
+        process.send_signal(number)
+        output, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertEqual(output, "")
+        self.check_sentence(errors, "interrupted")
+
+    def test_generation(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.interrupt(self.start(*LONG_RUN), number)
+            self.assertEqual(os.listdir(self.folder), [])
+
+    def test_older_output_is_untouched(self):
+        old = self.write("out.h5", "precious")
+        before = checksum(old)
+        self.interrupt(self.start(*LONG_RUN, "--force"))
+        self.assertEqual(checksum(old), before)
+        self.assertEqual(os.listdir(self.folder), ["out.h5"])
+
+    def test_characterization_leaves_its_input_alone(self):
+        source = self.copy_of_packing()
+        before = checksum(source)
+        self.interrupt(self.start("characterize", "packing.h5", "--radii", "100000"))
+        self.assertEqual(checksum(source), before)
+        self.assertEqual(os.listdir(self.folder), ["packing.h5"])
+
+    def test_second_signal_ends_at_once(self):
+        process = self.start(*LONG_RUN)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=10)
+        self.assertIn(process.returncode, (-signal.SIGINT, -signal.SIGTERM, 1))
+        self.assertEqual(os.listdir(self.folder), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

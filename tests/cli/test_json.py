@@ -1,0 +1,154 @@
+"""The machine-readable results: keys, shapes and relations between the values."""
+
+import math
+import unittest
+
+from support import ProgramTest, VEM
+
+R0 = 0.25e-6
+
+
+class Characterize(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.copy_of_packing()
+
+    def test_keys_and_values(self):
+        found = self.succeed_json("characterize", "packing.h5")
+        self.assertEqual(found["particles"], 500)
+        self.assertAlmostEqual(found["volume_fraction"], 0.4, delta=1e-9)
+        edge = (500 * 4 / 3 * math.pi * R0**3 / 0.4) ** (1 / 3)
+        for length in found["box"]:
+            self.assertAlmostEqual(length / edge, 1, delta=1e-9)
+        self.assertEqual(found["contact_tolerance"], 0.01)
+        self.assertGreater(found["coordination"], 4.5)
+        self.assertLess(found["coordination"], 5.0)
+        self.assertTrue(0 <= found["rattler_fraction"] < 0.2)
+        self.assertEqual(set(found["doh"]), {"a", "b", "a_stderr", "b_stderr", "rms_residual"})
+        self.assertTrue(0.38 < found["doh"]["a"] < 0.55)
+        self.assertLess(found["doh"]["rms_residual"], 0.03)
+        self.assertTrue(0 <= found["overlap"]["mean"] <= found["overlap"]["max"] < 0.02)
+
+    def test_histogram_adds_up(self):
+        found = self.succeed_json("characterize", "packing.h5", "--only", "coordination")
+        histogram = found["coordination_histogram"]
+        self.assertEqual(sum(histogram), 500)
+        contacts = sum(count * number for number, count in enumerate(histogram))
+        self.assertAlmostEqual(contacts / 500, found["coordination"], delta=1e-12)
+        self.assertEqual(contacts, 2 * found["contacts"])
+
+    def test_pore_sizes_in_radii_and_metres(self):
+        pores = self.succeed_json("characterize", "packing.h5", "--only", "pores")["pore_size"]
+        for name, suffix, unit in (("mean", "_m", R0), ("median", "_m", R0), ("max", "_m", R0), ("second_moment", "_m2", R0**2)):
+            self.assertAlmostEqual(pores[name + suffix] / unit / pores[name], 1, delta=1e-6)
+        self.assertLess(pores["median"], pores["max"])
+        self.assertGreater(pores["second_moment"], pores["mean"] ** 2)
+
+    def test_pore_curve(self):
+        curve = self.succeed_json("characterize", "packing.h5", "--radii", "50", "--only", "doh")["pore_curve"]
+        probability = curve["exclusion_probability"]
+        self.assertEqual([len(values) for values in curve.values()], [50, 50, 50])
+        self.assertAlmostEqual(probability[0], 1, delta=1e-9)
+        self.assertAlmostEqual(probability[-1], 0, delta=1e-9)
+        self.assertEqual(probability, sorted(probability, reverse=True))
+
+    def test_only_leaves_out_the_rest(self):
+        found = self.succeed_json("characterize", "packing.h5", "--only", "overlap")
+        self.assertIn("overlap", found)
+        for name in ("doh", "pore_size", "coordination"):
+            self.assertNotIn(name, found)
+
+    def test_exact_curve_agrees_with_samples(self):
+        check = self.succeed_json("characterize", "packing.h5", "--samples", "200000", "--seed", "3")["sampled_check"]
+        self.assertGreater(check["radii"], 100)
+        self.assertGreater(check["void_points"], 100000)
+        # The 200 radii share their points; the largest deviation of such a curve exceeds 4 in fewer than one seed in a thousand.
+        self.assertLess(check["largest_z"], 4)
+        self.assertGreater(check["largest_z"], 0.1)
+
+
+class Shear(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.copy_of_packing()
+
+    def test_keys_and_values(self):
+        found = self.succeed_json("shear", "packing.h5")
+        self.assertEqual(found["method"], "linear")
+        self.assertAlmostEqual(found["contact_stiffness"]["normal"], 50, delta=1e-9)
+        self.assertAlmostEqual(found["contact_stiffness"]["shear"], 5, delta=1e-9)
+        self.assertTrue(1000 < found["contacts"] < 1300)
+        self.assertIn("floppy_modes", found)
+        self.assertGreaterEqual(found["rattlers"], 0)
+        planes = {"xy", "xz", "yx", "yz", "zx", "zy"}
+        self.assertEqual(set(found["storage_modulus"]), planes | {"mean", "std"})
+        self.assertEqual(set(found["loss_modulus"]), planes | {"mean", "std"})
+        self.assertEqual(found["phase"], 0)
+        self.assertGreater(found["seconds"], 0)
+
+    def test_moduli_are_those_of_the_tensor(self):
+        found = self.succeed_json("shear", "packing.h5")
+        tensor = found["elastic_tensor"]
+        self.assertEqual([len(row) for row in tensor], [6] * 6)
+        largest = max(abs(value) for row in tensor for value in row)
+        for i in range(6):
+            for j in range(6):
+                self.assertAlmostEqual(tensor[i][j] / largest, tensor[j][i] / largest, delta=1e-8)
+        modulus = found["storage_modulus"]
+        for place, names in ((3, ("yz", "zy")), (4, ("xz", "zx")), (5, ("xy", "yx"))):
+            for name in names:
+                self.assertAlmostEqual(modulus[name] / tensor[place][place], 1, delta=1e-12)
+        six = [modulus[name] for name in ("xy", "xz", "yx", "yz", "zx", "zy")]
+        self.assertAlmostEqual(sum(six) / 6 / modulus["mean"], 1, delta=1e-12)
+        self.assertTrue(0 < modulus["mean"] < found["affine_modulus"])
+
+    def test_modulus_is_proportional_to_the_stiffness(self):
+        once = self.succeed_json("shear", "packing.h5", "-o", "a.h5")
+        twice = self.succeed_json("shear", "packing.h5", "-o", "b.h5", "--normal-stiffness", "200N/m", "--shear-stiffness", "20N/m")
+        ratio = twice["storage_modulus"]["mean"] / once["storage_modulus"]["mean"]
+        self.assertAlmostEqual(ratio, 2, delta=1e-6)
+
+    def test_direct_and_iterative_agree(self):
+        direct = self.succeed_json("shear", "packing.h5", "-o", "a.h5", "--solver", "direct")
+        iterative = self.succeed_json("shear", "packing.h5", "-o", "b.h5", "--solver", "iterative")
+        self.assertEqual((direct["solver"], iterative["solver"]), ("direct", "iterative"))
+        ratio = iterative["storage_modulus"]["mean"] / direct["storage_modulus"]["mean"]
+        self.assertAlmostEqual(ratio, 1, delta=1e-6)
+
+
+class OtherVerbs(ProgramTest):
+    def test_generate(self):
+        made = self.succeed_json(*VEM, "--seed", "2", "-o", "a.h5")
+        self.assertEqual((made["particles"], made["voids"], made["seed"]), (500, 250, 2))
+        self.assertAlmostEqual(made["coordination"], 4.69, delta=0.15)
+        self.assertLess(made["overlap"]["rms"], 0.005)
+
+    def test_info_lists_results_with_units_and_history(self):
+        self.copy_of_packing()
+        found = self.succeed_json("characterize", "packing.h5", "--only", "coordination")
+        sheared = self.succeed_json("shear", "packing.h5")
+        info = self.succeed_json("info", "packing.h5")
+        self.assertEqual((info["particles"], info["periodic"]), (500, True))
+        self.assertEqual(info["bonds"], sheared["contacts"])
+        self.assertEqual(info["results"]["/characterization/coordination"]["value"], found["coordination"])
+        modulus = info["results"]["/mechanics/linear/storage_modulus/mean"]
+        self.assertEqual((modulus["value"], modulus["unit"]), (sheared["storage_modulus"]["mean"], "Pa"))
+        for result in info["results"].values():
+            self.assertTrue(result["unit"] and result["description"])
+        history = info["provenance"]
+        self.assertEqual([entry["stage"] for entry in history], ["generate vem", "characterize", "shear"])
+        self.assertEqual(history[0]["options"]["particles"], 500)
+        self.assertEqual(history[0]["seed"], 1)
+        self.assertEqual(history[1]["positions_sha256"], history[2]["positions_sha256"])
+        self.assertRegex(history[1]["positions_sha256"], "^[0-9a-f]{64}$")
+        self.assertIn("coagula shear packing.h5", history[2]["command_line"])
+
+    def test_tables_for_people(self):
+        self.copy_of_packing()
+        self.assertRegex(self.succeed("characterize", "packing.h5"), r"degree of heterogeneity a +0\.\d+ \+- ")
+        self.assertRegex(self.succeed("shear", "packing.h5"), r"shear modulus G' +\d.* [kM]Pa")
+        self.assertEqual(self.succeed("shear", "packing.h5", "--quiet"), "")
+
+
+if __name__ == "__main__":
+    unittest.main()
