@@ -138,14 +138,17 @@ double integrate(const Eigen::ArrayXd& values, double step) {
     return sum * step;
 }
 
-/// Radius where the curve passes 1/2, by linear interpolation.
+/// Radius where the curve passes 1/2, from the parabola r(P) through the three nearest points.
 double find_median(const Eigen::ArrayXd& probability, const Eigen::ArrayXd& radius) {
-    Index k = 1;
-    while (k + 1 < probability.size() && probability[k] > 0.5) {
-        ++k;
+    Index middle = 1;
+    while (middle + 2 < probability.size() && probability[middle] > 0.5) {
+        ++middle;
     }
-    const double fraction = (probability[k - 1] - 0.5) / (probability[k - 1] - probability[k]);
-    return radius[k - 1] + fraction * (radius[k] - radius[k - 1]);
+    const Eigen::Array3d p = probability.segment(middle - 1, 3) - 0.5;
+    const Eigen::Array3d r = radius.segment(middle - 1, 3);
+    const double first = (r[1] - r[0]) / (p[1] - p[0]);
+    const double second = (r[2] - r[1]) / (p[2] - p[1]);
+    return r[0] - p[0] * first + p[0] * p[1] * (second - first) / (p[2] - p[0]);
 }
 
 /// Intervals of the curve that is computed, per interval of the one that is returned: the moments are to be exact to 1e-6.
