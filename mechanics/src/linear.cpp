@@ -1,1 +1,257 @@
 #include <coagula/mechanics/linear.hpp>
+
+#include "blas_threads.hpp"
+#include "cholesky_factor.hpp"
+#include "conjugate_gradients.hpp"
+#include "load_bearing.hpp"
+#include "schwarz.hpp"
+#include "stiffness.hpp"
+
+#include <coagula/common/contact_law.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace coagula::mechanics {
+
+namespace {
+
+constexpr double floppy_threshold = 1e-6;   // pivots below this, in contact stiffnesses, have no stiffness
+constexpr int direct_blas_threads = 2;      // fixed: the bits of a factor depend on it
+constexpr int most_direct_iterations = 60;  // a good shift needs fewer than ten
+constexpr int most_schwarz_iterations = 2000;
+
+/// Voigt index of a pair of axes.
+int voigt(int a, int b) {
+    constexpr std::array<std::array<int, 3>, 3> index{{{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}};
+    return index.at(static_cast<std::size_t>(a)).at(static_cast<std::size_t>(b));
+}
+
+constexpr std::array<std::pair<int, int>, 6> orientations{{{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}}};
+
+BondedContact contact_law(const LinearOptions& options) {
+    require_positive(options.normal_stiffness, "the normal particle stiffness", "N/m");
+    require_non_negative(options.shear_stiffness, "the shear particle stiffness", "N/m");
+    return {stiffness_in_series(options.normal_stiffness, options.normal_stiffness),
+            stiffness_in_series(options.shear_stiffness, options.shear_stiffness)};
+}
+
+void check(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options) {
+    require(bonds.particles == packing.size(), "the bonds belong to a packing of " + std::to_string(bonds.particles) +
+                                                   " particles, the packing has " + std::to_string(packing.size()));
+    require_positive(options.tolerance, "the tolerance of the solver");
+    require_positive(options.modulus_tolerance, "the tolerance of the moduli");
+    require_between(options.shift, 0.0, 1e-3, "the shift of the preconditioner");
+    if (options.held.empty()) {
+        require(packing.cell.is_periodic(), "the packing has a free surface: its outer particles must be held to be sheared");
+        return;
+    }
+    require(options.held.size() == static_cast<std::size_t>(packing.size()),
+            "the flags of the held particles must be one per particle");
+    require_positive(options.volume, "the volume of the particles that are not held", "m^3");
+}
+
+/// K, its loads and what solves it.
+struct Problem {
+    BlockMatrix full;
+    BlockMatrix upper;  ///< with the free spins stiffened, for the preconditioner
+    Loads loads;
+    Block affine;
+    Index spins = 0;
+};
+
+Problem build_problem(const LinearNetwork& network) {
+    Problem problem;
+    problem.upper = network.stiffness();
+    problem.full = both_triangles(problem.upper);
+    problem.spins = network.stiffen_spins(problem.upper);
+    problem.loads = network.loads();
+    problem.affine = network.affine_energy();
+    return problem;
+}
+
+/// Direct: conjugate gradients preconditioned by the factor of K + shift I. A larger shift where rounding errors win.
+Solution solve_directly(const Problem& problem, const EliminationOrder& order, const LinearOptions& options,
+                        const Progress& progress, LinearResponse& response) {
+    const BlasThreads threads(direct_blas_threads);
+    const StopRule rule{.residual = options.tolerance, .energy = 0, .most_iterations = most_direct_iterations};
+    for (double shift = options.shift; shift <= 1e-5; shift *= 100) {
+        progress.update("factorising", 0.1);
+        const CholeskyFactor factor(problem.upper, shift, order);
+        if (response.floppy_modes < 0) {
+            response.floppy_modes = problem.spins + factor.pivots_below(floppy_threshold);
+        }
+        Solution solution = conjugate_gradients(
+            problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { factor.solve(r, z); }, rule,
+            progress);
+        if (solution.converged) {
+            return solution;
+        }
+    }
+    throw std::runtime_error("the direct solver did not reach the residual " + to_text(options.tolerance) +
+                             "; the network is too close to losing its stiffness, or the tolerance is too small");
+}
+
+Solution solve_iteratively(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
+                           const Progress& progress) {
+    const BlasThreads threads(1);  // the boxes run in parallel, not the kernels
+    Eigen::Matrix3Xd fraction(3, static_cast<Index>(kept.particle.size()));
+    for (Index place = 0; place < fraction.cols(); ++place) {
+        const Eigen::Vector3d position = packing.cell.wrap(packing.positions.col(kept.particle[static_cast<std::size_t>(place)]));
+        fraction.col(place) = (position - packing.cell.origin()).cwiseQuotient(packing.cell.lengths());
+    }
+    const SchwarzPreconditioner schwarz(problem.upper, problem.full, fraction, packing.cell.lengths(), SchwarzOptions{}, progress);
+    const StopRule rule{
+        .residual = options.tolerance, .energy = options.modulus_tolerance, .most_iterations = most_schwarz_iterations};
+    Solution solution = conjugate_gradients(
+        problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { schwarz.solve(r, z); }, rule,
+        progress);
+    if (!solution.converged) {
+        throw std::runtime_error("the iterative solver did not converge in " + std::to_string(solution.iterations) +
+                                 " iterations; the network is too close to losing its stiffness");
+    }
+    return solution;
+}
+
+Solution solve(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
+               const Progress& progress, LinearResponse& response) {
+    const EliminationOrder order(problem.upper, Ordering::nested_dissection);
+    response.predicted_memory = order.predicted_memory();
+    const bool direct = options.solver == LinearSolver::direct ||
+                        (options.solver == LinearSolver::automatic && order.predicted_memory() <= options.memory_limit);
+    response.solver_used = direct ? LinearSolver::direct : LinearSolver::iterative;
+    Solution solution = direct ? solve_directly(problem, order, options, progress, response)
+                               : solve_iteratively(problem, packing, kept, options, progress);
+    response.iterations = solution.iterations;
+    response.residual = solution.residual;
+    response.modulus_error = direct ? 0.0 : solution.energy_error;
+    return solution;
+}
+
+/// Second derivative of the minimal energy: correct to second order in the error of the motion.
+Block minimal_energy(const Problem& problem, const Loads& motion) {
+    Loads force;
+    multiply(problem.full, motion, force);
+    const Block work = problem.loads.transpose() * motion;
+    const Block energy = problem.affine - work - work.transpose() + motion.transpose() * force;
+    return 0.5 * (energy + energy.transpose());
+}
+
+/// Half of every bond belongs to each of its ends; held particles lie outside the measured volume.
+std::vector<double> bond_weights(const std::vector<LinearBond>& bonds) {
+    std::vector<double> weights;
+    weights.reserve(bonds.size());
+    for (const LinearBond& bond : bonds) {
+        weights.push_back((bond.first >= 0 ? 0.5 : 0.0) + (bond.second >= 0 ? 0.5 : 0.0));
+    }
+    return weights;
+}
+
+/// Writes the motion of the load-bearing particles into fields over all particles.
+void store_motion(const Packing& packing, const LoadBearing& kept, const Loads& motion, bool periodic, LinearResponse& response) {
+    const double r0 = mean_radius(packing);
+    const auto count = static_cast<double>(std::max<std::size_t>(1, kept.particle.size()));
+    for (int strain = 0; strain < 6; ++strain) {
+        Eigen::Matrix3Xd displacement = Eigen::Matrix3Xd::Zero(3, packing.size());
+        Eigen::Matrix3Xd rotation = displacement;
+        Eigen::Vector3d drift = Eigen::Vector3d::Zero();
+        for (std::size_t place = 0; place < kept.particle.size(); ++place) {
+            const Eigen::Matrix<double, 6, 1> all = motion.block<6, 1>(6 * static_cast<Index>(place), strain);
+            displacement.col(kept.particle[place]) = all.head<3>();
+            rotation.col(kept.particle[place]) = all.tail<3>();
+            drift += all.head<3>() / count;
+        }
+        for (const Index particle : kept.particle) {
+            displacement.col(particle) -= periodic ? drift : Eigen::Vector3d::Zero();
+        }
+        response.non_affinity[strain] = std::sqrt(displacement.squaredNorm() / count);
+        response.displacement.push_back(displacement * r0);
+        response.rotation.push_back(std::move(rotation));
+    }
+}
+
+/// Affine tensor over all bonds, those of rattlers included, times the volume, in reduced units.
+Block affine_energy_of_all(const Packing& packing, const ContactNetwork& bonds, const BondedContact& law,
+                           const LinearOptions& options) {
+    LoadBearing all;
+    all.number.assign(static_cast<std::size_t>(packing.size()), -1);
+    for (Index particle = 0; particle < packing.size(); ++particle) {
+        if (options.held.empty() || !options.held[static_cast<std::size_t>(particle)]) {
+            all.number[static_cast<std::size_t>(particle)] = static_cast<Index>(all.particle.size());
+            all.particle.push_back(particle);
+        }
+    }
+    all.bond.resize(static_cast<std::size_t>(bonds.size()));
+    std::iota(all.bond.begin(), all.bond.end(), Index{0});
+    const LinearNetwork network(packing, bonds, all, law);
+    return network.virial(Loads::Zero(6 * network.particles(), 6), bond_weights(network.bonds()));
+}
+
+}  // namespace
+
+LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options,
+                            const Progress& progress) {
+    check(packing, bonds, options);
+    const BondedContact law = contact_law(options);
+    const bool periodic = options.held.empty();
+    const LoadBearing kept = find_load_bearing(bonds, options.held);
+    const auto held = std::count(options.held.begin(), options.held.end(), true);
+
+    LinearResponse response;
+    response.contact_normal_stiffness = law.normal_stiffness();
+    response.contact_shear_stiffness = law.shear_stiffness();
+    response.contacts = bonds.size();
+    response.rattlers = packing.size() - static_cast<Index>(kept.particle.size()) - held;
+    const double r0 = mean_radius(packing);
+    const double volume = periodic ? packing.cell.volume() : options.volume;
+    const double scale = law.normal_stiffness() * r0 * r0 / volume;
+    response.affine_tensor = scale * affine_energy_of_all(packing, bonds, law, options);
+    response.elastic_tensor.setZero();
+
+    Loads motion = Loads::Zero(6 * static_cast<Index>(kept.particle.size()), 6);
+    if (kept.particle.empty()) {
+        response.floppy_modes = 0;
+    } else {
+        const LinearNetwork network(packing, bonds, kept, law);
+        const Problem problem = build_problem(network);
+        motion = solve(problem, packing, kept, options, progress, response).motion;
+        response.floppy_modes -= periodic && response.floppy_modes >= 3 ? 3 : 0;  // rigid translation
+        response.elastic_tensor =
+            scale * (periodic ? minimal_energy(problem, motion) : network.virial(motion, bond_weights(network.bonds())));
+    }
+    store_motion(packing, kept, motion, periodic, response);
+    return response;
+}
+
+double LinearResponse::shear_modulus(int a, int b) const {
+    require(a >= 0 && a < 3 && b >= 0 && b < 3 && a != b, "a shear orientation is named by two different axes of 0, 1, 2");
+    return elastic_tensor(voigt(a, b), voigt(a, b));
+}
+
+double LinearResponse::mean_shear_modulus() const {
+    double sum = 0;
+    for (const auto& [a, b] : orientations) {
+        sum += shear_modulus(a, b);
+    }
+    return sum / 6;
+}
+
+double LinearResponse::shear_modulus_deviation() const {
+    const double mean = mean_shear_modulus();
+    double sum = 0;
+    for (const auto& [a, b] : orientations) {
+        sum += (shear_modulus(a, b) - mean) * (shear_modulus(a, b) - mean);
+    }
+    return std::sqrt(sum / 6);
+}
+
+double LinearResponse::mean_affine_modulus() const {
+    return affine_tensor.diagonal().tail<3>().mean();
+}
+
+}  // namespace coagula::mechanics

@@ -19,32 +19,38 @@ enum class LinearSolver {
 };
 
 struct LinearOptions {
-    double normal_stiffness = 100;  ///< of a particle [N/m]; two in series make a contact
-    double shear_stiffness = 10;    ///< of a particle [N/m]
+    double normal_stiffness = 100;  ///< of a particle [N/m], > 0; two in series make a contact
+    double shear_stiffness = 10;    ///< of a particle [N/m], >= 0
     LinearSolver solver = LinearSolver::automatic;
-    double memory_limit = 4.0e9;  ///< for the factor [bytes]; decides under `automatic`
-    double tolerance = 1e-10;     ///< relative residual |f - K u| / |f| to which every strain is solved
-    double shift = 1e-10;  ///< added to the diagonal of the preconditioner, as a fraction of the contact stiffness; the result does
-                           ///< not depend on it
+    double memory_limit = 4.0e9;      ///< for the factor [bytes]; decides under `automatic`
+    double tolerance = 1e-10;         ///< direct solver: relative residual |f - K u| / |f| of every strain
+    double modulus_tolerance = 1e-5;  ///< iterative solver: estimated relative error of the moduli
+    double shift =
+        1e-10;  ///< added to the diagonal of the preconditioner, in contact stiffnesses; the result does not depend on it
+    std::vector<bool> held;  ///< N flags for a sample with a free surface: these particles follow the strain without rotating;
+                             ///< empty for a periodic cell
+    double volume = unset;   ///< with `held`: volume of the particles that are not held [m^3]
 };
 
 /// Response to the six unit strains, Voigt order xx yy zz yz xz xy; shear components are engineering strains.
 struct LinearResponse {
     Eigen::Matrix<double, 6, 6> elastic_tensor;  ///< relaxed [Pa]
     Eigen::Matrix<double, 6, 6> affine_tensor;   ///< without relaxation: all particles follow the strain, none rotates [Pa]
-    std::vector<Eigen::Matrix3Xd>
-        displacement;  ///< six times 3 x N: displacement beyond the affine one per unit strain [m]; zero for rattlers
+    std::vector<Eigen::Matrix3Xd> displacement;  ///< six times 3 x N: beyond the affine one, per unit strain [m]; 0 for rattlers
     std::vector<Eigen::Matrix3Xd> rotation;    ///< six times 3 x N: rotation per unit strain [rad]
     Eigen::Matrix<double, 6, 1> non_affinity;  ///< rms displacement beyond the affine one per unit strain, over the mean radius
     double contact_normal_stiffness = unset;   ///< of a contact [N/m]
     double contact_shear_stiffness = unset;
     Index contacts = 0;       ///< all bonds
     Index rattlers = 0;       ///< particles that carry no load
-    Index floppy_modes = -1;  ///< zero-energy modes of the load-bearing rest, rigid translation apart; -1 where not counted
+    /// Modes of the load-bearing rest whose stiffness is below 1e-6 of the contact's, rigid translation apart; -1: not counted
+    /// (iterative solver).
+    Index floppy_modes = -1;
     LinearSolver solver_used = LinearSolver::direct;
     double predicted_memory = unset;  ///< of the factor [bytes]
     int iterations = 0;               ///< of conjugate gradients, largest over the strains
-    double residual = unset;          ///< |f - K u| / |f|, largest over the strains
+    double residual = 0;              ///< |f - K u| / |f|, recomputed from K itself, largest over the strains
+    double modulus_error = 0;         ///< estimated relative error of the moduli from stopping early (iterative solver)
 
     /// Shear modulus of one orientation (strain plane a-b with a, b in 0..2) [Pa].
     double shear_modulus(int a, int b) const;
@@ -55,8 +61,16 @@ struct LinearResponse {
     double mean_affine_modulus() const;
 };
 
-/// Solves for the response of `bonds` (branch vectors as found; springs unstretched there, lever arms d r_i / (r_i + r_j)).
-/// G = 2 E_min / (V gamma^2), see Schenker et al. 2012 for the contact law.
+/// Solves for the response of `bonds` (branch vectors as found; springs unstretched there, lever arms d r_i / (r_i + r_j)):
+/// E = 1/2 sum [k_n (delta.n)^2 + k_s |delta - (delta.n) n|^2] is minimised over all displacements and rotations, and the
+/// elastic tensor is the second derivative of the minimum by the strain over the volume. Contact law: Schenker et al. 2012,
+/// sec. 2.1.
+///
+/// In a periodic cell the volume is the cell's. A sample with a free surface needs `held` (its outer particles): they follow the
+/// strain as a rigid frame would make them, and the stress is averaged over the others, whose volume is `volume`; that stiffens.
+///
+/// Throws std::invalid_argument for impossible options or an open cell without `held`, std::runtime_error when the solver fails.
+/// A network that does not carry load in some direction has modulus zero there: no error.
 LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options = {},
                             const Progress& progress = {});
 

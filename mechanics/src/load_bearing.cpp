@@ -1,0 +1,136 @@
+#include "load_bearing.hpp"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <deque>
+
+namespace coagula::mechanics {
+
+namespace {
+
+/// Sine of the angle between two links above which they certainly do not lie on one line.
+constexpr double certainly_bent = 1e-3;
+
+/// Bonds of a network while some of them are being removed.
+class Pruner {
+public:
+    Pruner(const ContactNetwork& network, const std::vector<bool>& held)
+        : network_(network),
+          held_(held.empty() ? std::vector<bool>(static_cast<std::size_t>(network.particles), false) : held),
+          groups_(group_by_particle(network)),
+          alive_(static_cast<std::size_t>(network.size()), true),
+          degree_(contact_counts(network)) {
+        for (Index particle = 0; particle < network.particles; ++particle) {
+            queue_.push_back(particle);
+        }
+    }
+
+    void run() {
+        while (!queue_.empty()) {
+            const Index particle = queue_.front();
+            queue_.pop_front();
+            if (is_held(particle)) {
+                continue;
+            }
+            if (degree_[particle] == 1 || (degree_[particle] == 2 && begins_slack_chain(particle))) {
+                remove_bonds(particle);
+            }
+        }
+    }
+
+    LoadBearing result() const {
+        LoadBearing kept;
+        kept.number.assign(static_cast<std::size_t>(network_.particles), -1);
+        for (Index particle = 0; particle < network_.particles; ++particle) {
+            if (degree_[particle] > 0 && !is_held(particle)) {
+                kept.number[static_cast<std::size_t>(particle)] = static_cast<Index>(kept.particle.size());
+                kept.particle.push_back(particle);
+            }
+        }
+        for (Index bond = 0; bond < network_.size(); ++bond) {
+            if (alive_[static_cast<std::size_t>(bond)]) {
+                kept.bond.push_back(bond);
+            }
+        }
+        return kept;
+    }
+
+private:
+    bool is_held(Index particle) const { return held_[static_cast<std::size_t>(particle)]; }
+
+    Index other_end(Index bond, Index particle) const {
+        return network_.ends(0, bond) == particle ? network_.ends(1, bond) : network_.ends(0, bond);
+    }
+
+    /// The two bonds of a particle of degree two.
+    std::array<Index, 2> two_bonds(Index particle) const {
+        std::array<Index, 2> bonds{-1, -1};
+        std::size_t found = 0;
+        const auto row = static_cast<std::size_t>(particle);
+        for (Index entry = groups_.start[row]; entry < groups_.start[row + 1]; ++entry) {
+            const Index bond = groups_.contact[static_cast<std::size_t>(entry)];
+            if (alive_[static_cast<std::size_t>(bond)]) {
+                bonds[found++] = bond;
+            }
+        }
+        return bonds;
+    }
+
+    /// Direction of the link that a particle of degree two makes between its two contact points.
+    Eigen::Vector3d link(Index particle) const {
+        const auto bonds = two_bonds(particle);
+        Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double away = network_.ends(0, bonds[k]) == particle ? 1.0 : -1.0;
+            direction += (k == 0 ? -away : away) * network_.branch.col(bonds[k]);
+        }
+        return direction;
+    }
+
+    bool begins_slack_chain(Index particle) const {
+        for (const Index bond : two_bonds(particle)) {
+            const Index neighbour = other_end(bond, particle);
+            if (neighbour == particle || degree_[neighbour] != 2 || is_held(neighbour)) {
+                continue;
+            }
+            const Eigen::Vector3d first = link(particle);
+            const Eigen::Vector3d second = link(neighbour);
+            if (first.cross(second).norm() > certainly_bent * first.norm() * second.norm()) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void remove_bonds(Index particle) {
+        const auto row = static_cast<std::size_t>(particle);
+        for (Index entry = groups_.start[row]; entry < groups_.start[row + 1]; ++entry) {
+            const Index bond = groups_.contact[static_cast<std::size_t>(entry)];
+            if (alive_[static_cast<std::size_t>(bond)]) {
+                alive_[static_cast<std::size_t>(bond)] = false;
+                for (int end = 0; end < 2; ++end) {
+                    --degree_[network_.ends(end, bond)];
+                    queue_.push_back(network_.ends(end, bond));
+                }
+            }
+        }
+    }
+
+    const ContactNetwork& network_;
+    std::vector<bool> held_;
+    ContactsByParticle groups_;
+    std::vector<bool> alive_;
+    Eigen::VectorXi degree_;
+    std::deque<Index> queue_;
+};
+
+}  // namespace
+
+LoadBearing find_load_bearing(const ContactNetwork& network, const std::vector<bool>& held) {
+    Pruner pruner(network, held);
+    pruner.run();
+    return pruner.result();
+}
+
+}  // namespace coagula::mechanics

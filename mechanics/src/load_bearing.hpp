@@ -1,0 +1,23 @@
+// Which particles and bonds of a network can carry load when bonds transmit no moment.
+#pragma once
+
+#include <coagula/common/contact_network.hpp>
+
+#include <vector>
+
+namespace coagula::mechanics {
+
+/// The part of a network that can carry load.
+struct LoadBearing {
+    std::vector<Index> particle;  ///< original index of each load-bearing particle that may move
+    std::vector<Index> number;    ///< N: place in `particle`, or -1
+    std::vector<Index> bond;      ///< original index of each load-bearing bond
+};
+
+/// Removes, again and again, what cannot carry load in linear elasticity because bonds carry no moment:
+/// a particle with fewer than two bonds, and a pair of bonded particles that have one more bond each and do not lie on one line
+/// (a chain of two links, whose joints would have to pass a force along two different lines).
+/// @param held N flags, or empty: particles fixed to the boundary, which are never removed and get no number.
+LoadBearing find_load_bearing(const ContactNetwork& network, const std::vector<bool>& held = {});
+
+}  // namespace coagula::mechanics

@@ -1,0 +1,246 @@
+#include "schwarz.hpp"
+
+#include "single_precision_factor.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace coagula::mechanics {
+
+namespace {
+
+/// Regular division of the cell into boxes of about equal edge.
+struct Grid {
+    std::array<int, 3> count{};
+
+    Grid(const Eigen::Vector3d& lengths, double boxes) {
+        const double edge = std::cbrt(lengths.prod() / std::max(1.0, boxes));
+        for (int axis = 0; axis < 3; ++axis) {
+            count[static_cast<std::size_t>(axis)] = std::max(1, static_cast<int>(std::lround(lengths[axis] / edge)));
+        }
+    }
+    Index size() const { return static_cast<Index>(count[0]) * count[1] * count[2]; }
+    Index number(const std::array<int, 3>& box) const {
+        return (static_cast<Index>(box[2] % count[2]) * count[1] + box[1] % count[1]) * count[0] + box[0] % count[0];
+    }
+    Index box_of(const Eigen::Vector3d& fraction) const {
+        std::array<int, 3> box{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box[axis] = std::min(static_cast<int>(fraction[static_cast<Index>(axis)] * count[axis]), count[axis] - 1);
+        }
+        return number(box);
+    }
+};
+
+/// Particles of every box with `overlap` layers of neighbours, each list sorted.
+std::vector<std::vector<Index>> overlapping_boxes(const Grid& grid, const BlockMatrix& full, const Eigen::Matrix3Xd& fraction,
+                                                  int overlap) {
+    std::vector<std::vector<Index>> boxes(static_cast<std::size_t>(grid.size()));
+    for (Index particle = 0; particle < fraction.cols(); ++particle) {
+        boxes[static_cast<std::size_t>(grid.box_of(fraction.col(particle)))].push_back(particle);
+    }
+    std::erase_if(boxes, [](const auto& box) { return box.empty(); });
+    for (auto& box : boxes) {
+        for (int layer = 0; layer < overlap; ++layer) {
+            const std::vector<Index> inner = box;
+            for (const Index particle : inner) {
+                const auto row = static_cast<std::size_t>(particle);
+                box.insert(box.end(), full.column.begin() + full.start[row], full.column.begin() + full.start[row + 1]);
+            }
+            std::sort(box.begin(), box.end());
+            box.erase(std::unique(box.begin(), box.end()), box.end());
+        }
+    }
+    return boxes;
+}
+
+/// Rows and columns of a box, renumbered.
+BlockMatrix restrict_to(const BlockMatrix& upper, const std::vector<Index>& particles) {
+    BlockMatrix local;
+    local.start.push_back(0);
+    for (std::size_t row = 0; row < particles.size(); ++row) {
+        const auto global = static_cast<std::size_t>(particles[row]);
+        auto place = particles.begin() + static_cast<std::ptrdiff_t>(row);
+        for (auto k = static_cast<std::size_t>(upper.start[global]); k < static_cast<std::size_t>(upper.start[global + 1]); ++k) {
+            place = std::lower_bound(place, particles.end(), upper.column[k]);
+            if (place != particles.end() && *place == upper.column[k]) {
+                local.column.push_back(place - particles.begin());
+                local.block.push_back(upper.block[k]);
+            }
+        }
+        local.start.push_back(static_cast<Index>(local.column.size()));
+    }
+    return local;
+}
+
+/// One particle's share in the eight grid nodes around it (trilinear).
+struct Weights {
+    std::array<Index, 8> node{};
+    std::array<double, 8> weight{};
+};
+
+Weights trilinear(const Grid& grid, const Eigen::Vector3d& fraction) {
+    std::array<int, 3> low{};
+    std::array<double, 3> part{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double place = fraction[static_cast<Index>(axis)] * grid.count[axis];
+        low[axis] = static_cast<int>(std::floor(place));
+        part[axis] = place - low[axis];
+    }
+    Weights weights;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        std::array<int, 3> node = low;
+        double weight = 1;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bool upper = ((corner >> axis) & 1U) != 0;
+            node[axis] += upper ? 1 : 0;
+            weight *= upper ? part[axis] : 1 - part[axis];
+        }
+        weights.node[corner] = grid.number(node);
+        weights.weight[corner] = weight;
+    }
+    return weights;
+}
+
+}  // namespace
+
+struct SchwarzPreconditioner::Box {
+    std::vector<Index> particles;
+    std::unique_ptr<SinglePrecisionFactor> factor;
+    mutable Loads solution;
+};
+
+struct SchwarzPreconditioner::Coarse {
+    std::vector<Weights> weights;  ///< one per particle
+    std::unique_ptr<CholeskyFactor> factor;
+    Index nodes = 0;
+};
+
+namespace {
+
+/// Z^T K Z for the trilinear coarse motion: blocks between nodes.
+BlockMatrix coarse_matrix(const BlockMatrix& full, const std::vector<Weights>& weights, Index nodes) {
+    std::vector<std::vector<std::pair<Index, Block>>> rows(static_cast<std::size_t>(nodes));
+    for (Index node = 0; node < nodes; ++node) {
+        rows[static_cast<std::size_t>(node)].emplace_back(node, Block::Zero());
+    }
+    const auto add = [&](Index row, Index column, const Block& block) {
+        auto& entries = rows[static_cast<std::size_t>(row)];
+        auto place =
+            std::lower_bound(entries.begin(), entries.end(), column, [](const auto& entry, Index c) { return entry.first < c; });
+        if (place == entries.end() || place->first != column) {
+            place = entries.insert(place, {column, Block::Zero()});
+        }
+        place->second += block;
+    };
+    for (Index row = 0; row < full.rows(); ++row) {
+        const Weights& left = weights[static_cast<std::size_t>(row)];
+        for (auto k = static_cast<std::size_t>(full.start[static_cast<std::size_t>(row)]);
+             k < static_cast<std::size_t>(full.start[static_cast<std::size_t>(row) + 1]); ++k) {
+            const Weights& right = weights[static_cast<std::size_t>(full.column[k])];
+            for (std::size_t p = 0; p < 8; ++p) {
+                for (std::size_t q = 0; q < 8; ++q) {
+                    if (right.node[q] >= left.node[p]) {
+                        add(left.node[p], right.node[q], left.weight[p] * right.weight[q] * full.block[k]);
+                    }
+                }
+            }
+        }
+    }
+    BlockMatrix matrix;
+    matrix.start.push_back(0);
+    for (const auto& entries : rows) {
+        for (const auto& [column, block] : entries) {
+            matrix.column.push_back(column);
+            matrix.block.push_back(block);
+        }
+        matrix.start.push_back(static_cast<Index>(matrix.column.size()));
+    }
+    return matrix;
+}
+
+}  // namespace
+
+SchwarzPreconditioner::SchwarzPreconditioner(const BlockMatrix& upper, const BlockMatrix& full, const Eigen::Matrix3Xd& fraction,
+                                             const Eigen::Vector3d& lengths, const SchwarzOptions& options,
+                                             const Progress& progress) {
+    const Grid grid(lengths, static_cast<double>(fraction.cols()) / options.particles_per_box);
+    const auto lists = overlapping_boxes(grid, full, fraction, options.overlap);
+    boxes_.resize(lists.size());
+    copy_start_.assign(static_cast<std::size_t>(fraction.cols()) + 1, 0);
+    for (std::size_t b = 0; b < lists.size(); ++b) {
+        boxes_[b] = std::make_unique<Box>();
+        boxes_[b]->particles = lists[b];
+        for (const Index particle : lists[b]) {
+            ++copy_start_[static_cast<std::size_t>(particle) + 1];
+        }
+    }
+    for (std::size_t p = 1; p < copy_start_.size(); ++p) {
+        copy_start_[p] += copy_start_[p - 1];
+    }
+    copy_.resize(static_cast<std::size_t>(copy_start_.back()));
+    std::vector<Index> next(copy_start_.begin(), copy_start_.end() - 1);
+    for (std::size_t b = 0; b < lists.size(); ++b) {
+        for (std::size_t place = 0; place < lists[b].size(); ++place) {
+            copy_[static_cast<std::size_t>(next[static_cast<std::size_t>(lists[b][place])]++)] = {static_cast<Index>(b),
+                                                                                                  static_cast<Index>(place)};
+        }
+    }
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t b = 0; b < boxes_.size(); ++b) {
+        const BlockMatrix local = restrict_to(upper, boxes_[b]->particles);
+        boxes_[b]->factor =
+            std::make_unique<SinglePrecisionFactor>(local, options.shift, EliminationOrder(local, Ordering::minimum_degree));
+    }
+    progress.update("factorising", 1.0);
+    coarse_ = std::make_unique<Coarse>();
+    coarse_->nodes = grid.size();
+    for (Index particle = 0; particle < fraction.cols(); ++particle) {
+        coarse_->weights.push_back(trilinear(grid, fraction.col(particle)));
+    }
+    const BlockMatrix coarse = coarse_matrix(full, coarse_->weights, coarse_->nodes);
+    coarse_->factor = std::make_unique<CholeskyFactor>(coarse, options.shift * static_cast<double>(fraction.cols()),
+                                                       EliminationOrder(coarse, Ordering::nested_dissection));
+}
+
+SchwarzPreconditioner::~SchwarzPreconditioner() = default;
+
+void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
+    const auto particles = static_cast<Index>(copy_start_.size()) - 1;
+    Loads coarse_load = Loads::Zero(6 * coarse_->nodes, 6);
+    for (Index particle = 0; particle < particles; ++particle) {
+        const Weights& weights = coarse_->weights[static_cast<std::size_t>(particle)];
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            coarse_load.middleRows<6>(6 * weights.node[corner]) += weights.weight[corner] * r.middleRows<6>(6 * particle);
+        }
+    }
+    Loads coarse_motion;
+    coarse_->factor->solve(coarse_load, coarse_motion);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t b = 0; b < boxes_.size(); ++b) {
+        const Box& box = *boxes_[b];
+        Loads right_side(6 * static_cast<Index>(box.particles.size()), 6);
+        for (std::size_t place = 0; place < box.particles.size(); ++place) {
+            right_side.middleRows<6>(6 * static_cast<Index>(place)) = r.middleRows<6>(6 * box.particles[place]);
+        }
+        box.factor->solve(right_side, box.solution);
+    }
+    z.resize(r.rows(), 6);
+#pragma omp parallel for schedule(static)
+    for (Index particle = 0; particle < particles; ++particle) {
+        Eigen::Matrix<double, 6, 6, Eigen::RowMajor> sum = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>::Zero();
+        for (Index copy = copy_start_[static_cast<std::size_t>(particle)];
+             copy < copy_start_[static_cast<std::size_t>(particle) + 1]; ++copy) {
+            const auto [box, place] = copy_[static_cast<std::size_t>(copy)];
+            sum += boxes_[static_cast<std::size_t>(box)]->solution.middleRows<6>(6 * place);
+        }
+        const Weights& weights = coarse_->weights[static_cast<std::size_t>(particle)];
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            sum += weights.weight[corner] * coarse_motion.middleRows<6>(6 * weights.node[corner]);
+        }
+        z.middleRows<6>(6 * particle) = sum;
+    }
+}
+
+}  // namespace coagula::mechanics

@@ -1,0 +1,41 @@
+// A Cholesky factor kept in single precision, for preconditioners: half of the memory, and solves without BLAS calls, which
+// would contend for OpenBLAS's buffers when many small factors are used by several threads at once.
+#pragma once
+
+#include "cholesky_factor.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace coagula::mechanics {
+
+class SinglePrecisionFactor {
+public:
+    /// Factorises in double precision and keeps a rounded copy.
+    SinglePrecisionFactor(const BlockMatrix& upper, double shift, const EliminationOrder& order);
+
+    /// x = (K + shift I)^-1 b to single precision.
+    void solve(const Loads& b, Loads& x) const;
+
+private:
+    using Row = Eigen::Array<float, 8, 1>;  // six loads, padded to whole vector registers
+
+    struct Supernode {
+        int first_column;
+        int columns;
+        std::size_t rows_start;  ///< of the rows below the diagonal block, in rows_
+        int rows;
+        std::size_t values_start;  ///< diagonal block (columns x columns), then the rows below, each row contiguous
+    };
+
+    void forward(std::vector<Row>& x) const;
+    void backward(std::vector<Row>& x) const;
+
+    std::vector<int> permutation_;
+    std::vector<Supernode> supernodes_;
+    std::vector<int> rows_;
+    std::vector<float> values_;
+};
+
+}  // namespace coagula::mechanics

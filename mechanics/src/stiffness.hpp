@@ -1,0 +1,84 @@
+// Stiffness matrix of a bonded network and its loads, in reduced units: lengths in the mean radius, stiffness in the normal
+// contact stiffness, rotations as arc length on the mean radius. Six unknowns per particle: displacement, then rotation.
+#pragma once
+
+#include "load_bearing.hpp"
+
+#include <coagula/common/contact_law.hpp>
+#include <coagula/common/contact_network.hpp>
+#include <coagula/common/packing.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace coagula::mechanics {
+
+using Block = Eigen::Matrix<double, 6, 6>;
+using Loads = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;  ///< one column per unit strain
+
+/// A bond with all that the linear kinematics needs:
+/// delta = u_j - u_i + [n]x (R_i theta_i + R_j theta_j) + strain * branch.
+struct LinearBond {
+    Index first;  ///< numbered among the load-bearing particles; -1: held, follows the strain without rotating
+    Index second;
+    Eigen::Vector3d normal;  ///< unit vector from first to second
+    Eigen::Vector3d branch;  ///< in mean radii
+    double first_arm;        ///< distance from the centre to the contact point, in mean radii
+    double second_arm;
+};
+
+/// Symmetric matrix of 6 x 6 blocks, upper triangle by rows, the diagonal block first in each row.
+struct BlockMatrix {
+    std::vector<Index> start;   ///< rows + 1
+    std::vector<Index> column;  ///< column >= row
+    std::vector<Block> block;
+
+    Index rows() const { return static_cast<Index>(start.size()) - 1; }
+    Block& diagonal(Index row) { return block[static_cast<std::size_t>(start[static_cast<std::size_t>(row)])]; }
+};
+
+/// The linear problem of one network.
+class LinearNetwork {
+public:
+    LinearNetwork(const Packing& packing, const ContactNetwork& bonds, const LoadBearing& kept, const BondedContact& law);
+
+    Index particles() const { return particles_; }
+    const std::vector<LinearBond>& bonds() const { return bonds_; }
+
+    /// K, without any shift.
+    BlockMatrix stiffness() const;
+
+    /// Minus the force on every unknown when all particles follow unit strain k (Voigt xx yy zz yz xz xy) affinely; column k.
+    Loads loads() const;
+
+    /// Twice the energy of affine motion, sum over bonds of e_a D e_b.
+    Block affine_energy() const;
+
+    /// Sum over bonds of weight * e_a . t_b, t the forces at the unknowns `motion`: the volume times the mean stress.
+    Block virial(const Loads& motion, const std::vector<double>& weight) const;
+
+    /// Adds stiffness to the spin of every particle with just two bonds about the line through its two contact points. Bonds
+    /// without moment leave that spin free and no load works on it, so a preconditioner made of the result acts on the loads as K
+    /// does. Returns how many such particles there are.
+    Index stiffen_spins(BlockMatrix& matrix) const;
+
+private:
+    void add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond) const;
+    Block coupling(const LinearBond& bond) const;
+
+    Index particles_ = 0;
+    std::vector<LinearBond> bonds_;
+    BondedContact law_;  ///< reduced: normal stiffness 1
+};
+
+/// Relative displacements e = strain * branch of the six unit strains, as columns (3 x 6).
+Eigen::Matrix<double, 3, 6> affine_displacements(const Eigen::Vector3d& branch);
+
+/// y = K x for all columns at once; rows in parallel, the same bits for any number of threads.
+void multiply(const BlockMatrix& full, const Loads& x, Loads& y);
+
+/// Both triangles of a symmetric matrix, so that rows can be multiplied independently.
+BlockMatrix both_triangles(const BlockMatrix& upper);
+
+}  // namespace coagula::mechanics

@@ -1,0 +1,147 @@
+#include "networks.hpp"
+#include "stiffness.hpp"
+
+#include <Eigen/Dense>
+
+#include <gtest/gtest.h>
+
+namespace coagula::mechanics {
+namespace {
+
+using coagula::testing::bonds_between;
+using coagula::testing::random_spheres;
+
+struct Sample {
+    Packing packing = random_spheres(30, 6.5, 1.0, 7);
+    ContactNetwork bonds;
+    LoadBearing kept;
+    Sample() {
+        for (Index i = 0; i < packing.size(); ++i) {  // unlike radii: unlike lever arms
+            packing.radii[i] = 0.8 + 0.4 * random_uniform(3, RandomPurpose::test, 1, static_cast<std::uint64_t>(i))[0];
+        }
+        bonds = find_contacts(packing, 0.2);
+        kept = find_load_bearing(bonds);
+    }
+    LinearNetwork network() const { return {packing, bonds, kept, BondedContact(50, 5)}; }
+};
+
+Eigen::MatrixXd dense(const BlockMatrix& full) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(6 * full.rows(), 6 * full.rows());
+    for (Index row = 0; row < full.rows(); ++row) {
+        for (Index k = full.start[static_cast<std::size_t>(row)]; k < full.start[static_cast<std::size_t>(row) + 1]; ++k) {
+            matrix.block<6, 6>(6 * row, 6 * full.column[static_cast<std::size_t>(k)]) += full.block[static_cast<std::size_t>(k)];
+        }
+    }
+    return matrix;
+}
+
+/// Energy of the network straight from the kinematics, bond by bond: lengths in mean radii, normal stiffness 1.
+double energy(const Sample& sample, const Eigen::VectorXd& motion, const Eigen::Matrix3d& strain) {
+    const double r0 = mean_radius(sample.packing);
+    const BondedContact law(1.0, 0.1);
+    double sum = 0;
+    for (const Index bond : sample.kept.bond) {
+        const int i = sample.bonds.ends(0, bond);
+        const int j = sample.bonds.ends(1, bond);
+        const Eigen::Vector3d branch = sample.bonds.branch.col(bond) / r0;
+        const Eigen::Vector3d n = branch.normalized();
+        const double arm_i = branch.norm() * sample.packing.radii[i] / (sample.packing.radii[i] + sample.packing.radii[j]);
+        const double arm_j = branch.norm() - arm_i;
+        const Index a = 6 * sample.kept.number[static_cast<std::size_t>(i)];
+        const Index b = 6 * sample.kept.number[static_cast<std::size_t>(j)];
+        const Eigen::Vector3d turn = arm_i * motion.segment<3>(a + 3) + arm_j * motion.segment<3>(b + 3);
+        const Eigen::Vector3d delta = motion.segment<3>(b) - motion.segment<3>(a) - turn.cross(n) + strain * branch;
+        sum += law.energy(delta, n);
+    }
+    return sum;
+}
+
+TEST(Stiffness, IsTheSecondDerivativeOfTheEnergy) {
+    const Sample sample;
+    ASSERT_GT(sample.kept.particle.size(), 20U);
+    const Eigen::MatrixXd k = dense(both_triangles(sample.network().stiffness()));
+    EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
+    Eigen::VectorXd motion(k.rows());
+    for (Index i = 0; i < motion.size(); ++i) {
+        motion[i] = random_normal(5, RandomPurpose::test, 2, static_cast<std::uint64_t>(i))[0];
+    }
+    EXPECT_NEAR(0.5 * motion.dot(k * motion), energy(sample, motion, Eigen::Matrix3d::Zero()), 1e-12 * motion.dot(k * motion));
+}
+
+TEST(Stiffness, LoadsAndAffineEnergyMatchTheEnergyUnderStrain) {
+    const Sample sample;
+    const LinearNetwork network = sample.network();
+    const Loads loads = network.loads();
+    const Block affine = network.affine_energy();
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(loads.rows());
+    constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    for (int strain = 0; strain < 6; ++strain) {
+        Eigen::Matrix3d epsilon = Eigen::Matrix3d::Zero();
+        epsilon(pairs[strain][0], pairs[strain][1]) += 0.5;
+        epsilon(pairs[strain][1], pairs[strain][0]) += 0.5;
+        EXPECT_NEAR(0.5 * affine(strain, strain), energy(sample, zero, epsilon), 1e-12 * affine(strain, strain));
+        for (const Index unknown : {Index{0}, Index{4}, Index{17}, loads.rows() - 1}) {
+            Eigen::VectorXd step = zero;
+            step[unknown] = 1e-4;
+            const double slope = (energy(sample, step, epsilon) - energy(sample, -step, epsilon)) / 2e-4;
+            EXPECT_NEAR(loads(unknown, strain), -slope, 1e-9) << "unknown " << unknown << ", strain " << strain;
+        }
+    }
+}
+
+TEST(Stiffness, RigidTranslationGivesNoForceAndRigidRotationOfAClusterNeither) {
+    const Sample sample;
+    const BlockMatrix full = both_triangles(sample.network().stiffness());
+    Loads translation = Loads::Zero(6 * full.rows(), 6);
+    for (Index i = 0; i < full.rows(); ++i) {
+        translation.block<3, 3>(6 * i, 0).setIdentity();
+    }
+    Loads force;
+    multiply(full, translation, force);
+    EXPECT_LT(force.cwiseAbs().maxCoeff(), 1e-12);
+
+    // A cluster that no periodic boundary cuts: all separations are plain differences.
+    Packing cluster = random_spheres(6, 3.0, 1.0, 11);
+    cluster.cell = Cell::periodic(Eigen::Vector3d::Constant(100.0));
+    const auto bonds = find_contacts(cluster, 0.3);
+    const LoadBearing kept = find_load_bearing(bonds);
+    ASSERT_GE(kept.particle.size(), 4U);
+    const LinearNetwork network(cluster, bonds, kept, BondedContact(50, 5));
+    Loads rotation = Loads::Zero(6 * network.particles(), 6);
+    const Eigen::Vector3d omega(0.3, -0.7, 0.5);
+    for (std::size_t place = 0; place < kept.particle.size(); ++place) {
+        const Eigen::Vector3d position = cluster.positions.col(kept.particle[place]);
+        rotation.block<3, 1>(6 * static_cast<Index>(place), 0) = omega.cross(position);
+        rotation.block<3, 1>(6 * static_cast<Index>(place) + 3, 0) = omega;
+    }
+    multiply(both_triangles(network.stiffness()), rotation, force);
+    EXPECT_LT(force.cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Stiffness, SpinsOfTwoBondedParticlesAreFreeAndFeelNoLoad) {
+    const Packing packing = random_spheres(10, 10.0, 1.0);
+    std::vector<std::pair<int, int>> pairs{{0, 5}, {5, 1}};
+    for (int i = 0; i < 5; ++i) {
+        for (int j = i + 1; j < 5; ++j) {
+            pairs.emplace_back(i, j);
+        }
+    }
+    const auto bonds = bonds_between(packing, pairs);
+    const LinearNetwork network(packing, bonds, find_load_bearing(bonds), BondedContact(50, 5));
+    const BlockMatrix plain = network.stiffness();
+    BlockMatrix stiffened = plain;
+    EXPECT_EQ(network.stiffen_spins(stiffened), 1);
+    const Block added = stiffened.diagonal(5) - BlockMatrix(plain).diagonal(5);
+    Eigen::SelfAdjointEigenSolver<Block> modes(added);
+    const Eigen::Matrix<double, 6, 1> spin = modes.eigenvectors().col(5);
+    EXPECT_NEAR(modes.eigenvalues()[5], 1.0, 1e-14);
+    Loads motion = Loads::Zero(6 * network.particles(), 6);
+    motion.block<6, 1>(30, 0) = spin;
+    Loads force;
+    multiply(both_triangles(plain), motion, force);
+    EXPECT_LT(force.cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT((network.loads().middleRows<6>(30).transpose() * spin).norm(), 1e-13);
+}
+
+}  // namespace
+}  // namespace coagula::mechanics
