@@ -37,12 +37,12 @@ struct LinearResponse {
     Eigen::Matrix<double, 6, 6> elastic_tensor;  ///< relaxed [Pa]
     Eigen::Matrix<double, 6, 6> affine_tensor;   ///< without relaxation: all particles follow the strain, none rotates [Pa]
     std::vector<Eigen::Matrix3Xd> displacement;  ///< six times 3 x N: beyond the affine one, per unit strain [m]; 0 for rattlers
-    std::vector<Eigen::Matrix3Xd> rotation;    ///< six times 3 x N: rotation per unit strain [rad]
-    Eigen::Matrix<double, 6, 1> non_affinity;  ///< rms displacement beyond the affine one per unit strain, over the mean radius
-    double contact_normal_stiffness = unset;   ///< of a contact [N/m]
+    std::vector<Eigen::Matrix3Xd> rotation;      ///< six times 3 x N: rotation per unit strain [rad]
+    Eigen::Matrix<double, 6, 1> non_affinity;    ///< rms displacement beyond the affine one per unit strain, over the mean radius
+    double contact_normal_stiffness = unset;     ///< of a contact [N/m]
     double contact_shear_stiffness = unset;
-    Index contacts = 0;       ///< all bonds
-    Index rattlers = 0;       ///< particles that carry no load
+    Index contacts = 0;  ///< all bonds
+    Index rattlers = 0;  ///< particles that carry no load
     /// Modes of the load-bearing rest whose stiffness is below 1e-6 of the contact's, rigid translation apart; -1: not counted
     /// (iterative solver).
     Index floppy_modes = -1;
