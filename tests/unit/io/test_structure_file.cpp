@@ -300,7 +300,7 @@ TEST_F(StructureFile, FullDiskLeavesTheOldFileAndNothingElse) {
     const Structure structure{example_packing(2000, true), std::nullopt};
     write_structure(file("a.h5"), structure, {}, {}, example_provenance("generate"), false);
     const std::string before = read(file("a.h5"));
-    for (const rlim_t room : {0, 100, 5000, 50000}) {
+    for (const rlim_t room : std::initializer_list<rlim_t>{0, 100, 5000, 50000}) {
         const FullDisk full(room);
         EXPECT_EQ(sentence<std::runtime_error>(
                       [&] { write_structure(file("a.h5"), structure, {}, {}, example_provenance("generate"), true); }),
