@@ -21,18 +21,24 @@ io::TextFormat chosen_format(const Arguments& arguments) {
     return name == "csv" ? io::TextFormat::csv : (name == "extxyz" ? io::TextFormat::extended_xyz : io::TextFormat::lammps_data);
 }
 
+double parse_edge(const std::string& text) {
+    try {
+        return require_positive(io::parse_quantity(text, "m"), "the edge length of the box", "m");
+    } catch (const std::exception& error) {
+        throw InputError(std::string("--box: ") + error.what());
+    }
+}
+
 /// "L" or "LX,LY,LZ", each with its unit.
 Eigen::Vector3d parse_box(const std::string& text) {
     const std::vector<std::string> parts = split(text);
-    if (parts.size() != 1 && parts.size() != 3) {
+    if (parts.size() == 1) {
+        return Eigen::Vector3d::Constant(parse_edge(parts[0]));
+    }
+    if (parts.size() != 3) {
         throw InputError("--box: '" + text + "' must be one edge length or three, LX,LY,LZ");
     }
-    Eigen::Vector3d box;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double length = io::parse_quantity(parts[parts.size() == 1 ? 0 : static_cast<std::size_t>(axis)], "m");
-        box[axis] = require_positive(length, "--box: the edge length", "m");
-    }
-    return box;
+    return {parse_edge(parts[0]), parse_edge(parts[1]), parse_edge(parts[2])};
 }
 
 io::ImportOptions import_options(const Arguments& arguments) {

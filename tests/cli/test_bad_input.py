@@ -124,7 +124,7 @@ class Coordinates(ProgramTest):
         self.refuse(GOOD_CSV + "5,5,5\n", "same centre")
 
     def test_particle_outside_the_box(self):
-        self.refuse(GOOD_CSV + "9,1,6\n", "outside the box")
+        self.refuse(GOOD_CSV + "9,1,6\n", ["line 6", "outside", "--wrap"])
         self.write("bad.csv", GOOD_CSV + "9,1,6\n")
         self.succeed("import", "bad.csv", "--wrap", *IMPORT)
 

@@ -16,8 +16,9 @@ def data_sets(path):
 
     def visit(name, item):
         if isinstance(item, h5py.Dataset) and not name.startswith("provenance"):
-            found[name] = (item.dtype, item.shape, item[()].tobytes() if item.shape is not None else b"",
-                           {key: str(value) for key, value in item.attrs.items()})
+            value = item[()]
+            found[name] = (item.dtype, item.shape, value if isinstance(value, bytes) else value.tobytes(),
+                           {key: str(attribute) for key, attribute in item.attrs.items()})
 
     with h5py.File(path) as file:
         file.visititems(visit)
