@@ -23,8 +23,7 @@ double normal_cdf(double x) {
 double normal_quantile(double probability) {
     const double tail = std::min(probability, 1 - probability);
     const double t = std::sqrt(-2 * std::log(tail));
-    const double guess =
-        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    const double guess = t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
     double x = probability < 0.5 ? -guess : guess;
     for (int iteration = 0; iteration < 4; ++iteration) {
         const double density = std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
@@ -38,7 +37,7 @@ std::vector<Index> shuffled(Index n, std::uint64_t seed) {
     std::vector<std::pair<std::uint64_t, Index>> keys;
     keys.reserve(static_cast<std::size_t>(n));
     for (Index i = 0; i < n; ++i) {
-        keys.emplace_back(random_bits(seed, RandomPurpose::radius, 1, static_cast<std::uint64_t>(i))[0], i);
+        keys.emplace_back(random_bits(seed, RandomPurpose::radius, 0, static_cast<std::uint64_t>(i))[0], i);
     }
     std::sort(keys.begin(), keys.end());
     std::vector<Index> order;
@@ -49,25 +48,24 @@ std::vector<Index> shuffled(Index n, std::uint64_t seed) {
     return order;
 }
 
-/// One standard normal number, cut at three deviations, from each of n equally probable intervals, ascending.
-Eigen::VectorXd stratified_normal(Index n, std::uint64_t seed) {
+/// The medians of n equally probable intervals of the standard normal distribution cut at three deviations, ascending.
+Eigen::VectorXd stratified_normal(Index n) {
     const double lowest = normal_cdf(-cutoff_deviations);
     Eigen::VectorXd values(n);
     for (Index i = 0; i < n; ++i) {
-        const double inside = random_uniform(seed, RandomPurpose::radius, 0, static_cast<std::uint64_t>(i))[0];
-        const double share = (static_cast<double>(i) + inside) / static_cast<double>(n);
+        const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
         values[i] = normal_quantile(lowest + (1 - 2 * lowest) * share);
     }
     return values;
 }
 
-Eigen::VectorXd continuous(const SizeDistribution& sizes, Index n, std::uint64_t seed) {
+Eigen::VectorXd continuous(const SizeDistribution& sizes, Index n) {
     const bool is_normal = sizes.kind == SizeKind::normal;
     const double limit = is_normal ? 0.3 : 0.5;
     const double deviation = require_non_negative(sizes.relative_deviation, "the relative standard deviation of the radius");
     require(deviation <= limit, "the relative standard deviation of the radius is " + to_text(deviation) + ", but a " +
                                     (is_normal ? "normal" : "lognormal") + " distribution of sizes allows 0 to " + to_text(limit));
-    const Eigen::ArrayXd normal = stratified_normal(n, seed).array();
+    const Eigen::ArrayXd normal = stratified_normal(n).array();
     const double log_deviation = std::sqrt(std::log1p(deviation * deviation));
     Eigen::VectorXd radii = is_normal ? Eigen::VectorXd(1 + deviation * normal) : Eigen::VectorXd((log_deviation * normal).exp());
     return radii * (sizes.mean_radius / radii.mean());
@@ -75,12 +73,13 @@ Eigen::VectorXd continuous(const SizeDistribution& sizes, Index n, std::uint64_t
 
 void check_table(const SizeDistribution& sizes) {
     const Index rows = sizes.table_radius.size();
-    require(rows > 0 && sizes.table_fraction.size() == rows,
-            "the table of sizes has " + std::to_string(rows) + " radii and " + std::to_string(sizes.table_fraction.size()) +
-                " fractions, but needs at least one and as many of each");
+    require(rows > 0 && sizes.table_fraction.size() == rows, "the table of sizes has " + std::to_string(rows) + " radii and " +
+                                                                 std::to_string(sizes.table_fraction.size()) +
+                                                                 " fractions, but needs at least one and as many of each");
     for (Index row = 0; row < rows; ++row) {
         require_positive(sizes.table_radius[row], "the radius in row " + std::to_string(row + 1) + " of the table of sizes", "m");
-        require_positive(sizes.table_fraction[row], "the number fraction in row " + std::to_string(row + 1) + " of the table of sizes");
+        require_positive(sizes.table_fraction[row],
+                         "the number fraction in row " + std::to_string(row + 1) + " of the table of sizes");
     }
 }
 
@@ -119,7 +118,7 @@ Eigen::VectorXd draw_radii(const SizeDistribution& sizes, Index n, std::uint64_t
     if (sizes.kind == SizeKind::monodisperse) {
         return Eigen::VectorXd::Constant(n, sizes.mean_radius);
     }
-    const Eigen::VectorXd ascending = sizes.kind == SizeKind::table ? from_table(sizes, n) : continuous(sizes, n, seed);
+    const Eigen::VectorXd ascending = sizes.kind == SizeKind::table ? from_table(sizes, n) : continuous(sizes, n);
     return ascending(shuffled(n, seed));
 }
 

@@ -20,15 +20,16 @@ constexpr double first_void_radius = 0.1;
 constexpr double increment = 0.01;
 constexpr double fine_increment = 0.005;
 constexpr Index steps_per_increment = 200;
-constexpr double settled_force = 2e-5;            // rms force on the structure particles that ends an increment early
-constexpr double trial_distance = 0.6;            // from the target coordination at which trials begin
-constexpr double fine_overlap = 0.001;            // rms overlap, over the diameter, at which the fine increments begin
-constexpr double largest_overlap = 0.09;          // the same, at which the target is given up
-constexpr double largest_volume = 1.5;            // of all spheres over that of the box, at which the target is given up
-constexpr double start_force = 1e-6;              // rms force at which the structure particles count as moved apart
-constexpr double relaxed_force = 1e-7;            // rms force that ends a relaxation
-constexpr Index most_iterations = 100000;         // of a relaxation
-constexpr double skin = 0.6;                      // of the neighbour list
+constexpr double settled_force = 2e-5;     // rms force on the structure particles that ends an increment early
+constexpr double trial_distance = 0.6;     // from the target coordination at which trials begin
+constexpr double fine_overlap = 0.001;     // rms overlap, over the diameter, at which the fine increments begin
+constexpr double largest_overlap = 0.09;   // the same, at which the target is given up
+constexpr double relaxed_overlap = 0.005;  // the same, that a relaxed packing may keep
+constexpr double largest_volume = 1.5;     // of all spheres over that of the box, at which the target is given up
+constexpr double start_force = 1e-6;       // rms force at which the structure particles count as moved apart
+constexpr double relaxed_force = 1e-7;     // rms force that ends a relaxation
+constexpr Index most_iterations = 100000;  // of a relaxation
+constexpr double skin = 0.6;               // of the neighbour list
 
 using Laws = dem::Interactions<RepulsiveSpring, BondSpring>;
 const Laws laws{RepulsiveSpring(1.0), BondSpring(1.0)};
@@ -112,9 +113,9 @@ public:
             note_ = "coordination " + short_text(contacts.coordination);
             const bool near_target = contacts.coordination > options_.target_coordination - trial_distance;
             if (near_target) {
-                const Packing trial = relax_without_voids(system);
-                if (coordination_of(trial) >= options_.target_coordination) {
-                    return finish(trial);
+                const VoidExpansion trial = describe(relax_without_voids(system));
+                if (trial.coordination >= options_.target_coordination && trial.overlap_rms < relaxed_overlap) {
+                    return trial;
                 }
             }
             give_up_if_hopeless(contacts);
@@ -182,13 +183,16 @@ private:
         dem::RelaxOptions relaxing;
         relaxing.normal_stiffness = 1;
         relaxing.tolerance = relaxed_force;
+        relaxing.method = dem::RelaxMethod::damped;
+        relaxing.damping = stepping.damping;
         relaxing.bond_on_touch = true;
         relaxing.max_iterations = most_iterations;
         const Progress inner([this](std::string_view, double, std::string_view) {
             report();
             return true;
         });
-        const dem::Relaxation relaxed = dem::relax(structure, find_contacts(structure, options_.contact_tolerance), relaxing, inner);
+        const dem::Relaxation relaxed =
+            dem::relax(structure, find_contacts(structure, options_.contact_tolerance), relaxing, inner);
         if (!relaxed.converged) {
             throw std::runtime_error("the void expansion could not relax the packing: after " + std::to_string(relaxed.iterations) +
                                      " iterations the rms force is still " + to_text(relaxed.rms_force) +
@@ -210,15 +214,17 @@ private:
     void give_up_if_hopeless(const StructureContacts& contacts) const {
         const bool crushed = contacts.overlap_rms > largest_overlap;
         if (crushed || solid_volume_ + void_volume() > largest_volume * cell_.volume()) {
-            throw InputError("the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) + " with " +
-                             std::to_string(options_.voids) + " voids among " + std::to_string(structure_) +
+            throw InputError("the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) +
+                             " with " + std::to_string(options_.voids) + " voids among " + std::to_string(structure_) +
                              " particles at volume fraction " + to_text(options_.volume_fraction) + ": at " +
-                             short_text(contacts.coordination) + (crushed ? " the overlap passes 9 % of the diameter" : " the voids fill the box") +
+                             short_text(contacts.coordination) +
+                             (crushed ? " the overlap passes 9 % of the diameter" : " the voids fill the box") +
                              "; ask for a lower coordination or other numbers of particles and voids");
         }
     }
 
-    VoidExpansion finish(const Packing& relaxed) const {
+    /// The result, in metres.
+    VoidExpansion describe(const Packing& relaxed) const {
         VoidExpansion result;
         result.packing.cell = Cell::periodic(unit_ * cell_.lengths());
         result.packing.radii = options_.radii;

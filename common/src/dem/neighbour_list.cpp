@@ -48,13 +48,16 @@ NeighbourSearch::NeighbourSearch(const Cell& cell, const std::vector<Quad>& posi
 }
 
 void NeighbourSearch::choose_boxes(const Cell& cell, const std::vector<Quad>& position, double skin) {
-    double sum = 0;
+    // The reach of most particles, so that only a few large ones look beyond the boxes next to theirs; but at most about two boxes
+    // per particle.
+    std::vector<double> radii;
+    radii.reserve(position.size());
     for (const Quad& sphere : position) {
-        sum += sphere[3];
+        radii.push_back(sphere[3]);
     }
-    const auto count = static_cast<double>(std::max<std::size_t>(1, position.size()));
-    // The reach of a mean particle, but at most about two boxes per particle.
-    const double edge = std::max(2 * sum / count + skin, std::cbrt(0.5 * cell.volume() / count));
+    const auto most = radii.begin() + static_cast<std::ptrdiff_t>(4 * radii.size() / 5);
+    std::nth_element(radii.begin(), most, radii.end());
+    const double edge = std::max(2 * *most + skin, std::cbrt(0.5 * cell.volume() / static_cast<double>(radii.size())));
     for (int axis = 0; axis < 3; ++axis) {
         boxes_[axis] = static_cast<int>(std::clamp(lengths_[axis] / edge, 1.0, 1000.0));
     }

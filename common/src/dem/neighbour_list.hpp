@@ -43,7 +43,8 @@ private:
     void rank_boxes();
     Eigen::Array3i box_of(const Quad& position) const;
     std::size_t rank_of(const Eigen::Array3i& box) const;
-    void search_box(std::int32_t first, std::size_t place, int side, const Eigen::Vector3i& images, std::vector<ListedPair>& pairs) const;
+    void search_box(std::int32_t first, std::size_t place, int side, const Eigen::Vector3i& images,
+                    std::vector<ListedPair>& pairs) const;
 
     bool periodic_;
     double skin_;

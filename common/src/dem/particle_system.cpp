@@ -305,7 +305,8 @@ void ParticleSystem::rebuild(Snapshot state) {
         }
         for (std::size_t entry = 0; entry < plan.bonds.size(); ++entry) {
             const Bond& bond = state.bonds[plan.bond_numbers[entry]];
-            const SlotPair ends{chunk.begin + plan.bonds[entry].first - plan.first, plan.slot_of_second(plan.bonds[entry], chunk.begin)};
+            const SlotPair ends{chunk.begin + plan.bonds[entry].first - plan.first,
+                                plan.slot_of_second(plan.bonds[entry], chunk.begin)};
             chunk.bonds.push_back({ends, bond.rest_length, bond.shear, bond.branch});
         }
     }
@@ -315,12 +316,20 @@ void ParticleSystem::rebuild(Snapshot state) {
     ++list_builds_;
 }
 
-void ParticleSystem::refresh(double margin) {
-    double displacement_squared = 0;
-    for (const Chunk& chunk : chunks_) {
-        displacement_squared = std::max(displacement_squared, chunk.displacement_squared);
+/// The chunks know an upper bound of the displacements; measures them before a list is thrown away.
+void ParticleSystem::refresh_carefully(double margin) {
+    double displacement = 0;
+    for (Chunk& chunk : chunks_) {
+        double squared = 0;
+        for (std::int32_t slot = chunk.begin; slot < chunk.own_end; ++slot) {
+            const Eigen::Vector3d moved = (slots_.position[at(slot)] - slots_.reference[at(slot)]).head<3>();
+            squared = std::max(squared, moved.squaredNorm());
+        }
+        chunk.path = std::sqrt(squared);
+        displacement = std::max(displacement, chunk.path);
     }
-    if (!(2 * (std::sqrt(displacement_squared) + growth_) + margin <= skin_)) {
+    // Close to the limit measuring would have to be repeated all the time.
+    if (!(2 * (displacement + growth_) + margin <= 0.9 * skin_)) {
         rebuild(snapshot());
     }
 }

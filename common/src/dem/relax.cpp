@@ -20,16 +20,28 @@ void check_options(const RelaxOptions& options) {
     require(options.max_iterations > 0, "the relaxation needs at least one iteration");
 }
 
-/// Calls `advance()`, which returns the rms force, until that is small enough.
-template <class Advance>
-void iterate(Relaxation& result, double force_unit, const RelaxOptions& options, const Progress& progress, Advance&& advance) {
+/// Calls `advance()`, which returns the rms force, until that is small enough, also after all motion has been stopped: small forces
+/// in passing do not count.
+template <class Laws, class Advance>
+Relaxation iterate(ParticleSystem& system, const Laws& laws, double force_unit, const RelaxOptions& options,
+                   const Progress& progress, Advance&& advance) {
+    const Eigen::Matrix3Xd at_rest = Eigen::Matrix3Xd::Zero(3, system.size());
+    Relaxation result;
     while (result.iterations < options.max_iterations && !result.converged) {
         result.rms_force = advance() / force_unit;
-        result.converged = result.rms_force < options.tolerance;
-        if (result.iterations++ % 50 == 0) {
-            progress.update("relaxation", 0.0, "rms force " + to_text(result.rms_force));
+        if (result.rms_force < options.tolerance) {
+            system.set_velocities(at_rest);
+            system.set_spins(at_rest);
+            compute_forces(system, laws);
+            result.rms_force = rms_force(system) / force_unit;
+            result.converged = result.rms_force < options.tolerance;
         }
+        ++result.iterations;
+        progress.update("relaxation", 0.0, "rms force " + to_text(result.rms_force));
     }
+    result.packing = system.packing();
+    result.bonds = system.bond_network();
+    return result;
 }
 
 template <class BondLaw>
@@ -41,22 +53,17 @@ Relaxation relax_with(const Packing& packing, const ContactNetwork& bonds, const
     system.add_bonds(bonds);
     const Interactions<RepulsiveSpring, BondLaw> laws{RepulsiveSpring(options.normal_stiffness), bond, options.bond_on_touch};
     const double force_unit = options.normal_stiffness * radius;
-    Relaxation result;
     if (options.method == RelaxMethod::fire) {
         Fire fire(system, laws, time_step, longest_time_step);
-        iterate(result, force_unit, options, progress, [&] { return fire.iterate(); });
-    } else {
-        const bool stopped = options.method == RelaxMethod::stopped_steps;
-        const StepOptions stepping{time_step, stopped ? 0.0 : options.damping, stopped};
-        check(stepping);
-        iterate(result, force_unit, options, progress, [&] {
-            step(system, laws, stepping);
-            return rms_force(system);
-        });
+        return iterate(system, laws, force_unit, options, progress, [&] { return fire.iterate(); });
     }
-    result.packing = system.packing();
-    result.bonds = system.bond_network();
-    return result;
+    const bool stopped = options.method == RelaxMethod::stopped_steps;
+    const StepOptions stepping{time_step, stopped ? 0.0 : options.damping, stopped};
+    check(stepping);
+    return iterate(system, laws, force_unit, options, progress, [&] {
+        step(system, laws, stepping);
+        return rms_force(system);
+    });
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // Void expansion: time, steps and the structure that comes out. Usage: bench_vem [N [N_V [seed [volume fraction]]]]
+#include <coagula/characterize/heterogeneity.hpp>
+#include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/generators/void_expansion.hpp>
 
 #include <chrono>
@@ -18,13 +20,16 @@ int main(int argc, char** argv) {
         const auto start = std::chrono::steady_clock::now();
         const coagula::generators::VoidExpansion result = coagula::generators::expand_voids(options);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        std::printf("N %ld  N_V %ld  seed %llu: %.2f s, CPU %.2f s, %ld increments, %ld steps, C %.3f, overlap rms %.4f %% max %.3f %%, "
-                    "void radius %.3f r0\n",
-                    static_cast<long>(options.particles), static_cast<long>(options.voids),
-                    static_cast<unsigned long long>(options.seed), seconds.count(),
-                    static_cast<double>(std::clock()) / CLOCKS_PER_SEC, static_cast<long>(result.increments),
-                    static_cast<long>(result.steps), result.coordination, 100 * result.overlap_rms, 100 * result.overlap_max,
-                    result.void_radius / 0.25e-6);
+        const double cpu_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+        const auto pores = coagula::characterize::measure_pores(result.packing);
+        const double a = coagula::characterize::fit_degree_of_heterogeneity(pores, 0.25e-6).a;
+        std::printf(
+            "N %ld  N_V %ld  seed %llu: %.2f s, CPU %.2f s, %ld increments, %ld steps, a %.4f, C %.3f, overlap rms %.4f %% max "
+            "%.3f %%, "
+            "void radius %.3f r0\n",
+            static_cast<long>(options.particles), static_cast<long>(options.voids), static_cast<unsigned long long>(options.seed),
+            seconds.count(), cpu_seconds, static_cast<long>(result.increments), static_cast<long>(result.steps), a,
+            result.coordination, 100 * result.overlap_rms, 100 * result.overlap_max, result.void_radius / 0.25e-6);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_vem: %s\n", error.what());
         return 1;

@@ -20,15 +20,20 @@ enum class SizeKind {
 /// Distribution of the radius by number. Lengths in metres.
 struct SizeDistribution {
     SizeKind kind = SizeKind::monodisperse;
-    double mean_radius = unset;         ///< not for `table`
-    double relative_deviation = unset;  ///< standard deviation over mean of the uncut distribution: normal 0 .. 0.3, lognormal 0 .. 0.5
-    Eigen::VectorXd table_radius;       ///< `table`: any number of radii [m] ...
-    Eigen::VectorXd table_fraction;     ///< ... and the share of particles with each, > 0; scaled to the sum 1
+    /// Not for `table`.
+    double mean_radius = unset;
+    /// Standard deviation over mean, of the distribution before it is cut: normal 0 to 0.3, lognormal 0 to 0.5.
+    double relative_deviation = unset;
+    /// `table`: any number of radii [m] ...
+    Eigen::VectorXd table_radius = {};
+    /// ... and the share of particles with each, > 0; scaled to the sum 1.
+    Eigen::VectorXd table_fraction = {};
 };
 
-/// n radii [m] in random order. Stratified: one from each of n equally probable intervals (in a table: the nearest whole numbers of
-/// particles), so that few particles represent the distribution, too. For the continuous kinds the radii are scaled to the exact
-/// mean. Throws std::invalid_argument when a parameter is missing or out of range.
+/// n radii [m] in random order. Stratified: the median of each of n equally probable intervals (in a table: the nearest whole
+/// numbers of particles), so that few particles represent the distribution, too; the seed decides the order only. For the
+/// continuous kinds the radii are scaled to the exact mean. Throws std::invalid_argument when a parameter is missing or out of
+/// range.
 Eigen::VectorXd draw_radii(const SizeDistribution& sizes, Index n, std::uint64_t seed);
 
 }  // namespace coagula::generators

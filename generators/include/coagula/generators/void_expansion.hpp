@@ -16,7 +16,7 @@ namespace coagula::generators {
 /// What to generate. Lengths in metres.
 struct VoidExpansionOptions {
     Index particles = 8000;             ///< number of structure particles N, >= 3
-    Index voids = 4000;                 ///< number of void particles N_V, >= 0; fewer voids make a more heterogeneous packing
+    Index voids = 4000;                 ///< number of void particles N_V, >= 1; fewer voids make a more heterogeneous packing
     double volume_fraction = unset;     ///< of the structure particles, 0 < phi < 0.64
     Eigen::VectorXd radii;              ///< N radii [m]; see size_distribution.hpp
     double target_coordination = 4.69;  ///< mean number of contacts at which the expansion stops, 0 < C < 6
@@ -29,15 +29,18 @@ struct VoidExpansion {
     Packing packing;              ///< the structure particles in a periodic cube
     ContactNetwork contacts;      ///< pairs within the contact tolerance
     double coordination = unset;  ///< mean number of contacts
-    double overlap_rms = unset;   ///< over the contacts, as a fraction of the mean diameter
+    double overlap_rms = unset;   ///< over the contacts (0 where in tension), as a fraction of the mean diameter; < 0.005
     double overlap_max = unset;   ///< the same, largest
     double void_radius = unset;   ///< at which the voids were deleted [m]
     Index increments = 0;         ///< of the void radius
     Index steps = 0;              ///< explicit time steps in all
 };
 
-/// Runs the method. The result depends on the options alone, not on the number of threads.
-/// Throws std::invalid_argument for impossible options and InputError when the target coordination cannot be reached.
+/// Runs the method: particles and voids are placed at random, overlaps of the particles removed, and the voids grown in small
+/// steps; close to the target, after each step, a copy without voids is bonded and relaxed, and the first that reaches the target
+/// is the result. Void radii are relative to the mean radius. The result depends on the options alone, not on the number of
+/// threads. Throws std::invalid_argument for impossible options and InputError when the target coordination cannot be reached: too
+/// high for so many voids, or lower than that of the packing without voids, since growing voids only add contacts.
 VoidExpansion expand_voids(const VoidExpansionOptions& options, const Progress& progress = {});
 
 }  // namespace coagula::generators

@@ -148,7 +148,7 @@ inline void update_shear(SlotBond& bond, const Eigen::Vector3d& branch, double d
     const Eigen::Vector3d rolled = moved - (lever_first * first + lever_second * second).cross(axis);
     // Turn of the contact plane, and of the pair about its axis.
     const Eigen::Vector3d turn = axis.cross(moved) / distance + (0.5 * (first + second).dot(axis)) * axis;
-    Eigen::Vector3d shear = bond.shear + turn.cross(bond.shear + 0.5 * turn.cross(bond.shear)) + rolled;
+    Eigen::Vector3d shear = bond.shear + rolled + turn.cross(bond.shear + 0.5 * (rolled + turn.cross(bond.shear)));
     const Eigen::Vector3d normal = branch / distance;
     shear -= shear.dot(normal) * normal;
     bond.shear = shear;
@@ -199,12 +199,15 @@ void collect_all(Slots& slots, const Chunk& chunk) {
     }
 }
 
+/// With fewer chunks a step is over before a second thread has been woken.
+inline constexpr std::ptrdiff_t fewest_parallel_chunks = 6;
+
 /// Runs `work(chunk)` for all chunks in parallel; chunks do not write to each other's slots within one call.
 template <class Work>
 void for_each_chunk(ParticleSystem& system, Work&& work) {
     std::vector<Chunk>& chunks = system.chunks();
     const auto count = static_cast<std::ptrdiff_t>(chunks.size());
-#pragma omp parallel for schedule(dynamic) if (count > 1)
+#pragma omp parallel for schedule(dynamic) if (count >= fewest_parallel_chunks)
     for (std::ptrdiff_t chunk = 0; chunk < count; ++chunk) {
         work(chunks[static_cast<std::size_t>(chunk)]);
     }

@@ -19,7 +19,11 @@ class Fire {
 public:
     /// @param time_step first and @param longest_time_step longest step; stable well below 2 / (highest angular frequency) [s].
     Fire(ParticleSystem& system, const Laws& laws, double time_step, double longest_time_step)
-        : system_(system), laws_(laws), time_step_(time_step), longest_time_step_(longest_time_step), sums_(system.chunks().size()) {
+        : system_(system),
+          laws_(laws),
+          time_step_(time_step),
+          longest_time_step_(longest_time_step),
+          sums_(system.chunks().size()) {
         for (std::size_t slot = 0; slot < system.slots().velocity.size(); ++slot) {
             system.slots().velocity[slot].setZero();
             system.slots().spin[slot].setZero();
@@ -30,9 +34,7 @@ public:
     double iterate() {
         system_.refresh();
         Slots& slots = system_.slots();
-        detail::for_each_chunk(system_, [&](Chunk& chunk) {
-            detail::evaluate(slots, chunk, laws_);
-        });
+        detail::for_each_chunk(system_, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws_); });
         detail::for_each_chunk(system_, [&](Chunk& chunk) { sums_[number_of(chunk)] = collect_sums(slots, chunk); });
         Sums total;
         for (const Sums& part : sums_) {
@@ -105,16 +107,19 @@ private:
     }
 
     void move_chunk(Slots& slots, Chunk& chunk, const Blend& blend) const {
+        double fastest_squared = 0;
         for (std::size_t slot = detail::at(chunk.begin); slot < detail::at(chunk.own_end); ++slot) {
             Quad& velocity = slots.velocity[slot];
             velocity = blend.keep * velocity + (blend.push * slots.inverse_mass[slot]) * slots.force[slot];
-            detail::move(slots, slot, time_step_ * velocity, chunk);
+            slots.position[slot] += time_step_ * velocity;
+            fastest_squared = std::max(fastest_squared, velocity.squaredNorm());
             if constexpr (Laws::turns) {
                 Quad& spin = slots.spin[slot];
                 spin = blend.keep * spin + (blend.push * slots.inverse_inertia[slot]) * slots.moment[slot];
                 slots.turn[slot] = time_step_ * spin;
             }
         }
+        chunk.path += time_step_ * std::sqrt(fastest_squared);
     }
 
     ParticleSystem& system_;

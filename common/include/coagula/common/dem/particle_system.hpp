@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -42,26 +43,26 @@ struct Chunk {
     std::size_t handed_begin = 0;  ///< forces from ghosts for this chunk are entries [handed_begin, handed_end) of Slots::handed
     std::size_t handed_end = 0;
     std::vector<std::int32_t> touching;  ///< scratch: pairs that overlap
-    double displacement_squared = 0;     ///< largest since the list was made [m^2]
+    double path = 0;                     ///< no particle of the chunk is farther from where it was when the list was made [m]
 };
 
 /// Per-slot arrays. A slot is a particle (own) or a periodic image or copy of one (ghost); ghosts are refreshed before each force
 /// evaluation, and the forces on them are handed to their particle afterwards.
 struct Slots {
-    std::vector<Quad> position;  ///< x, y, z, radius [m]
-    std::vector<Quad> velocity;  ///< [m/s]
-    std::vector<Quad> force;     ///< [N]
-    std::vector<Quad> spin;      ///< angular velocity [rad/s]
-    std::vector<Quad> turn;      ///< rotation since the last force evaluation [rad]
-    std::vector<Quad> moment;    ///< [N m]
-    std::vector<Quad> reference;  ///< position when the list was made [m]
+    std::vector<Quad> position;           ///< x, y, z, radius [m]
+    std::vector<Quad> velocity;           ///< [m/s]
+    std::vector<Quad> force;              ///< [N]
+    std::vector<Quad> spin;               ///< angular velocity [rad/s]
+    std::vector<Quad> turn;               ///< rotation since the last force evaluation [rad]
+    std::vector<Quad> moment;             ///< [N m]
+    std::vector<Quad> reference;          ///< position when the list was made [m]
     std::vector<double> inverse_mass;     ///< [1/kg]
     std::vector<double> inverse_inertia;  ///< [1/(kg m^2)]
     std::vector<std::int32_t> particle;   ///< number of the particle in the caller's order
     std::vector<std::int32_t> source;     ///< own slot that a ghost copies; an own slot names itself
     std::vector<Eigen::Vector3i> images;  ///< periods that a ghost is away from its source
     std::vector<Quad> shift;              ///< the same as a length [m]
-    std::vector<SlotPair> handed;              ///< own slot and ghost of it, sorted: whose forces go where
+    std::vector<SlotPair> handed;         ///< own slot and ghost of it, sorted: whose forces go where
 };
 
 /// A bond in the caller's particle numbers.
@@ -78,7 +79,8 @@ struct Bond {
 class ParticleSystem {
 public:
     /// Masses are 1 until set, inertias those of solid spheres, velocities zero.
-    /// @param skin the neighbour list holds pairs nearer than r_i + r_j + skin [m], > 0; it is made anew as soon as an unlisted pair
+    /// @param skin the neighbour list holds pairs nearer than r_i + r_j + skin [m], > 0; it is made anew as soon as an unlisted
+    /// pair
     ///        could touch.
     ParticleSystem(const Cell& cell, const Eigen::Matrix3Xd& positions, const Eigen::VectorXd& radii, double skin);
 
@@ -109,7 +111,15 @@ public:
 
     /// Makes the neighbour list anew if it may lack a pair nearer than r_i + r_j + margin, that is if
     /// 2 (largest displacement + growth of a radius) + margin > skin. @param margin [m], < skin.
-    void refresh(double margin = 0);
+    void refresh(double margin = 0) {
+        double path = 0;
+        for (const Chunk& chunk : chunks_) {
+            path = std::max(path, chunk.path);
+        }
+        if (!(2 * (path + growth_) + margin <= skin_)) {
+            refresh_carefully(margin);
+        }
+    }
     /// How often the list has been made.
     Index list_builds() const { return list_builds_; }
 
@@ -126,6 +136,7 @@ private:
         std::vector<double> inverse_mass, inverse_inertia;
         std::vector<Bond> bonds;
     };
+    void refresh_carefully(double margin);
     Snapshot snapshot() const;
     void wrap(Snapshot& state) const;
     void rebuild(Snapshot state);
@@ -134,9 +145,9 @@ private:
 
     Cell cell_;
     double skin_;
-    Eigen::VectorXd radii_;        ///< caller's order [m]
-    Eigen::VectorXd list_radii_;   ///< when the list was made [m]
-    double growth_ = 0;            ///< of a radius since then, the largest [m]
+    Eigen::VectorXd radii_;       ///< caller's order [m]
+    Eigen::VectorXd list_radii_;  ///< when the list was made [m]
+    double growth_ = 0;           ///< of a radius since then, the largest [m]
     Index list_builds_ = 0;
     Slots slots_;
     std::vector<Chunk> chunks_;

@@ -18,15 +18,15 @@ struct RelaxOptions {
     double normal_stiffness = 50;  ///< of a contact [N/m], > 0
     double shear_stiffness = 0;    ///< of a bonded contact [N/m]; 0: central forces, nothing rotates
     RelaxMethod method = RelaxMethod::fire;
-    double damping = 0.3;         ///< alpha, for RelaxMethod::damped
-    double tolerance = 1e-7;      ///< rms force on a particle over (normal stiffness x mean radius)
-    bool bond_on_touch = false;   ///< particles that come to overlap are bonded, too
+    double damping = 0.3;        ///< alpha, for RelaxMethod::damped
+    double tolerance = 1e-7;     ///< rms force on a particle over (normal stiffness x mean radius)
+    bool bond_on_touch = false;  ///< particles that come to overlap are bonded, too
     Index max_iterations = 1000000;
 };
 
 struct Relaxation {
-    Packing packing;        ///< at rest
-    ContactNetwork bonds;   ///< with their branches now; includes bonds made on touch
+    Packing packing;           ///< at rest
+    ContactNetwork bonds;      ///< with their branches now; includes bonds made on touch
     double rms_force = unset;  ///< on a particle, over (normal stiffness x mean radius)
     Index iterations = 0;
     bool converged = false;  ///< whether rms_force fell below the tolerance

@@ -11,49 +11,47 @@ namespace coagula::dem {
 
 /// How one step is made.
 struct StepOptions {
-    double time_step = unset;         ///< [s], > 0
-    double damping = 0;               ///< alpha of the local non-viscous damping, 0 <= alpha < 1 (eq. 3 of Schenker et al. 2012)
-    bool stop_after_step = false;     ///< zero all velocities after the step: the paper's relaxation
+    double time_step = unset;      ///< [s], > 0
+    double damping = 0;            ///< alpha of the local non-viscous damping, 0 <= alpha < 1 (eq. 3 of Schenker et al. 2012)
+    bool stop_after_step = false;  ///< zero all velocities after the step: the paper's relaxation
 };
 
 namespace detail {
 
-/// Force with local damping, per component: F_d = -alpha |F| sign(v), where sign(0) = 0, so that only accelerating motion is braked.
-inline double damped(double force, double velocity, double damping) {
-    const double brake = std::copysign(damping * std::abs(force), velocity);
-    return velocity == 0 ? force : force - brake;
+/// dt/m (F + F_d) with the local damping F_d = -alpha |F| sign(v), where sign(0) = 0: only accelerating motion is braked.
+inline double gain(double velocity, double force, double time_over_mass, double damping) {
+    const double brake = damping * std::abs(force);
+    return time_over_mass * (force - (velocity > 0 ? brake : 0.0) + (velocity < 0 ? brake : 0.0));
 }
 
-inline Quad damped(const Quad& force, const Quad& velocity, double damping) {
-    return {damped(force[0], velocity[0], damping), damped(force[1], velocity[1], damping), damped(force[2], velocity[2], damping),
-            0.0};
-}
-
-/// Moves an own slot and keeps account of how far it has come.
-inline void move(Slots& slots, std::size_t slot, const Quad& displacement, Chunk& chunk) {
-    slots.position[slot] += displacement;
-    const double squared = (slots.position[slot] - slots.reference[slot]).template head<3>().squaredNorm();
-    chunk.displacement_squared = std::max(chunk.displacement_squared, squared);
-}
-
+/// Works on single components: vectors put together from components would have to wait for their way through memory.
 template <bool Turns>
 void integrate(Slots& slots, Chunk& chunk, const StepOptions& options) {
-    const double dt = options.time_step;
     collect_all<Turns>(slots, chunk);
+    const double dt = options.time_step;
+    const double damping = options.damping;
+    const double kept = options.stop_after_step ? 0.0 : 1.0;
+    double fastest_squared = 0;
     for (std::size_t slot = at(chunk.begin); slot < at(chunk.own_end); ++slot) {
-        Quad& velocity = slots.velocity[slot];
-        velocity += (dt * slots.inverse_mass[slot]) * damped(slots.force[slot], velocity, options.damping);
-        move(slots, slot, dt * velocity, chunk);
-        if constexpr (Turns) {
-            Quad& spin = slots.spin[slot];
-            spin += (dt * slots.inverse_inertia[slot]) * damped(slots.moment[slot], spin, options.damping);
-            slots.turn[slot] = dt * spin;
+        double speed_squared = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            double& velocity = slots.velocity[slot][axis];
+            const double now = velocity + gain(velocity, slots.force[slot][axis], dt * slots.inverse_mass[slot], damping);
+            slots.position[slot][axis] += dt * now;
+            speed_squared += now * now;
+            velocity = kept * now;
         }
-        if (options.stop_after_step) {
-            slots.velocity[slot].setZero();
-            slots.spin[slot].setZero();
+        fastest_squared = std::max(fastest_squared, speed_squared);
+        if constexpr (Turns) {
+            for (int axis = 0; axis < 3; ++axis) {
+                double& spin = slots.spin[slot][axis];
+                const double now = spin + gain(spin, slots.moment[slot][axis], dt * slots.inverse_inertia[slot], damping);
+                slots.turn[slot][axis] = dt * now;
+                spin = kept * now;
+            }
         }
     }
+    chunk.path += dt * std::sqrt(fastest_squared);
 }
 
 }  // namespace detail
