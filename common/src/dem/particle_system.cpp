@@ -2,6 +2,7 @@
 
 #include <coagula/common/checks.hpp>
 
+#include "chunk_plan.hpp"
 #include "neighbour_list.hpp"
 
 #include <algorithm>
@@ -13,133 +14,6 @@
 namespace coagula::dem {
 
 namespace {
-
-std::size_t at(std::int32_t index) {
-    return static_cast<std::size_t>(index);
-}
-
-/// About 512 particles each: they and their ghosts stay in a core's nearest cache, and there is work for many threads.
-std::int32_t chunk_count(std::size_t particles) {
-    return static_cast<std::int32_t>(std::clamp<std::size_t>(particles / 512, 1, 1024));
-}
-
-/// Sortable name of a particle image: sorted number and periods.
-std::uint64_t image_key(std::int32_t number, const Eigen::Vector3i& images) {
-    std::uint64_t key = static_cast<std::uint64_t>(number);
-    for (const int periods : images) {
-        key = (key << 10U) | static_cast<std::uint64_t>(periods + 512);
-    }
-    return key;
-}
-
-/// The particles of one chunk and the pairs and bonds it evaluates, before slots are known.
-struct ChunkPlan {
-    std::int32_t first = 0;  ///< sorted numbers [first, last)
-    std::int32_t last = 0;
-    std::vector<ListedPair> pairs;
-    std::vector<ListedPair> bonds;
-    std::vector<std::size_t> bond_numbers;
-    std::vector<std::uint64_t> ghosts;
-
-    bool owns(const ListedPair& pair) const { return pair.images.isZero() && pair.second >= first && pair.second < last; }
-
-    void list_ghosts() {
-        for (const auto* list : {&pairs, &bonds}) {
-            for (const ListedPair& pair : *list) {
-                if (!owns(pair)) {
-                    ghosts.push_back(image_key(pair.second, pair.images));
-                }
-            }
-        }
-        std::sort(ghosts.begin(), ghosts.end());
-        ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    }
-
-    std::int32_t slot_of_second(const ListedPair& pair, std::int32_t begin) const {
-        if (owns(pair)) {
-            return begin + (pair.second - first);
-        }
-        const auto ghost = std::lower_bound(ghosts.begin(), ghosts.end(), image_key(pair.second, pair.images));
-        return begin + (last - first) + static_cast<std::int32_t>(ghost - ghosts.begin());
-    }
-};
-
-/// Bonded partners of each particle, both ways, so that the search can leave bonded pairs out.
-class BondPartners {
-public:
-    BondPartners(const std::vector<Bond>& bonds, std::size_t particles, const std::vector<std::int32_t>& sorted_of)
-        : start_(particles + 1, 0) {
-        for (const Bond& bond : bonds) {
-            ++start_[at(sorted_of[at(bond.first)]) + 1];
-            ++start_[at(sorted_of[at(bond.second)]) + 1];
-        }
-        std::partial_sum(start_.begin(), start_.end(), start_.begin());
-        partner_.resize(2 * bonds.size());
-        std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-        for (const Bond& bond : bonds) {
-            const std::int32_t first = sorted_of[at(bond.first)];
-            const std::int32_t second = sorted_of[at(bond.second)];
-            partner_[next[at(first)]++] = image_key(second, bond.images);
-            partner_[next[at(second)]++] = image_key(first, -bond.images);
-        }
-    }
-
-    bool bonded(const ListedPair& pair) const {
-        const auto begin = partner_.begin() + static_cast<std::ptrdiff_t>(start_[at(pair.first)]);
-        const auto end = partner_.begin() + static_cast<std::ptrdiff_t>(start_[at(pair.first) + 1]);
-        return begin != end && std::find(begin, end, image_key(pair.second, pair.images)) != end;
-    }
-
-private:
-    std::vector<std::size_t> start_;
-    std::vector<std::uint64_t> partner_;
-};
-
-std::vector<ChunkPlan> split(std::size_t particles) {
-    const std::int32_t count = chunk_count(particles);
-    std::vector<ChunkPlan> plans(at(count));
-    for (std::int32_t chunk = 0; chunk < count; ++chunk) {
-        const auto boundary = [&](std::int32_t c) { return static_cast<std::int32_t>(at(c) * particles / at(count)); };
-        plans[at(chunk)].first = boundary(chunk);
-        plans[at(chunk)].last = boundary(chunk + 1);
-    }
-    return plans;
-}
-
-void assign_bonds(std::vector<ChunkPlan>& plans, const std::vector<Bond>& bonds, const std::vector<std::int32_t>& sorted_of) {
-    for (std::size_t number = 0; number < bonds.size(); ++number) {
-        const Bond& bond = bonds[number];
-        const std::int32_t first = sorted_of[at(bond.first)];
-        const auto owner = std::upper_bound(plans.begin(), plans.end(), first,
-                                            [](std::int32_t value, const ChunkPlan& plan) { return value < plan.last; });
-        owner->bonds.push_back({first, sorted_of[at(bond.second)], bond.images});
-        owner->bond_numbers.push_back(number);
-    }
-}
-
-/// Finds the pairs and ghosts of every chunk.
-std::vector<ChunkPlan> plan_chunks(const NeighbourSearch& search, const std::vector<Bond>& bonds) {
-    const std::vector<std::int32_t>& order = search.order();
-    std::vector<std::int32_t> sorted_of(order.size());
-    for (std::size_t number = 0; number < order.size(); ++number) {
-        sorted_of[at(order[number])] = static_cast<std::int32_t>(number);
-    }
-    const BondPartners partners(bonds, order.size(), sorted_of);
-    std::vector<ChunkPlan> plans = split(order.size());
-    assign_bonds(plans, bonds, sorted_of);
-#pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
-    for (std::size_t chunk = 0; chunk < plans.size(); ++chunk) {
-        ChunkPlan& plan = plans[chunk];
-        for (std::int32_t number = plan.first; number < plan.last; ++number) {
-            search.find_pairs_of(number, plan.pairs);
-        }
-        if (!bonds.empty()) {
-            std::erase_if(plan.pairs, [&](const ListedPair& pair) { return partners.bonded(pair); });
-        }
-        plan.list_ghosts();
-    }
-    return plans;
-}
 
 template <class Value>
 std::vector<Value> blank(std::size_t size, const Value& value) {
@@ -253,67 +127,77 @@ void ParticleSystem::rebuild(Snapshot state) {
     wrap(state);
     const NeighbourSearch search(cell_, state.position, skin_);
     const std::vector<ChunkPlan> plans = plan_chunks(search, state.bonds);
-    std::size_t total = 0;
-    for (const ChunkPlan& plan : plans) {
-        total += at(plan.last - plan.first) + plan.ghosts.size();
-    }
-    require(total < 2000000000U, "the particle system has too many pairs for 32-bit slots");
-    resize(slots_, total);
-    slot_of_.resize(state.position.size());
-    chunks_.assign(plans.size(), Chunk{});
-    std::int32_t begin = 0;
+    lay_out_chunks(plans);
     for (std::size_t number = 0; number < plans.size(); ++number) {
-        const ChunkPlan& plan = plans[number];
-        Chunk& chunk = chunks_[number];
-        chunk.begin = begin;
-        chunk.own_end = begin + plan.last - plan.first;
-        chunk.end = chunk.own_end + static_cast<std::int32_t>(plan.ghosts.size());
-        begin = chunk.end;
+        const Chunk& chunk = chunks_[number];
         for (std::int32_t slot = chunk.begin; slot < chunk.own_end; ++slot) {
-            const std::int32_t particle = search.order()[at(plan.first + slot - chunk.begin)];
-            slot_of_[at(particle)] = slot;
-            slots_.position[at(slot)] = slots_.reference[at(slot)] = state.position[at(particle)];
-            slots_.velocity[at(slot)] = state.velocity[at(particle)];
-            slots_.spin[at(slot)] = state.spin[at(particle)];
-            slots_.turn[at(slot)] = state.turn[at(particle)];
-            slots_.force[at(slot)] = state.force[at(particle)];
-            slots_.moment[at(slot)] = state.moment[at(particle)];
-            slots_.inverse_mass[at(slot)] = state.inverse_mass[at(particle)];
-            slots_.inverse_inertia[at(slot)] = state.inverse_inertia[at(particle)];
-            slots_.particle[at(slot)] = particle;
-            slots_.source[at(slot)] = slot;
+            fill_slot(slot, search.order()[at(plans[number].first + slot - chunk.begin)], state);
         }
     }
 #pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
     for (std::size_t number = 0; number < plans.size(); ++number) {
-        const ChunkPlan& plan = plans[number];
-        Chunk& chunk = chunks_[number];
-        for (std::size_t ghost = 0; ghost < plan.ghosts.size(); ++ghost) {
-            const std::size_t slot = at(chunk.own_end) + ghost;
-            const std::uint64_t key = plan.ghosts[ghost];
-            slots_.source[slot] = slot_of_[at(search.order()[key >> 30U])];
-            for (unsigned axis = 0; axis < 3; ++axis) {
-                const int images = static_cast<int>((key >> (10U * (2U - axis))) & 1023U) - 512;
-                slots_.images[slot][axis] = images;
-                slots_.shift[slot][axis] = images * cell_.edges()(axis, axis);
-            }
-            slots_.particle[slot] = slots_.particle[at(slots_.source[slot])];
-        }
-        chunk.pairs.reserve(plan.pairs.size());
-        for (const ListedPair& pair : plan.pairs) {
-            chunk.pairs.push_back({chunk.begin + pair.first - plan.first, plan.slot_of_second(pair, chunk.begin)});
-        }
-        for (std::size_t entry = 0; entry < plan.bonds.size(); ++entry) {
-            const Bond& bond = state.bonds[plan.bond_numbers[entry]];
-            const SlotPair ends{chunk.begin + plan.bonds[entry].first - plan.first,
-                                plan.slot_of_second(plan.bonds[entry], chunk.begin)};
-            chunk.bonds.push_back({ends, bond.rest_length, bond.shear, bond.branch});
-        }
+        fill_chunk(chunks_[number], plans[number], search.order(), state.bonds);
     }
     link_ghosts(slots_, chunks_);
     list_radii_ = radii_;
     growth_ = 0;
     ++list_builds_;
+}
+
+/// Slots of the chunks one after the other, own before ghosts.
+void ParticleSystem::lay_out_chunks(const std::vector<ChunkPlan>& plans) {
+    chunks_.assign(plans.size(), Chunk{});
+    std::size_t end = 0;
+    for (std::size_t number = 0; number < plans.size(); ++number) {
+        const ChunkPlan& plan = plans[number];
+        Chunk& chunk = chunks_[number];
+        chunk.begin = static_cast<std::int32_t>(end);
+        chunk.own_end = chunk.begin + plan.last - plan.first;
+        end += at(plan.last - plan.first) + plan.ghosts.size();
+        require(end < 2000000000U, "the particle system has too many particles for 32-bit slots");
+        chunk.end = static_cast<std::int32_t>(end);
+    }
+    resize(slots_, end);
+    slot_of_.resize(static_cast<std::size_t>(size()));
+}
+
+void ParticleSystem::fill_slot(std::int32_t own_slot, std::int32_t particle, const Snapshot& state) {
+    const std::size_t slot = at(own_slot);
+    const std::size_t from = at(particle);
+    slot_of_[from] = own_slot;
+    slots_.particle[slot] = particle;
+    slots_.source[slot] = own_slot;
+    slots_.position[slot] = slots_.reference[slot] = state.position[from];
+    slots_.velocity[slot] = state.velocity[from];
+    slots_.spin[slot] = state.spin[from];
+    slots_.turn[slot] = state.turn[from];
+    slots_.force[slot] = state.force[from];
+    slots_.moment[slot] = state.moment[from];
+    slots_.inverse_mass[slot] = state.inverse_mass[from];
+    slots_.inverse_inertia[slot] = state.inverse_inertia[from];
+}
+
+/// Ghosts, pairs and bonds of a chunk, once all own slots are filled.
+void ParticleSystem::fill_chunk(Chunk& chunk, const ChunkPlan& plan, const std::vector<std::int32_t>& order,
+                                const std::vector<Bond>& bonds) {
+    for (std::size_t ghost = 0; ghost < plan.ghosts.size(); ++ghost) {
+        const std::size_t slot = at(chunk.own_end) + ghost;
+        const Eigen::Vector3i images = images_in(plan.ghosts[ghost]);
+        slots_.particle[slot] = order[at(number_in(plan.ghosts[ghost]))];
+        slots_.source[slot] = slot_of_[at(slots_.particle[slot])];
+        slots_.images[slot] = images;
+        slots_.shift[slot] = padded(images.cast<double>().cwiseProduct(cell_.lengths()));
+        slots_.position[slot] = slots_.position[at(slots_.source[slot])] + slots_.shift[slot];
+    }
+    chunk.pairs.reserve(plan.pairs.size());
+    for (const ListedPair& pair : plan.pairs) {
+        chunk.pairs.push_back(plan.slots_of(pair, chunk.begin));
+    }
+    chunk.bonds.reserve(plan.bonds.size());
+    for (std::size_t entry = 0; entry < plan.bonds.size(); ++entry) {
+        const Bond& bond = bonds[plan.bond_numbers[entry]];
+        chunk.bonds.push_back({plan.slots_of(plan.bonds[entry], chunk.begin), bond.rest_length, bond.shear, bond.branch});
+    }
 }
 
 /// The chunks know an upper bound of the displacements; measures them before a list is thrown away.

@@ -1,4 +1,4 @@
-// Void expansion: time, steps and the structure that comes out. Usage: bench_vem [N [N_V [seed [volume fraction]]]]
+// Void expansion: time, steps and the structure that comes out. Usage: bench_vem [N [N_V [seed [target C [volume fraction]]]]]
 #include <coagula/characterize/heterogeneity.hpp>
 #include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/generators/void_expansion.hpp>
@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
     options.particles = argc > 1 ? std::atol(argv[1]) : 8000;
     options.voids = argc > 2 ? std::atol(argv[2]) : options.particles / 2;
     options.seed = argc > 3 ? static_cast<std::uint64_t>(std::atoll(argv[3])) : 1;
-    options.volume_fraction = argc > 4 ? std::atof(argv[4]) : 0.4;
+    options.target_coordination = argc > 4 ? std::atof(argv[4]) : 4.69;
+    options.volume_fraction = argc > 5 ? std::atof(argv[5]) : 0.4;
     options.radii = Eigen::VectorXd::Constant(options.particles, 0.25e-6);
     try {
         const auto start = std::chrono::steady_clock::now();

@@ -41,10 +41,6 @@ inline std::size_t at(std::int32_t slot) {
     return static_cast<std::size_t>(slot);
 }
 
-inline Quad padded(const Eigen::Vector3d& vector) {
-    return {vector[0], vector[1], vector[2], 0.0};
-}
-
 /// Copies the particles into their ghosts and clears the forces.
 template <bool Turns>
 void prepare(Slots& slots, const Chunk& chunk) {
@@ -169,10 +165,10 @@ void add_bond_forces(Slots& slots, Chunk& chunk, const Law& law) {
         update_shear(bond, branch, distance, slots.turn[i], slots.turn[j], lever_i, lever_j);
         const Eigen::Vector3d force = law.force((distance - bond.rest_length) * normal + bond.shear, normal);
         const Eigen::Vector3d moment = normal.cross(force);
-        slots.force[i] += padded(force);
-        slots.force[j] -= padded(force);
-        slots.moment[i] += padded(lever_i * moment);
-        slots.moment[j] += padded(lever_j * moment);
+        slots.force[i].template head<3>() += force;
+        slots.force[j].template head<3>() -= force;
+        slots.moment[i].template head<3>() += lever_i * moment;
+        slots.moment[j].template head<3>() += lever_j * moment;
     }
 }
 

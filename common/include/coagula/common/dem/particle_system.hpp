@@ -75,6 +75,8 @@ struct Bond {
     Eigen::Vector3d branch = Eigen::Vector3d::Zero();  ///< centre of second minus centre of first [m]
 };
 
+struct ChunkPlan;
+
 /// Spheres that move. Input and output are in the caller's order; inside, particles are sorted in space and grouped in chunks.
 class ParticleSystem {
 public:
@@ -140,6 +142,9 @@ private:
     Snapshot snapshot() const;
     void wrap(Snapshot& state) const;
     void rebuild(Snapshot state);
+    void lay_out_chunks(const std::vector<ChunkPlan>& plans);
+    void fill_slot(std::int32_t own_slot, std::int32_t particle, const Snapshot& state);
+    void fill_chunk(Chunk& chunk, const ChunkPlan& plan, const std::vector<std::int32_t>& order, const std::vector<Bond>& bonds);
     Eigen::Matrix3Xd in_callers_order(const std::vector<Quad>& values) const;
     void set_in_slots(std::vector<Quad>& values, const Eigen::Matrix3Xd& given, const char* name);
 
