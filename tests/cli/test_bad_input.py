@@ -144,6 +144,22 @@ class Coordinates(ProgramTest):
         self.refuse(GOOD_CSV, "--open", options=[*IMPORT, "--open"])
 
 
+class VeryFewParticles(ProgramTest):
+    def test_one_and_two(self):
+        for number in (1, 2):
+            self.write("few.csv", "\n".join(GOOD_CSV.split("\n")[: 1 + number]) + "\n")
+            self.succeed("import", "few.csv", *IMPORT, "--force")
+            for verb in ("characterize", "shear"):
+                self.assertNotIn("null", self.succeed(verb, "out.h5", "--json"))
+            self.assertEqual(self.succeed_json("shear", "out.h5")["storage_modulus"]["mean"], 0)
+
+    def test_an_open_sample_without_inner_particles(self):
+        self.write("few.csv", GOOD_CSV)
+        self.succeed("import", "few.csv", "--radius", "0.5um", "--open", "-o", "out.h5")
+        for verb in ("characterize", "shear"):
+            self.fail_with(2, verb, "out.h5", says="open")
+
+
 class Generation(ProgramTest):
     def refuse(self, says, **changes):
         words = {"particles": "500", "voids": "250", "volume-fraction": "0.4", "radius": "0.25um", "output": "out.h5", **changes}
