@@ -36,8 +36,8 @@ TEST(VoidExpansion, IsEqualBitForBitForAnyNumberOfThreads) {
     const auto run = [](int threads) {
         const int usual = omp_get_max_threads();
         omp_set_num_threads(threads);
-        VoidExpansionOptions options = small(3100, 1500);
-        options.target_coordination = 1.8;
+        VoidExpansionOptions options = small(2100, 1600, 0.5);
+        options.target_coordination = 3.8;
         const VoidExpansion result = expand_voids(options);
         omp_set_num_threads(usual);
         return result;
