@@ -48,7 +48,8 @@ void append_coordination(Results& results, const characterize::Coordination& coo
     }
     add("contact_tolerance", tolerance, "pairs nearer than (1 + tolerance) (r_i + r_j) are in contact");
     add("coordination_without_rattlers", coordination.mean_without_rattlers, "contacts among the other particles, per particle");
-    add("rattler_fraction", coordination.rattler_fraction, "fraction of the particles that carry no load");
+    add("rattler_fraction", coordination.rattler_fraction,
+        "fraction of particles left with fewer than two contacts when such particles are removed again and again");
     add("below_three_fraction", coordination.below_three_fraction, "fraction of the particles with fewer than three contacts");
     results.push_back(io::integer(group + "contacts", coordination.contacts.size(), "number of contacts"));
     results.push_back(

@@ -10,8 +10,10 @@
 #include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>
+#include <coagula/mechanics/relaxation.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace coagula::tools {
 
@@ -50,6 +52,20 @@ void hold_surface(const Packing& packing, mechanics::LinearOptions& options) {
     options.volume = characterize::measure_pores(packing, {.radii = 4}).volume;
 }
 
+/// The network at rest, if the user asks for it.
+std::optional<mechanics::RelaxedNetwork> relaxed(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
+                                                 const Progress& progress) {
+    const std::string& scheme = arguments.text("relax");
+    if (scheme == "none") {
+        return std::nullopt;
+    }
+    mechanics::RelaxationOptions options;
+    options.normal_stiffness = arguments.quantity("normal-stiffness");
+    options.shear_stiffness = arguments.quantity("shear-stiffness");
+    options.scheme = scheme == "paper" ? mechanics::RelaxationScheme::stopped_steps : mechanics::RelaxationScheme::minimise;
+    return mechanics::relax(packing, bonds, options, progress);
+}
+
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
@@ -63,10 +79,16 @@ void run(const Arguments& arguments) {
         hold_surface(packing, options);
     }
     const ContactNetwork bonds = find_contacts(packing, tolerance);
-    const mechanics::LinearResponse response = mechanics::solve_linear(packing, bonds, options, progress);
-    const Results results = datasets_of(response, tolerance, options);
+    const auto rest = relaxed(arguments, packing, bonds, progress);
+    const mechanics::LinearResponse response = rest ? mechanics::solve_linear(rest->packing, rest->bonds, options, progress)
+                                                    : mechanics::solve_linear(packing, bonds, options, progress);
+    Results results = datasets_of(response, tolerance, options);
+    std::vector<io::ParticleField> fields = fields_of(response);
+    if (rest) {
+        append_relaxation(results, fields, *rest);
+    }
     progress.update("writing", 1.0);
-    io::add_results(arguments.input(), target, {"/mechanics/linear"}, bonds, fields_of(response), results,
+    io::add_results(arguments.input(), target, {"/mechanics/linear"}, bonds, fields, results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));
 
     Json json = to_json(results, "/mechanics/linear");
@@ -92,6 +114,9 @@ Verb shear_verb() {
                              above(0)),
                     quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", at_least(0)),
                     quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
+                    choice("relax", {"none", "minimise", "paper"},
+                           "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero",
+                           "none"),
                     choice("solver", {"auto", "direct", "iterative"}, "of the linear equations", "auto"),
                     quantity("memory-limit", "byte", "memory of the direct solver; beyond it 'auto' iterates", "4GB", above(0)),
                     quantity("tolerance", "1", "direct solver: relative residual of every strain", "1e-10", within(1e-14, 1e-2)),
@@ -100,7 +125,8 @@ Verb shear_verb() {
                     output("write to a new file; results are added to the input file when not given"),
                     flag("force", "replace an existing output file")},
         .run = run,
-        .notes = {"The methods quasistatic and dem are not available in this version."}};
+        .notes = {"--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
+                  "The methods quasistatic and dem are not available in this version."}};
 }
 
 }  // namespace coagula::tools

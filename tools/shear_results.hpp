@@ -4,6 +4,7 @@
 #include "report.hpp"
 
 #include <coagula/mechanics/linear.hpp>
+#include <coagula/mechanics/relaxation.hpp>
 
 #include <vector>
 
@@ -14,6 +15,9 @@ Results datasets_of(const mechanics::LinearResponse& response, double bond_toler
 
 /// Displacements and rotations of the three shears.
 std::vector<io::ParticleField> fields_of(const mechanics::LinearResponse& response);
+
+/// What the relaxation before the shear did.
+void append_relaxation(Results& results, std::vector<io::ParticleField>& fields, const mechanics::RelaxedNetwork& rest);
 
 Table table_of(const mechanics::LinearResponse& response);
 
