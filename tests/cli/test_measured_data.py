@@ -1,0 +1,52 @@
+"""Packings that somebody measured or computed elsewhere, from import to modulus; skipped where the data is absent."""
+
+import json
+import os
+import unittest
+from pathlib import Path
+
+from support import ProgramTest
+
+DATA = Path(os.environ["COAGULA_SHARED_DATA"])
+
+
+@unittest.skipUnless((DATA / "finney_pack").is_dir(), f"no folder {DATA / 'finney_pack'}")
+class FinneyBallBearings(ProgramTest):
+    """Finney's measured random close packing (1970): a heap with a free surface, in units of the radius."""
+
+    def setUp(self):
+        super().setUp()
+        self.succeed("import", DATA / "finney_pack" / "finney.csv", "--radius", "1mm", "--length-unit", "1mm", "--open", "-o", "f.h5")
+
+    def test_coordination_of_the_inner_part(self):
+        for tolerance, published in (("0.01", 6.3), ("0.02", 6.9), ("0.05", 7.9), ("0.10", 9.0)):
+            found = self.succeed_json("characterize", "f.h5", "--only", "coordination", "--contact-tolerance", tolerance)
+            self.assertAlmostEqual(found["coordination"], published, delta=0.06)
+
+    def test_pore_curve_of_a_dense_packing(self):
+        found = self.succeed_json("characterize", "f.h5")
+        self.assertAlmostEqual(found["pore_space"]["void_fraction"], 0.36, delta=0.01)
+        self.assertTrue(0.12 < found["doh"]["a"] < 0.18)  # far below the gels: nearly homogeneous
+
+    def test_modulus_grows_with_the_bonds_and_stays_below_the_affine_one(self):
+        near = self.succeed_json("shear", "f.h5", "--bond-tolerance", "0.01")
+        far = self.succeed_json("shear", "f.h5", "--bond-tolerance", "0.05")
+        self.assertEqual(near["boundary"], "held surface")
+        self.assertTrue(0 < near["storage_modulus"]["mean"] < far["storage_modulus"]["mean"] < far["affine_modulus"])
+
+
+@unittest.skipUnless((DATA / "reference_structures").is_dir(), f"no folder {DATA / 'reference_structures'}")
+class ReferenceStructure(ProgramTest):
+    """A gel of 8000 particles against values from another program."""
+
+    def test_from_csv_to_modulus(self):
+        name = "brownian_15mV"
+        expected = json.loads((DATA / "reference_structures" / "reference.json").read_text())[name]
+        self.succeed("import", DATA / "reference_structures" / f"{name}.csv", "--radius", "0.25um", "--box",
+                     str(expected["box_m"]), "-o", "b.h5")
+        found = self.succeed_json("characterize", "b.h5")
+        self.assertAlmostEqual(found["doh"]["a"], expected["doh_a"], delta=0.002)
+        self.assertAlmostEqual(found["coordination"], expected["coordination_1pct"], delta=0.0005)
+        moduli = self.succeed_json("shear", "b.h5")["storage_modulus"]
+        for plane, value in expected["G_MPa"].items():
+            self.assertAlmostEqual(moduli[plane] / 1e6, value, delta=1e-4)
