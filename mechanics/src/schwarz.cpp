@@ -3,8 +3,10 @@
 #include "single_precision_factor.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <exception>
+#include <numeric>
+#include <utility>
 
 namespace coagula::mechanics {
 
@@ -166,42 +168,62 @@ SchwarzPreconditioner::SchwarzPreconditioner(const BlockMatrix& upper, const Blo
                                              const Eigen::Vector3d& lengths, const SchwarzOptions& options,
                                              const Progress& progress) {
     const Grid grid(lengths, static_cast<double>(fraction.cols()) / options.particles_per_box);
-    const auto lists = overlapping_boxes(grid, full, fraction, options.overlap);
-    boxes_.resize(lists.size());
-    copy_start_.assign(static_cast<std::size_t>(fraction.cols()) + 1, 0);
-    for (std::size_t b = 0; b < lists.size(); ++b) {
-        boxes_[b] = std::make_unique<Box>();
-        boxes_[b]->particles = lists[b];
-        for (const Index particle : lists[b]) {
-            ++copy_start_[static_cast<std::size_t>(particle) + 1];
-        }
+    for (auto& particles : overlapping_boxes(grid, full, fraction, options.overlap)) {
+        boxes_.push_back(std::make_unique<Box>());
+        boxes_.back()->particles = std::move(particles);
     }
-    for (std::size_t p = 1; p < copy_start_.size(); ++p) {
-        copy_start_[p] += copy_start_[p - 1];
-    }
-    copy_.resize(static_cast<std::size_t>(copy_start_.back()));
-    std::vector<Index> next(copy_start_.begin(), copy_start_.end() - 1);
-    for (std::size_t b = 0; b < lists.size(); ++b) {
-        for (std::size_t place = 0; place < lists[b].size(); ++place) {
-            copy_[static_cast<std::size_t>(next[static_cast<std::size_t>(lists[b][place])]++)] = {static_cast<Index>(b),
-                                                                                                  static_cast<Index>(place)};
-        }
-    }
-#pragma omp parallel for schedule(dynamic)
-    for (std::size_t b = 0; b < boxes_.size(); ++b) {
-        const BlockMatrix local = restrict_to(upper, boxes_[b]->particles);
-        boxes_[b]->factor =
-            std::make_unique<SinglePrecisionFactor>(local, options.shift, EliminationOrder(local, Ordering::minimum_degree));
-    }
-    progress.update("factorising", 1.0);
+    list_copies(fraction.cols());
+    factorise_boxes(upper, options, progress);
+
     coarse_ = std::make_unique<Coarse>();
     coarse_->nodes = grid.size();
     for (Index particle = 0; particle < fraction.cols(); ++particle) {
         coarse_->weights.push_back(trilinear(grid, fraction.col(particle)));
     }
     const BlockMatrix coarse = coarse_matrix(full, coarse_->weights, coarse_->nodes);
-    coarse_->factor = std::make_unique<CholeskyFactor>(coarse, options.shift * static_cast<double>(fraction.cols()),
+    coarse_->factor = std::make_unique<CholeskyFactor>(coarse, options.shift * options.particles_per_box,
                                                        EliminationOrder(coarse, Ordering::nested_dissection));
+}
+
+void SchwarzPreconditioner::list_copies(Index particles) {
+    copy_start_.assign(static_cast<std::size_t>(particles) + 1, 0);
+    for (const auto& box : boxes_) {
+        for (const Index particle : box->particles) {
+            ++copy_start_[static_cast<std::size_t>(particle) + 1];
+        }
+    }
+    std::partial_sum(copy_start_.begin(), copy_start_.end(), copy_start_.begin());
+    copy_.resize(static_cast<std::size_t>(copy_start_.back()));
+    std::vector<Index> next(copy_start_.begin(), copy_start_.end() - 1);
+    for (std::size_t b = 0; b < boxes_.size(); ++b) {
+        Index place = 0;
+        for (const Index particle : boxes_[b]->particles) {
+            copy_[static_cast<std::size_t>(next[static_cast<std::size_t>(particle)]++)] = {static_cast<Index>(b), place++};
+        }
+    }
+}
+
+void SchwarzPreconditioner::factorise_boxes(const BlockMatrix& upper, const SchwarzOptions& options, const Progress& progress) {
+    constexpr std::size_t batch = 64;  // between two looks at the progress callback
+    for (std::size_t begin = 0; begin < boxes_.size(); begin += batch) {
+        progress.update("factorising", static_cast<double>(begin) / static_cast<double>(boxes_.size()));
+        const std::size_t end = std::min(begin + batch, boxes_.size());
+        std::exception_ptr failure;  // an exception must not leave a parallel loop
+#pragma omp parallel for schedule(dynamic)
+        for (std::size_t b = begin; b < end; ++b) {
+            try {
+                const BlockMatrix local = restrict_to(upper, boxes_[b]->particles);
+                const EliminationOrder order(local, Ordering::minimum_degree);
+                boxes_[b]->factor = std::make_unique<SinglePrecisionFactor>(local, options.shift, order);
+            } catch (...) {
+#pragma omp critical
+                failure = std::current_exception();
+            }
+        }
+        if (failure) {
+            std::rethrow_exception(failure);
+        }
+    }
 }
 
 SchwarzPreconditioner::~SchwarzPreconditioner() = default;

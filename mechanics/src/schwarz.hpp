@@ -35,6 +35,10 @@ public:
 private:
     struct Box;
     struct Coarse;
+
+    void list_copies(Index particles);
+    void factorise_boxes(const BlockMatrix& upper, const SchwarzOptions& options, const Progress& progress);
+
     std::vector<std::unique_ptr<Box>> boxes_;
     std::vector<Index> copy_start_;           ///< per particle: range in `copy_`
     std::vector<std::array<Index, 2>> copy_;  ///< (box, place in the box) of every copy of a particle

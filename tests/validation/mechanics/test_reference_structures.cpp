@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
+#include <string>
 
 namespace coagula::mechanics {
 namespace {
@@ -16,6 +18,10 @@ struct Published {
     const char* name;
     double xy, xz, yz;  // MPa
 };
+
+void PrintTo(const Published& structure, std::ostream* out) {
+    *out << structure.name;
+}
 
 class ReferenceStructure : public ::testing::TestWithParam<Published> {};
 
