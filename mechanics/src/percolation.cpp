@@ -1,0 +1,158 @@
+#include <coagula/mechanics/percolation.hpp>
+
+#include <coagula/common/checks.hpp>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace coagula::mechanics {
+
+namespace {
+
+using Image = Eigen::Vector3i;
+
+/// Disjoint sets of particles; each particle knows its image of the box relative to that of its root.
+class Sets {
+public:
+    explicit Sets(Index particles)
+        : parent_(static_cast<std::size_t>(particles)), size_(parent_.size(), 1), image_(parent_.size(), Image::Zero()) {
+        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    }
+
+    struct Place {
+        std::size_t root;
+        Image image;
+    };
+
+    /// Path halving: every second particle on the way is tied to its grandparent.
+    Place find(std::size_t particle) {
+        Image image = Image::Zero();
+        while (parent_[particle] != particle) {
+            const std::size_t parent = parent_[particle];
+            image_[particle] += image_[parent];
+            parent_[particle] = parent_[parent];
+            image += image_[particle];
+            particle = parent_[particle];
+        }
+        return {particle, image};
+    }
+
+    /// Joins two particles, the second of which lies `image` boxes from where its coordinates say, seen from the first. Returns
+    /// how many boxes a walk around the loop that this closes has moved; zero when it closes none.
+    Image join(std::size_t first, std::size_t second, const Image& image) {
+        const Place a = find(first);
+        const Place b = find(second);
+        const Image step = a.image + image - b.image;
+        if (a.root == b.root) {
+            return step;
+        }
+        if (size_[a.root] >= size_[b.root]) {
+            attach(b.root, a.root, step);
+        } else {
+            attach(a.root, b.root, -step);
+        }
+        return Image::Zero();
+    }
+
+private:
+    void attach(std::size_t child, std::size_t root, const Image& image) {
+        parent_[child] = root;
+        image_[child] = image;
+        size_[root] += size_[child];
+    }
+
+    std::vector<std::size_t> parent_;
+    std::vector<std::size_t> size_;
+    std::vector<Image> image_;
+};
+
+/// Boxes between the second particle of a bond as the branch vector reaches it and as its coordinates say.
+Image crossed_boxes(const Packing& packing, const ContactNetwork& bonds, Index bond) {
+    if (!packing.cell.is_periodic()) {
+        return Image::Zero();
+    }
+    const Eigen::Vector3d direct = packing.positions.col(bonds.ends(1, bond)) - packing.positions.col(bonds.ends(0, bond));
+    return (bonds.branch.col(bond) - direct).cwiseQuotient(packing.cell.lengths()).array().round().cast<int>();
+}
+
+/// Whether `winding` is linearly independent of the (fewer than four, independent) others.
+bool is_independent(const std::vector<Image>& others, const Image& winding) {
+    using Exact = Eigen::Matrix<std::int64_t, 3, 1>;
+    const Exact w = winding.cast<std::int64_t>();
+    switch (others.size()) {
+        case 0:
+            return !w.isZero();
+        case 1:
+            return !w.cross(others[0].cast<std::int64_t>()).isZero();
+        case 2:
+            return w.dot(others[0].cast<std::int64_t>().cross(others[1].cast<std::int64_t>())) != 0;
+        default:
+            return false;
+    }
+}
+
+struct Loop {
+    std::size_t particle;
+    Image winding;
+};
+
+/// Joins the ends of the bonds; returns the loops that reach around the box.
+std::vector<Loop> join_bonds(const Packing& packing, const ContactNetwork& bonds, const std::vector<bool>& selected, Sets& sets) {
+    std::vector<Loop> loops;
+    for (Index bond = 0; bond < bonds.size(); ++bond) {
+        if (selected.empty() || selected[static_cast<std::size_t>(bond)]) {
+            const auto first = static_cast<std::size_t>(bonds.ends(0, bond));
+            const Image winding =
+                sets.join(first, static_cast<std::size_t>(bonds.ends(1, bond)), crossed_boxes(packing, bonds, bond));
+            if (!winding.isZero()) {
+                loops.push_back({first, winding});
+            }
+        }
+    }
+    return loops;
+}
+
+}  // namespace
+
+bool Cluster::percolates(int axis) const {
+    return std::any_of(windings.begin(), windings.end(), [axis](const Eigen::Vector3i& winding) { return winding[axis] != 0; });
+}
+
+std::vector<Cluster> find_clusters(const Packing& packing, const ContactNetwork& bonds, const std::vector<bool>& selected) {
+    require(bonds.particles == packing.size(), "the bonds belong to a packing of " + std::to_string(bonds.particles) +
+                                                   " particles, the packing has " + std::to_string(packing.size()));
+    require(selected.empty() || selected.size() == static_cast<std::size_t>(bonds.size()),
+            "the flags of the selected bonds must be one per bond");
+    Sets sets(packing.size());
+    const std::vector<Loop> loops = join_bonds(packing, bonds, selected, sets);
+    std::vector<Cluster> by_root(static_cast<std::size_t>(packing.size()));
+    for (Index particle = packing.size(); particle-- > 0;) {
+        Cluster& cluster = by_root[sets.find(static_cast<std::size_t>(particle)).root];
+        cluster.first = particle;
+        ++cluster.particles;
+    }
+    for (Index bond = 0; bond < bonds.size(); ++bond) {
+        if (selected.empty() || selected[static_cast<std::size_t>(bond)]) {
+            ++by_root[sets.find(static_cast<std::size_t>(bonds.ends(0, bond))).root].bonds;
+        }
+    }
+    for (const Loop& loop : loops) {
+        std::vector<Image>& windings = by_root[sets.find(loop.particle).root].windings;
+        if (is_independent(windings, loop.winding)) {
+            windings.push_back(loop.winding);
+        }
+    }
+    std::erase_if(by_root, [](const Cluster& cluster) { return cluster.bonds == 0; });
+    std::sort(by_root.begin(), by_root.end(), [](const Cluster& a, const Cluster& b) {
+        return a.particles != b.particles ? a.particles > b.particles : a.first < b.first;
+    });
+    return by_root;
+}
+
+}  // namespace coagula::mechanics
