@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <deque>
 
@@ -89,18 +90,17 @@ private:
     }
 
     bool begins_slack_chain(Index particle) const {
-        for (const Index bond : two_bonds(particle)) {
+        const auto bonds = two_bonds(particle);
+        return std::any_of(bonds.begin(), bonds.end(), [&](Index bond) {
             const Index neighbour = other_end(bond, particle);
-            if (neighbour == particle || degree_[neighbour] != 2 || is_held(neighbour)) {
-                continue;
-            }
-            const Eigen::Vector3d first = link(particle);
-            const Eigen::Vector3d second = link(neighbour);
-            if (first.cross(second).norm() > certainly_bent * first.norm() * second.norm()) {
-                return true;
-            }
-        }
-        return false;
+            return neighbour != particle && degree_[neighbour] == 2 && !is_held(neighbour) && bent(particle, neighbour);
+        });
+    }
+
+    bool bent(Index first, Index second) const {
+        const Eigen::Vector3d one = link(first);
+        const Eigen::Vector3d other = link(second);
+        return one.cross(other).norm() > certainly_bent * one.norm() * other.norm();
     }
 
     void remove_bonds(Index particle) {

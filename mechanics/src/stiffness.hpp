@@ -41,7 +41,7 @@ struct BlockMatrix {
 /// The linear problem of one network.
 class LinearNetwork {
 public:
-    LinearNetwork(const Packing& packing, const ContactNetwork& bonds, const LoadBearing& kept, const BondedContact& law);
+    LinearNetwork(const Packing& packing, const ContactNetwork& network, const LoadBearing& kept, const BondedContact& law);
 
     Index particles() const { return particles_; }
     const std::vector<LinearBond>& bonds() const { return bonds_; }
