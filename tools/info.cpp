@@ -36,10 +36,23 @@ std::string value_text(const io::Dataset& dataset) {
     return std::to_string(std::get<std::vector<std::int64_t>>(dataset.values).front());
 }
 
+/// Arrays longer than this, such as one value per bond, are listed with their shape only.
+constexpr std::size_t longest_listed = 1000;
+
+bool is_long(const io::Dataset& dataset) {
+    return !dataset.shape.empty() && dataset.shape.front() > longest_listed;
+}
+
 Json results_json(const Results& results) {
     Json json = Json::object();
     for (const io::Dataset& dataset : results) {
-        json[dataset.path] = {{"value", to_json(dataset)}, {"unit", dataset.unit}, {"description", dataset.description}};
+        Json& entry = json[dataset.path];
+        entry["value"] = is_long(dataset) ? Json(nullptr) : to_json(dataset);
+        if (is_long(dataset)) {
+            entry["shape"] = dataset.shape;
+        }
+        entry["unit"] = dataset.unit;
+        entry["description"] = dataset.description;
     }
     return json;
 }

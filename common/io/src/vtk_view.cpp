@@ -56,6 +56,8 @@ void write_size(File& file, const std::string& name, std::size_t size) {
 }  // namespace
 
 void write_view_bonds(File& file, const Packing& packing, const std::optional<ContactNetwork>& bonds) {
+    file.remove(in_view("CellData"));
+    file.create_group(in_view("CellData"));
     const GridCells cells = grid_cells(packing, bonds);
     write_size(file, "NumberOfCells", cells.types.size());
     write_size(file, "NumberOfConnectivityIds", cells.connectivity.size());
@@ -73,7 +75,6 @@ void write_view_bonds(File& file, const Packing& packing, const std::optional<Co
 void write_view(File& file, const Packing& packing, const std::optional<ContactNetwork>& bonds) {
     file.remove(layout::view);
     file.create_group(in_view("PointData"));
-    file.create_group(in_view("CellData"));
     file.set_attribute(layout::view, "Version", std::vector<std::int64_t>{1, 0});
     file.set_fixed_attribute(layout::view, "Type", "UnstructuredGrid");
     const auto particles = static_cast<std::size_t>(packing.size());
@@ -96,6 +97,20 @@ void write_view_field(File& file, Index particles, const ParticleField& field) {
     }
     const std::string path = in_view("PointData/" + field.name);
     file.write(path, shape, field.values.data());
+    file.describe(path, field.unit, field.description);
+}
+
+void write_view_bond_field(File& file, const Packing& packing, const ContactNetwork& bonds, const BondField& field) {
+    require(field.values.size() == bonds.size(), "the field '" + field.name + "' has " + std::to_string(field.values.size()) +
+                                                     " values for " + std::to_string(bonds.size()) + " bonds");
+    std::vector<float> values(static_cast<std::size_t>(packing.size()), 0.0F);
+    for (Index bond = 0; bond < bonds.size(); ++bond) {
+        if (lies_inside(packing, bonds, bond)) {
+            values.push_back(static_cast<float>(field.values[bond]));
+        }
+    }
+    const std::string path = in_view("CellData/" + field.name);
+    file.write(path, {values.size()}, values.data());
     file.describe(path, field.unit, field.description);
 }
 

@@ -116,7 +116,8 @@ void write_structure(const std::string& path, const Structure& structure, const 
 
 void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
                  const std::optional<ContactNetwork>& bonds, const std::vector<ParticleField>& fields,
-                 const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite) {
+                 const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
+                 const std::vector<BondField>& bond_fields) {
     std::error_code missing;
     const bool in_place = std::filesystem::equivalent(source, target, missing);
     check_output(target, overwrite || in_place);
@@ -138,6 +139,10 @@ void add_results(const std::string& source, const std::string& target, const std
     }
     for (const ParticleField& field : fields) {
         write_view_field(file, structure.packing.size(), field);
+    }
+    require(bonds || bond_fields.empty(), "fields of bonds need bonds");
+    for (const BondField& field : bond_fields) {
+        write_view_bond_field(file, structure.packing, *bonds, field);
     }
     for (const Dataset& dataset : results) {
         write_dataset(file, dataset);

@@ -43,6 +43,14 @@ struct ParticleField {
     std::string description;
 };
 
+/// One number per bond, shown by ParaView on the lines of the bonds; single precision. Values are M.
+struct BondField {
+    std::string name;
+    Eigen::VectorXd values;
+    std::string unit;
+    std::string description;
+};
+
 /// One stage of the history of a file.
 struct Provenance {
     std::string stage;  ///< "generate vem", "characterize" ...
@@ -76,10 +84,11 @@ Structure read_structure(const std::string& path);
 
 /// Copies `source` to `target` (may be the same file) with the groups in `replaced` removed, then adds bonds (if given), fields,
 /// results and a provenance entry; by temporary file and rename. What coagula does not know in the source is kept.
-/// With target != source an existing target needs `overwrite`.
+/// With target != source an existing target needs `overwrite`. `bond_fields` belong to `bonds`.
 void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
                  const std::optional<ContactNetwork>& bonds, const std::vector<ParticleField>& fields,
-                 const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite);
+                 const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
+                 const std::vector<BondField>& bond_fields = {});
 
 /// All datasets below a group ("/characterization"), sorted by path; empty when the group does not exist.
 std::vector<Dataset> read_results(const std::string& path, const std::string& group);
