@@ -40,11 +40,15 @@ TEST(FrequencyResponse, StorageAndLossObeyKramersAndKronig) {
         integral += is_end ? (0.5 * step + 1) * loss : step * loss;
     }
     const double slow = solve_linear(packing, bonds).mean_shear_modulus();
-    const double fast = solve_linear(packing, bonds, {.normal_stiffness = 240, .shear_stiffness = 50}).mean_shear_modulus();
+    LinearOptions stiff;
+    stiff.normal_stiffness = 100 + 2 * model.normal_maxwell_stiffness;  // of a particle, two in series
+    stiff.shear_stiffness = 10 + 2 * model.shear_maxwell_stiffness;
+    const double fast = solve_linear(packing, bonds, stiff).mean_shear_modulus();
     ASSERT_GT(fast, 1.5 * slow);
     EXPECT_NEAR(2 / std::numbers::pi * integral, fast - slow, 1e-5 * fast);
 }
 
+// The elastic solver subtracts the energy of relaxation from the ten times larger affine one, with free motions in between: 1e-8.
 TEST(FrequencyResponse, WithoutLossesAReferenceStructureIsElastic) {
     if (!have_shared_data("reference_structures")) {
         GTEST_SKIP() << "the reference structures are not beside the repository";
@@ -54,7 +58,7 @@ TEST(FrequencyResponse, WithoutLossesAReferenceStructureIsElastic) {
     const auto linear = solve_linear(packing, bonds);
     const auto response = solve_frequency_sweep(packing, bonds, {}, std::array{1.0});
     const Eigen::Matrix<double, 6, 6> storage = response.points.at(0).modulus.real();
-    EXPECT_LT((storage - linear.elastic_tensor).norm(), 1e-9 * linear.elastic_tensor.norm());
+    EXPECT_LT((storage - linear.elastic_tensor).norm(), 1e-8 * linear.elastic_tensor.norm());
     EXPECT_EQ(response.rattlers, linear.rattlers);
 }
 

@@ -1,0 +1,205 @@
+#include <coagula/common/contact_model.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace coagula {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Parameter = double ContactModel::*;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr const char* paper = "Schenker et al. 2012, sec. 2.1";
+constexpr const char* polymers = "Ferry 1980, Viscoelastic Properties of Polymers, ch. 3";
+constexpr const char* fractional = "Koeller 1984, J. Appl. Mech. 51, 299";
+
+/// The parameters of one direction.
+struct Direction {
+    Parameter stiffness;
+    Parameter viscosity;
+    Parameter maxwell_stiffness;
+    Parameter maxwell_time;
+    Parameter springpot_stiffness;
+    Parameter springpot_time;
+    Parameter springpot_exponent;
+};
+
+constexpr Direction normal_direction{&ContactModel::normal_stiffness,           &ContactModel::normal_viscosity,
+                                     &ContactModel::normal_maxwell_stiffness,   &ContactModel::normal_maxwell_time,
+                                     &ContactModel::normal_springpot_stiffness, &ContactModel::normal_springpot_time,
+                                     &ContactModel::normal_springpot_exponent};
+constexpr Direction shear_direction{&ContactModel::shear_stiffness,           &ContactModel::shear_viscosity,
+                                    &ContactModel::shear_maxwell_stiffness,   &ContactModel::shear_maxwell_time,
+                                    &ContactModel::shear_springpot_stiffness, &ContactModel::shear_springpot_time,
+                                    &ContactModel::shear_springpot_exponent};
+
+bool has(const ContactModel& model, Parameter parameter) {
+    return !std::isnan(model.*parameter);
+}
+
+void append_maxwell(std::vector<ContactParameter>& list, const std::string& name, const Direction& d) {
+    list.push_back({name + "_maxwell_stiffness", "N/m", d.maxwell_stiffness, 0, true, infinity,
+                    name + " spring in series with a dashpot, of a contact", polymers});
+    list.push_back({name + "_maxwell_time", "s", d.maxwell_time, 0, false, infinity,
+                    name + " dashpot of that element over its spring: relaxation time", polymers});
+}
+
+void append_springpot(std::vector<ContactParameter>& list, const std::string& name, const Direction& d) {
+    list.push_back({name + "_springpot_stiffness", "N/m", d.springpot_stiffness, 0, true, infinity,
+                    name + " springpot of a contact: |k*| where w times its time is 1", fractional});
+    list.push_back({name + "_springpot_time", "s", d.springpot_time, 0, false, infinity, name + " springpot: time", fractional});
+    list.push_back({name + "_springpot_exponent", "1", d.springpot_exponent, 0, true, 1,
+                    name + " springpot: 0 is a spring, 1 a dashpot", fractional});
+}
+
+std::vector<ContactParameter> make_parameters() {
+    using Model = ContactModel;
+    std::vector<ContactParameter> list{
+        {"normal_stiffness", "N/m", &Model::normal_stiffness, 0, false, infinity, "normal spring of a particle", paper},
+        {"shear_stiffness", "N/m", &Model::shear_stiffness, 0, true, infinity, "shear spring of a particle", paper},
+        {"normal_viscosity", "N.s/m", &Model::normal_viscosity, 0, true, infinity, "normal dashpot of a contact", polymers},
+        {"shear_viscosity", "N.s/m", &Model::shear_viscosity, 0, true, infinity, "shear dashpot of a contact", polymers}};
+    append_maxwell(list, "normal", normal_direction);
+    append_maxwell(list, "shear", shear_direction);
+    append_springpot(list, "normal", normal_direction);
+    append_springpot(list, "shear", shear_direction);
+    list.push_back({"solvent_viscosity", "Pa.s", &Model::solvent_viscosity, 0, false, infinity,
+                    "viscosity of the solvent, which drags on every particle that leaves its affine flow",
+                    "Stokes 1851; Happel and Brenner 1983, Low Reynolds Number Hydrodynamics, ch. 5"});
+    return list;
+}
+
+/// i w t / (1 + i w t).
+Complex maxwell_factor(double w_t) {
+    return Complex(0, w_t) / Complex(1, w_t);
+}
+
+/// (i x)^a = x^a e^{i a pi / 2}.
+Complex springpot_factor(double x, double exponent) {
+    return std::polar(std::pow(x, exponent), exponent * std::numbers::pi / 2);
+}
+
+Complex direction_stiffness(const ContactModel& m, double w, const Direction& d) {
+    Complex k = m.*d.stiffness / 2;  // two equal springs in series
+    if (has(m, d.viscosity)) {
+        k += Complex(0, w * m.*d.viscosity);
+    }
+    if (has(m, d.maxwell_stiffness)) {
+        k += m.*d.maxwell_stiffness * maxwell_factor(w * m.*d.maxwell_time);
+    }
+    if (has(m, d.springpot_stiffness)) {
+        k += m.*d.springpot_stiffness * springpot_factor(w * m.*d.springpot_time, m.*d.springpot_exponent);
+    }
+    return k;
+}
+
+Complex direction_derivative(const ContactModel& m, double w, const Direction& d, Parameter parameter) {
+    if (parameter == d.stiffness) {
+        return 0.5;
+    }
+    if (parameter == d.viscosity) {
+        return {0, w};
+    }
+    if (parameter == d.maxwell_stiffness) {
+        return maxwell_factor(w * m.*d.maxwell_time);
+    }
+    if (parameter == d.maxwell_time) {
+        const Complex slowing(1, w * m.*d.maxwell_time);
+        return m.*d.maxwell_stiffness * Complex(0, w) / (slowing * slowing);
+    }
+    if (parameter != d.springpot_stiffness && parameter != d.springpot_time && parameter != d.springpot_exponent) {
+        return 0;
+    }
+    const double x = w * m.*d.springpot_time;
+    const Complex factor = springpot_factor(x, m.*d.springpot_exponent);
+    if (parameter == d.springpot_stiffness) {
+        return factor;
+    }
+    const Complex stiffness = m.*d.springpot_stiffness * factor;
+    return parameter == d.springpot_time ? stiffness * (m.*d.springpot_exponent / m.*d.springpot_time)
+                                         : stiffness * Complex(std::log(x), std::numbers::pi / 2);
+}
+
+/// The name of a parameter.
+const std::string& name_of(Parameter parameter) {
+    for (const ContactParameter& entry : contact_parameters()) {
+        if (entry.value == parameter) {
+            return entry.name;
+        }
+    }
+    throw std::logic_error("a parameter of the contact model is not in the list");
+}
+
+/// Parts of one element: all or none.
+void check_together(const ContactModel& model, std::span<const Parameter> parts) {
+    for (const Parameter given : parts) {
+        for (const Parameter missing : parts) {
+            require(!has(model, given) || has(model, missing),
+                    "the contact model has " + name_of(given) + " but no " + name_of(missing) + ": they belong together");
+        }
+    }
+}
+
+void check_direction(const ContactModel& model, const Direction& d) {
+    check_together(model, std::array{d.maxwell_stiffness, d.maxwell_time});
+    check_together(model, std::array{d.springpot_stiffness, d.springpot_time, d.springpot_exponent});
+}
+
+}  // namespace
+
+bool ContactParameter::is_set(const ContactModel& model) const {
+    return has(model, value);
+}
+
+std::string ContactParameter::range() const {
+    if (std::isfinite(high)) {
+        return to_text(low) + " .. " + to_text(high);
+    }
+    return (low_included ? ">= " : "> ") + to_text(low);
+}
+
+std::span<const ContactParameter> contact_parameters() {
+    static const std::vector<ContactParameter> parameters = make_parameters();
+    return parameters;
+}
+
+void check(const ContactModel& model) {
+    for (const Parameter needed : {&ContactModel::normal_stiffness, &ContactModel::shear_stiffness}) {
+        require(has(model, needed), "the contact model needs " + name_of(needed));
+    }
+    for (const ContactParameter& entry : contact_parameters()) {
+        const double value = model.*entry.value;
+        const bool holds = value <= entry.high && (entry.low_included ? value >= entry.low : value > entry.low);
+        require(!entry.is_set(model) || (holds && std::isfinite(value)), entry.name + " of the contact model is " + to_text(value) +
+                                                                             (entry.unit == "1" ? "" : " " + entry.unit) +
+                                                                             ": it must be finite and " + entry.range());
+    }
+    check_direction(model, normal_direction);
+    check_direction(model, shear_direction);
+}
+
+ContactStiffness complex_stiffness(const ContactModel& model, double angular_frequency) {
+    return {direction_stiffness(model, angular_frequency, normal_direction),
+            direction_stiffness(model, angular_frequency, shear_direction)};
+}
+
+ContactStiffness stiffness_derivative(const ContactModel& model, double angular_frequency, double ContactModel::*parameter) {
+    return {direction_derivative(model, angular_frequency, normal_direction, parameter),
+            direction_derivative(model, angular_frequency, shear_direction, parameter)};
+}
+
+double translation_drag(double radius) {
+    return 6 * std::numbers::pi * radius;
+}
+
+double rotation_drag(double radius) {
+    return 8 * std::numbers::pi * radius * radius * radius;
+}
+
+}  // namespace coagula

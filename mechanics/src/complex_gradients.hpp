@@ -1,0 +1,24 @@
+// Conjugate orthogonal gradients for complex symmetric systems, six loads at once, each with its own coefficients and its own end.
+#pragma once
+
+#include "complex_factor.hpp"
+
+#include <functional>
+
+namespace coagula::mechanics {
+
+struct ComplexSolution {
+    ComplexLoads motion;
+    int iterations = 0;   ///< largest over the columns
+    double residual = 0;  ///< |f - K x| / |f|, recomputed from K and the motion; largest over the columns
+};
+
+/// Solves K x = f by the method of van der Vorst and Melissen (1990, IEEE Trans. Magn. 26, 706): conjugate gradients with the
+/// product x.y without conjugation. A column ends when its relative residual is below `tolerance` or the method breaks down.
+/// @param least_load columns of f with a smaller norm are no loads: their motion is zero.
+ComplexSolution conjugate_orthogonal_gradients(const std::function<void(const ComplexLoads&, ComplexLoads&)>& multiply,
+                                               const ComplexLoads& f, const Eigen::Array<double, 1, 6>& least_load,
+                                               const std::function<void(const ComplexLoads&, ComplexLoads&)>& precondition,
+                                               double tolerance, int most_iterations);
+
+}  // namespace coagula::mechanics

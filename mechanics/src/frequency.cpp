@@ -1,0 +1,205 @@
+#include <coagula/mechanics/frequency.hpp>
+
+#include "blas_threads.hpp"
+#include "cholesky_factor.hpp"
+#include "complex_gradients.hpp"
+#include "frequency_network.hpp"
+#include "load_bearing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace coagula::mechanics {
+
+namespace {
+
+constexpr int blas_threads = 2;      // fixed: the bits of a factor depend on it
+constexpr int most_iterations = 60;  // a good shift needs fewer than ten
+constexpr double largest_shift = 1e-5;
+constexpr double rounding = 1e-13;
+
+void check(const Packing& packing, const ContactNetwork& bonds, std::span<const double> frequencies,
+           const FrequencyOptions& options) {
+    require(bonds.particles == packing.size(), "the bonds belong to a packing of " + std::to_string(bonds.particles) +
+                                                   " particles, the packing has " + std::to_string(packing.size()));
+    require(packing.cell.is_periodic(), "the frequency response needs a periodic cell; the packing has a free surface");
+    for (const double frequency : frequencies) {
+        require_positive(frequency, "the frequency", "Hz");
+    }
+    require_between(options.tolerance, 0.0, 1e-2, "the tolerance of the solver");
+    require_between(options.shift, 0.0, largest_shift, "the shift of the preconditioner");
+}
+
+/// Every particle with a bond, for with drag a dangling one loads the network, too.
+LoadBearing everything_bonded(const ContactNetwork& bonds) {
+    const Eigen::VectorXi degree = contact_counts(bonds);
+    LoadBearing kept;
+    kept.number.assign(static_cast<std::size_t>(bonds.particles), -1);
+    for (Index particle = 0; particle < bonds.particles; ++particle) {
+        if (degree[particle] > 0) {
+            kept.number[static_cast<std::size_t>(particle)] = static_cast<Index>(kept.particle.size());
+            kept.particle.push_back(particle);
+        }
+    }
+    for (Index bond = 0; bond < bonds.size(); ++bond) {
+        kept.bond.push_back(bond);
+    }
+    return kept;
+}
+
+bool has_drag(const ContactModel& model) {
+    return !std::isnan(model.solvent_viscosity);
+}
+
+/// Solves at one frequency after the other with one analysis of the pattern.
+class SweepSolver {
+public:
+    SweepSolver(const FrequencyNetwork& network, const FrequencyOptions& options) : network_(network), options_(options) {
+        std::vector<int> row;
+        std::vector<int> column;
+        network.scalar_pattern(row, column);
+        const EliminationOrder order(network.upper(), Ordering::nested_dissection);
+        factor_ = std::make_unique<ComplexSymmetricFactor>(row, column, order.permutation());
+    }
+
+    ComplexSolution solve(const Ratios& ratios) {
+        const ComplexBlocks matrix = network_.matrix(ratios);
+        ComplexSolution best;
+        for (double shift = options_.shift; shift <= largest_shift; shift *= 100) {
+            factorise(matrix, ratios, shift);
+            best = conjugate_orthogonal_gradients([&](const ComplexLoads& x, ComplexLoads& y) { network_.multiply(matrix, x, y); },
+                                                  network_.loads(ratios), rounding * network_.load_scale(),
+                                                  [&](const ComplexLoads& r, ComplexLoads& z) { factor_->solve(r, z); },
+                                                  options_.tolerance, most_iterations);
+            if (best.residual <= 2 * options_.tolerance) {
+                return best;
+            }
+        }
+        throw std::runtime_error("the residual " + to_text(options_.tolerance) + " was not reached, only " +
+                                 to_text(best.residual) +
+                                 "; the network is too close to losing its stiffness, or the tolerance is too small");
+    }
+
+private:
+    /// Without drag some motions have no stiffness and get the shift. With drag none is free, but at low frequency the drag may
+    /// drown in rounding errors beside the bonds; the preconditioner then has more of the same drag.
+    void factorise(const ComplexBlocks& matrix, const Ratios& ratios, double shift) {
+        const double drag = translation_drag(std::abs(ratios.drag));
+        if (drag == 0) {
+            factor_->factorise(network_.scalar_values(matrix, shift));
+        } else if (drag >= shift) {
+            factor_->factorise(network_.scalar_values(matrix, 0));
+        } else {
+            factor_->factorise(network_.scalar_values(network_.matrix({ratios.shear, ratios.drag * (shift / drag)}), 0));
+        }
+    }
+
+    const FrequencyNetwork& network_;
+    FrequencyOptions options_;
+    std::unique_ptr<ComplexSymmetricFactor> factor_;
+};
+
+/// Volume, length and angular frequency that turn the reduced sums into moduli.
+struct Scales {
+    double per_volume;  ///< r0^2 / V [1/m]
+    Complex drag;       ///< i w eta r0 [N/m]; 0: no solvent
+    Complex drag_rate;  ///< its derivative by eta
+};
+
+Scales scales_of(const Packing& packing, const ContactModel& model, double angular_frequency) {
+    const double r0 = mean_radius(packing);
+    const Complex rate(0, angular_frequency * r0);
+    return {r0 * r0 / packing.cell.volume(), has_drag(model) ? rate * model.solvent_viscosity : Complex(0), rate};
+}
+
+ComplexTensor combine(const Forms& forms, const ContactStiffness& k, const Complex& drag, double per_volume) {
+    return per_volume * (k.normal * forms.along + k.shear * forms.across + drag * forms.drag);
+}
+
+void fill_point(FrequencyPoint& point, const Forms& forms, const ContactModel& model, const Scales& scales,
+                std::span<const ContactParameter> parameters) {
+    const double w = 2 * std::numbers::pi * point.frequency;
+    const ContactStiffness& k = point.contact_stiffness;
+    point.modulus = combine(forms, k, scales.drag, scales.per_volume);
+    for (const ContactParameter& parameter : parameters) {
+        const bool is_solvent = parameter.value == &ContactModel::solvent_viscosity;
+        point.derivative.push_back(combine(forms, stiffness_derivative(model, w, parameter.value),
+                                           is_solvent ? scales.drag_rate : Complex(0), scales.per_volume));
+    }
+    point.dissipation =
+        std::numbers::pi * scales.per_volume *
+        (k.normal.imag() * forms.along_power + k.shear.imag() * forms.across_power + scales.drag.imag() * forms.drag_power);
+}
+
+FrequencyPoint start_point(double frequency, const ContactModel& model) {
+    FrequencyPoint point;
+    point.frequency = frequency;
+    point.contact_stiffness = complex_stiffness(model, 2 * std::numbers::pi * frequency);
+    return point;
+}
+
+}  // namespace
+
+FrequencyResponse solve_frequency_sweep(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model,
+                                        std::span<const double> frequencies, const FrequencyOptions& options,
+                                        const Progress& progress) {
+    coagula::check(model);
+    check(packing, bonds, frequencies, options);
+    FrequencyResponse response;
+    const auto all = contact_parameters();
+    std::copy_if(all.begin(), all.end(), std::back_inserter(response.parameters), [&](const auto& p) { return p.is_set(model); });
+    const LoadBearing kept = has_drag(model) ? everything_bonded(bonds) : find_load_bearing(bonds);
+    response.contacts = bonds.size();
+    response.rattlers = packing.size() - static_cast<Index>(kept.particle.size());
+
+    const BlasThreads threads(blas_threads);
+    const FrequencyNetwork network(packing, bonds, kept);
+    std::unique_ptr<SweepSolver> solver;
+    if (!kept.particle.empty()) {
+        solver = std::make_unique<SweepSolver>(network, options);
+    }
+    for (const double frequency : frequencies) {
+        progress.update("frequency sweep", static_cast<double>(response.points.size()) / static_cast<double>(frequencies.size()),
+                        to_text(frequency) + " Hz");
+        FrequencyPoint point = start_point(frequency, model);
+        const Scales scales = scales_of(packing, model, 2 * std::numbers::pi * frequency);
+        Forms forms;
+        if (solver) {
+            const ContactStiffness& k = point.contact_stiffness;
+            const ComplexSolution solution = solver->solve({k.shear / k.normal, scales.drag / k.normal});
+            point.iterations = solution.iterations;
+            point.residual = solution.residual;
+            forms = network.forms(solution.motion);
+        }
+        fill_point(point, forms, model, scales, response.parameters);
+        response.points.push_back(std::move(point));
+    }
+    return response;
+}
+
+namespace {
+
+constexpr std::array<std::array<int, 3>, 3> voigt{{{-1, 5, 4}, {5, -1, 3}, {4, 3, -1}}};
+
+}  // namespace
+
+Complex FrequencyPoint::shear_modulus(int a, int b) const {
+    require(a >= 0 && a < 3 && b >= 0 && b < 3 && a != b, "a shear orientation is named by two different axes of 0, 1, 2");
+    const int place = voigt[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+    return modulus(place, place);
+}
+
+Complex FrequencyPoint::mean_shear_modulus() const {
+    return modulus.diagonal().tail<3>().mean();
+}
+
+Complex FrequencyPoint::mean_derivative(std::size_t parameter) const {
+    return derivative.at(parameter).diagonal().tail<3>().mean();
+}
+
+}  // namespace coagula::mechanics
