@@ -1,4 +1,7 @@
-// coagula shear: elastic response of the bonded packing.
+// coagula shear: elastic response of the bonded packing, or its response to harmonic strain.
+#include "frequency_list.hpp"
+#include "frequency_results.hpp"
+#include "load_structure_results.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
 #include "provenance.hpp"
@@ -9,10 +12,12 @@
 #include <coagula/characterize/inner_particles.hpp>
 #include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
 #include <coagula/mechanics/relaxation.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 namespace coagula::tools {
@@ -26,10 +31,29 @@ mechanics::LinearSolver chosen_solver(const std::string& name) {
     return name == "iterative" ? mechanics::LinearSolver::iterative : mechanics::LinearSolver::automatic;
 }
 
-mechanics::LinearOptions linear_options(const Arguments& arguments) {
+/// The contact: springs from the options, and what the model file says.
+ContactModel contact_model(const Arguments& arguments) {
+    const ContactModel springs{.normal_stiffness = arguments.quantity("normal-stiffness"),
+                               .shear_stiffness = arguments.quantity("shear-stiffness")};
+    return arguments.has("model") ? io::read_contact_model(arguments.text("model"), springs) : springs;
+}
+
+/// Losses act at a frequency only.
+void check_elastic(const Arguments& arguments, const ContactModel& model) {
+    for (const ContactParameter& parameter : contact_parameters()) {
+        const bool is_spring =
+            parameter.value == &ContactModel::normal_stiffness || parameter.value == &ContactModel::shear_stiffness;
+        if (!is_spring && parameter.is_set(model)) {
+            throw InputError(arguments.text("model") + " has " + parameter.name +
+                             ", a loss that acts at a frequency only: give --frequency or --frequency-sweep");
+        }
+    }
+}
+
+mechanics::LinearOptions linear_options(const Arguments& arguments, const ContactModel& model) {
     mechanics::LinearOptions options;
-    options.normal_stiffness = arguments.quantity("normal-stiffness");
-    options.shear_stiffness = arguments.quantity("shear-stiffness");
+    options.normal_stiffness = model.normal_stiffness;
+    options.shear_stiffness = model.shear_stiffness;
     options.solver = chosen_solver(arguments.text("solver"));
     options.memory_limit = arguments.quantity("memory-limit");
     options.tolerance = arguments.quantity("tolerance");
@@ -54,52 +78,102 @@ void hold_surface(const Packing& packing, mechanics::LinearOptions& options) {
 
 /// The network at rest, if the user asks for it.
 std::optional<mechanics::RelaxedNetwork> relaxed(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
-                                                 const Progress& progress) {
+                                                 const ContactModel& model, const Progress& progress) {
     const std::string& scheme = arguments.text("relax");
     if (scheme == "none") {
         return std::nullopt;
     }
     mechanics::RelaxationOptions options;
-    options.normal_stiffness = arguments.quantity("normal-stiffness");
-    options.shear_stiffness = arguments.quantity("shear-stiffness");
+    options.normal_stiffness = model.normal_stiffness;
+    options.shear_stiffness = model.shear_stiffness;
     options.scheme = scheme == "paper" ? mechanics::RelaxationScheme::stopped_steps : mechanics::RelaxationScheme::minimise;
     return mechanics::relax(packing, bonds, options, progress);
+}
+
+/// What one method finds: for the file, for programs and for people.
+struct Findings {
+    std::string group;  ///< in the file
+    Results results;
+    std::vector<io::ParticleField> fields = {};
+    Table table;
+    Results bond_results = {};  ///< one value per bond each: for the file only
+    std::vector<io::BondField> bond_fields = {};
+};
+
+void append_load_structure(Findings& found, const mechanics::LoadStructure& structure, bool periodic) {
+    for (io::Dataset& dataset : load_structure_datasets(structure, periodic)) {
+        found.results.push_back(std::move(dataset));
+    }
+    for (io::ParticleField& field : load_structure_fields(structure)) {
+        found.fields.push_back(std::move(field));
+    }
+    for (auto& line : load_structure_table(structure)) {
+        found.table.push_back(std::move(line));
+    }
+    found.bond_results = bond_datasets(structure);
+    found.bond_fields = load_structure_bond_fields(structure);
+}
+
+/// @param before the packing before it was relaxed, which tells inside and surface.
+Findings linear_response(const Arguments& arguments, const Packing& before, const Packing& packing, const ContactNetwork& bonds,
+                         const ContactModel& model, const Progress& progress) {
+    mechanics::LinearOptions options = linear_options(arguments, model);
+    if (!before.cell.is_periodic()) {
+        hold_surface(before, options);
+    }
+    const mechanics::LinearResponse response = mechanics::solve_linear(packing, bonds, options, progress);
+    Findings found{.group = "/mechanics/linear",
+                   .results = datasets_of(response, arguments.quantity("bond-tolerance"), options),
+                   .fields = fields_of(response),
+                   .table = table_of(response)};
+    append_load_structure(found, mechanics::find_load_structure(packing, bonds, response, {.held = options.held}),
+                          packing.cell.is_periodic());
+    return found;
+}
+
+Findings frequency_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
+                            const ContactModel& model, const std::vector<double>& frequencies, const Progress& progress) {
+    const auto response = mechanics::solve_frequency_sweep(packing, bonds, model, frequencies,
+                                                           {.tolerance = arguments.quantity("tolerance")}, progress);
+    return {.group = "/mechanics/frequency",
+            .results = datasets_of(response, arguments.quantity("bond-tolerance"), model),
+            .table = table_of(response)};
 }
 
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     check_method(arguments.text("method"));
-    mechanics::LinearOptions options = linear_options(arguments);
-    const double tolerance = arguments.quantity("bond-tolerance");
+    const std::vector<double> frequencies = frequencies_of(arguments);
+    const ContactModel model = contact_model(arguments);
+    if (frequencies.empty()) {
+        check_elastic(arguments, model);
+    }
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
 
-    if (!packing.cell.is_periodic()) {
-        hold_surface(packing, options);
-    }
-    const ContactNetwork bonds = find_contacts(packing, tolerance);
-    const auto rest = relaxed(arguments, packing, bonds, progress);
-    const mechanics::LinearResponse response = rest ? mechanics::solve_linear(rest->packing, rest->bonds, options, progress)
-                                                    : mechanics::solve_linear(packing, bonds, options, progress);
-    Results results = datasets_of(response, tolerance, options);
-    std::vector<io::ParticleField> fields = fields_of(response);
+    const ContactNetwork bonds = find_contacts(packing, arguments.quantity("bond-tolerance"));
+    const auto rest = relaxed(arguments, packing, bonds, model, progress);
+    const Packing& sheared = rest ? rest->packing : packing;
+    const ContactNetwork& network = rest ? rest->bonds : bonds;
+    Findings found = frequencies.empty() ? linear_response(arguments, packing, sheared, network, model, progress)
+                                         : frequency_response(arguments, sheared, network, model, frequencies, progress);
     if (rest) {
-        append_relaxation(results, fields, *rest);
+        append_relaxation(found.group, found.results, found.fields, *rest);
     }
     progress.update("writing", 1.0);
-    io::add_results(arguments.input(), target, {"/mechanics/linear"}, bonds, fields, results,
-                    describe_call(arguments, &packing, clock), arguments.flag("force"));
+    Json json = to_json(found.results, found.group);
+    std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
+    io::add_results(arguments.input(), target, {found.group}, bonds, found.fields, found.results,
+                    describe_call(arguments, &packing, clock), arguments.flag("force"), found.bond_fields);
 
-    Json json = to_json(results, "/mechanics/linear");
-    if (response.floppy_modes < 0) {
+    if (json.value("floppy_modes", 0) < 0) {
         json["floppy_modes"] = nullptr;
     }
     json["output"] = target;
     json["seconds"] = clock.seconds();
-    Table table = table_of(response);
-    table.emplace_back("written to", target);
-    report(arguments, json, table);
+    found.table.emplace_back("written to", target);
+    report(arguments, json, found.table);
 }
 
 }  // namespace
@@ -114,6 +188,9 @@ Verb shear_verb() {
                              above(0)),
                     quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", at_least(0)),
                     quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
+                    text("frequency", "LIST", "response to harmonic strain at these frequencies instead, such as 1Hz,10Hz"),
+                    text("frequency-sweep", "FROM:TO:N", "the same at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
+                    text("model", "FILE.toml", "springs and losses of a contact and the solvent (docs/contact-model.md)"),
                     choice("relax", {"none", "minimise", "paper"},
                            "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero",
                            "none"),

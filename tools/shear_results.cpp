@@ -122,13 +122,14 @@ std::vector<io::ParticleField> fields_of(const LinearResponse& response) {
     return fields;
 }
 
-void append_relaxation(Results& results, std::vector<io::ParticleField>& fields, const mechanics::RelaxedNetwork& rest) {
+void append_relaxation(const std::string& method_group, Results& results, std::vector<io::ParticleField>& fields,
+                       const mechanics::RelaxedNetwork& rest) {
     const double moved = std::sqrt(rest.displacement.squaredNorm() / static_cast<double>(rest.packing.size()));
     results.push_back(
-        io::scalar(group + "relaxation/rms_displacement", moved, "m", "how far the particles moved before the shear"));
-    results.push_back(io::scalar(group + "relaxation/rms_force", rest.rms_force, "1",
+        io::scalar(method_group + "/relaxation/rms_displacement", moved, "m", "how far the particles moved before the shear"));
+    results.push_back(io::scalar(method_group + "/relaxation/rms_force", rest.rms_force, "1",
                                  "rms force left over normal contact stiffness times mean radius"));
-    results.push_back(io::integer(group + "relaxation/iterations", rest.iterations, "iterations of the relaxation"));
+    results.push_back(io::integer(method_group + "/relaxation/iterations", rest.iterations, "iterations of the relaxation"));
     fields.push_back({"relaxation_displacement", rest.displacement, "m", "displacement by the relaxation before the shear"});
 }
 

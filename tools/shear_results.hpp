@@ -16,8 +16,9 @@ Results datasets_of(const mechanics::LinearResponse& response, double bond_toler
 /// Displacements and rotations of the three shears.
 std::vector<io::ParticleField> fields_of(const mechanics::LinearResponse& response);
 
-/// What the relaxation before the shear did.
-void append_relaxation(Results& results, std::vector<io::ParticleField>& fields, const mechanics::RelaxedNetwork& rest);
+/// What the relaxation before the shear did, below the group of the method.
+void append_relaxation(const std::string& method_group, Results& results, std::vector<io::ParticleField>& fields,
+                       const mechanics::RelaxedNetwork& rest);
 
 Table table_of(const mechanics::LinearResponse& response);
 

@@ -1,0 +1,15 @@
+// What `coagula shear --frequency` finds as data sets and a table.
+#pragma once
+
+#include "report.hpp"
+
+#include <coagula/mechanics/frequency.hpp>
+
+namespace coagula::tools {
+
+/// Arrays over the frequencies below /mechanics/frequency.
+Results datasets_of(const mechanics::FrequencyResponse& response, double bond_tolerance, const ContactModel& model);
+
+Table table_of(const mechanics::FrequencyResponse& response);
+
+}  // namespace coagula::tools
