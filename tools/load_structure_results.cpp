@@ -81,6 +81,14 @@ void append_forces(const Group& at, const ShearLoad& load) {
               "standard deviation over mean of what exceeds twice the mean: 1 for an exponential");
 }
 
+void append_non_affinity(const Group& at, const std::string& name, const mechanics::NonAffinity& motion) {
+    at.count(name + "particles", motion.particles, "load-bearing particles that count here");
+    at.number(name + "mean_square", motion.mean_square, "1",
+              "mean square displacement beyond the affine one over (mean radius times strain)^2");
+    at.number(name + "median", motion.median, "1", "median of its length over mean radius times strain");
+    at.number(name + "participation", motion.participation, "1", "(sum u^2)^2 / (n sum u^4); 0 when nothing moves");
+}
+
 void append_shear(const Group& at, const ShearLoad& load, bool periodic) {
     at.count("carried", load.carried ? 1 : 0, "1 where the modulus is not zero");
     at.number("energy", load.energy, "J", "elastic energy of all bonds per unit strain squared");
@@ -93,10 +101,8 @@ void append_shear(const Group& at, const ShearLoad& load, bool periodic) {
     append_backbone(at, load, periodic);
     at.number("energy_participation", load.energy_participation, "1",
               "(sum e)^2 / (N sum e^2) of the particles' energies: share of the particles that take part");
-    at.number("mean_square_nonaffinity", load.mean_square_non_affinity, "1",
-              "mean square displacement beyond the affine one over (mean radius times strain)^2, load-bearing particles");
-    at.number("nonaffine_participation", load.nonaffine_participation, "1",
-              "(sum u^2)^2 / (n sum u^4) of these displacements; 0 when there are none");
+    append_non_affinity(at, "nonaffinity/", load.non_affinity);
+    append_non_affinity(at, "backbone/nonaffinity/", load.backbone_non_affinity);
 }
 
 /// Mean over the three planes.
@@ -108,8 +114,10 @@ void append_means(const Group& at, const LoadStructure& structure) {
     const std::string of = "mean of the three planes";
     at.number("backbone_bond_fraction", mean(structure, backbone_fraction), "1", of);
     at.number("energy_participation", mean(structure, [](const ShearLoad& l) { return l.energy_participation; }), "1", of);
-    at.number("nonaffine_participation", mean(structure, [](const ShearLoad& l) { return l.nonaffine_participation; }), "1", of);
-    at.number("mean_square_nonaffinity", mean(structure, [](const ShearLoad& l) { return l.mean_square_non_affinity; }), "1", of);
+    at.number("backbone_nonaffinity_median", mean(structure, [](const ShearLoad& l) { return l.backbone_non_affinity.median; }),
+              "1", of);
+    at.number("backbone_nonaffine_participation",
+              mean(structure, [](const ShearLoad& l) { return l.backbone_non_affinity.participation; }), "1", of);
     at.number("shear_spring_share", mean(structure, [](const ShearLoad& l) { return l.shear_spring_share; }), "1", of);
 }
 
@@ -192,7 +200,7 @@ std::vector<io::ParticleField> load_structure_fields(const LoadStructure& struct
         fields.push_back({"energy_share_" + planes.at(plane), seven_digits(load.particle_energy_share).transpose(), "1",
                           "share of the elastic energy under shear " + planes.at(plane) + ", half of each bond's to each end"});
         fields.push_back(
-            {"nonaffinity_" + planes.at(plane), seven_digits(load.non_affinity).transpose(), "1",
+            {"nonaffinity_" + planes.at(plane), seven_digits(load.particle_non_affinity).transpose(), "1",
              "displacement beyond the affine one per unit shear strain " + planes.at(plane) + " over the mean radius"});
     }
     return fields;
@@ -211,9 +219,9 @@ Table load_structure_table(const LoadStructure& structure) {
                                                         (axes.empty() ? "" : "; the bonds reach around the box along " + axes));
         table.emplace_back("participation",
                            percent(mean(structure, [](const ShearLoad& l) { return l.energy_participation; })) +
-                               " of the particles in the energy, " +
-                               percent(mean(structure, [](const ShearLoad& l) { return l.nonaffine_participation; })) +
-                               " in the non-affine motion");
+                               " of the particles in the energy; those of the backbone move by " +
+                               with_unit(mean(structure, [](const ShearLoad& l) { return l.backbone_non_affinity.median; }), "1") +
+                               " r0 times strain (median)");
     }
     return table;
 }

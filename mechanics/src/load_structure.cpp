@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -100,6 +101,30 @@ Backbone backbone_of(const Packing& packing, const ContactNetwork& bonds, const 
         backbone.largest = clusters.front();
     }
     return backbone;
+}
+
+/// The upper one of an even number.
+double median_of(const Eigen::VectorXd& values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    return *middle;
+}
+
+/// @param length of the displacement of each particle that counts.
+NonAffinity non_affinity_of(const Eigen::VectorXd& length) {
+    NonAffinity result;
+    result.particles = length.size();
+    if (length.size() == 0) {
+        return result;
+    }
+    const Eigen::VectorXd square = length.array().square();
+    result.mean_square = square.mean();
+    if (result.mean_square > no_motion * no_motion) {
+        result.participation = participation_ratio(square, length.size());
+    }
+    result.median = median_of(length);
+    return result;
 }
 
 /// The network of one packing, for all three shears.
@@ -208,14 +233,34 @@ private:
         load.energy_participation = participation_ratio(load.particle_energy_share, packing_.size());
     }
 
-    void find_non_affinity(Index strain, ShearLoad& load) const {
-        load.non_affinity = response_.displacement[static_cast<std::size_t>(strain)].colwise().norm().transpose() / r0_;
-        const auto count = static_cast<Index>(kept_.particle.size());
-        const Eigen::VectorXd square = load.non_affinity.array().square();
-        load.mean_square_non_affinity = square.sum() / static_cast<double>(std::max(Index{1}, count));
-        if (load.mean_square_non_affinity > no_motion * no_motion) {
-            load.nonaffine_participation = participation_ratio(square, count);
+    /// Over the mean radius. A periodic network may translate as a whole: what counts is the displacement relative to the median
+    /// of each component, because the mean follows the few particles that move by thousands.
+    Eigen::VectorXd displacement_lengths(Index strain) const {
+        const Eigen::Matrix3Xd& u = response_.displacement[static_cast<std::size_t>(strain)];
+        Eigen::Vector3d common = Eigen::Vector3d::Zero();
+        for (int axis = 0; axis < 3 && options_.held.empty() && !kept_.particle.empty(); ++axis) {
+            common[axis] = median_of(u.row(axis)(kept_.particle).transpose());
         }
+        Eigen::VectorXd length = Eigen::VectorXd::Zero(packing_.size());
+        for (const Index particle : kept_.particle) {
+            length[particle] = (u.col(particle) - common).norm() / r0_;
+        }
+        return length;
+    }
+
+    void find_non_affinity(Index strain, ShearLoad& load) const {
+        load.particle_non_affinity = displacement_lengths(strain);
+        load.non_affinity = non_affinity_of(load.particle_non_affinity(kept_.particle));
+        std::vector<bool> in_backbone(static_cast<std::size_t>(packing_.size()), false);
+        for (Index bond = 0; bond < bonds_.size(); ++bond) {
+            for (int end = 0; end < 2 && load.backbone.bond[static_cast<std::size_t>(bond)]; ++end) {
+                in_backbone[static_cast<std::size_t>(bonds_.ends(end, bond))] = true;
+            }
+        }
+        std::vector<Index> moving;
+        std::copy_if(kept_.particle.begin(), kept_.particle.end(), std::back_inserter(moving),
+                     [&](Index particle) { return in_backbone[static_cast<std::size_t>(particle)]; });
+        load.backbone_non_affinity = non_affinity_of(load.particle_non_affinity(moving));
     }
 
     /// A cluster stores energy under a shear of plane (a, b) only if it reaches around the box along a and along b: otherwise its

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace coagula::mechanics {
@@ -94,9 +95,21 @@ TEST(LoadStructure, NonAffineMotionOfAChain) {
         const double step = (response.displacement[5].col(bond + 1) - response.displacement[5].col(bond)).dot(along);
         EXPECT_NEAR(step, average - 0.5 * chains.bonds.branch.col(bond).norm(), 1e-7);
     }
-    EXPECT_NEAR(structure.shear[xy].mean_square_non_affinity, response.non_affinity[5] * response.non_affinity[5], 1e-12);
-    const double norm = response.displacement[5].col(2).norm() / mean_radius(chains.packing);
-    EXPECT_NEAR(structure.shear[xy].non_affinity[2], norm, 1e-12);
+    const Eigen::Matrix3Xd& u = response.displacement[5];
+    Eigen::Vector3d median;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> component(12);
+        Eigen::Map<Eigen::VectorXd>(component.data(), 12) = u.row(axis);
+        std::sort(component.begin(), component.end());
+        median[axis] = component[6];
+    }
+    const Eigen::VectorXd expected = (u.colwise() - median).colwise().norm().transpose() / mean_radius(chains.packing);
+    EXPECT_LT((structure.shear[xy].particle_non_affinity - expected).norm(), 1e-12);
+    EXPECT_NEAR(structure.shear[xy].non_affinity.mean_square, expected.squaredNorm() / 12, 1e-12);
+    EXPECT_EQ(structure.shear[xy].non_affinity.particles, 12);
+    Eigen::VectorXd lengths = structure.shear[xy].particle_non_affinity;
+    std::sort(lengths.begin(), lengths.end());
+    EXPECT_EQ(structure.shear[xy].non_affinity.median, lengths[6]);
 }
 
 // The chains reach around the box along x and y as one, but not along z.
@@ -173,7 +186,7 @@ TEST(LoadStructure, SimpleCubicCrystal) {
     }
     EXPECT_NEAR(load.shear_spring_share, 1, 1e-12);
     EXPECT_NEAR(load.energy_participation, 1, 1e-12);
-    EXPECT_EQ(load.nonaffine_participation, 0);
+    EXPECT_EQ(load.non_affinity.participation, 0);
     EXPECT_EQ(load.force_fabric.anisotropy, 0);  // no normal forces
     EXPECT_EQ(load.distribution.mean, 0);
     EXPECT_TRUE(load.backbone.largest.percolates(0) && load.backbone.largest.percolates(1));
@@ -259,6 +272,22 @@ TEST(LoadStructure, ForcesAndTorquesBalanceOnEveryParticle) {
     }
 }
 
+// A periodic network may translate freely, and one particle that swings far must not pass for the motion of all.
+TEST(LoadStructure, NonAffinityDoesNotDependOnATranslation) {
+    Network network;
+    for (Eigen::Matrix3Xd& u : network.response.displacement) {
+        u.colwise() += Eigen::Vector3d(3e-4, -2e-4, 5e-4);
+    }
+    const LoadStructure moved = find_load_structure(network.packing, network.bonds, network.response);
+    for (std::size_t plane = 0; plane < 3; ++plane) {
+        const NonAffinity& before = network.structure.shear.at(plane).non_affinity;
+        const NonAffinity& after = moved.shear.at(plane).non_affinity;
+        EXPECT_NEAR(after.median, before.median, 1e-9 * before.median);
+        EXPECT_NEAR(after.mean_square, before.mean_square, 1e-9 * before.mean_square);
+        EXPECT_NEAR(after.participation, before.participation, 1e-9);
+    }
+}
+
 TEST(LoadStructure, BackboneIsTheSmallestSetOfBonds) {
     const Network network;
     for (const ShearLoad& load : network.structure.shear) {
@@ -283,8 +312,12 @@ TEST(LoadStructure, BackboneIsTheSmallestSetOfBonds) {
         EXPECT_LT(load.strongest_share[0], load.strongest_share[1]);
         EXPECT_LT(load.strongest_share[1], load.strongest_share[2]);
         EXPECT_LT(load.backbone.particles, network.packing.size());
-        EXPECT_GT(load.nonaffine_participation, 0);
-        EXPECT_LT(load.nonaffine_participation, 1);
+        EXPECT_GT(load.non_affinity.participation, 0);
+        EXPECT_LT(load.non_affinity.participation, 1);
+        EXPECT_EQ(load.backbone_non_affinity.particles, load.backbone.particles);
+        EXPECT_EQ(load.non_affinity.particles, network.packing.size() - network.response.rattlers);
+        EXPECT_LT(load.backbone_non_affinity.mean_square, load.non_affinity.mean_square);
+        EXPECT_LT(load.non_affinity.median * load.non_affinity.median, load.non_affinity.mean_square);
         const double bins = load.distribution.density.sum() * load.distribution.bin_width;
         EXPECT_NEAR(bins + load.distribution.beyond, 1, 1e-12);
     }

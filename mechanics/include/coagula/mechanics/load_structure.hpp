@@ -54,6 +54,17 @@ struct Backbone {
     Cluster largest = {};  ///< the part with most particles
 };
 
+/// Displacements u of some particles beyond the affine ones, per unit strain over the mean radius; in a periodic cell relative to
+/// their median (of each component, over the load-bearing particles), which fixes the free translation. A few particles that hang
+/// between nearly straight links move by thousands: they rule mean square and participation of all, hardly those of the backbone
+/// and never the median.
+struct NonAffinity {
+    Index particles = 0;
+    double mean_square = 0;    ///< of u
+    double median = 0;         ///< of |u|
+    double participation = 0;  ///< (sum u^2)^2 / (n sum u^4); 0 when none moves
+};
+
 /// One unit shear strain (engineering, symmetric).
 struct ShearLoad {
     bool carried = false;  ///< false: the modulus is zero; then forces and shares are zero, too
@@ -73,9 +84,9 @@ struct ShearLoad {
 
     Eigen::VectorXd particle_energy_share;  ///< N: half of each bond's share to each end
     double energy_participation = 0;        ///< (sum e)^2 / (N sum e^2) over all particles
-    Eigen::VectorXd non_affinity;           ///< N: |u| beyond the affine one per unit strain over the mean radius; 0 for rattlers
-    double mean_square_non_affinity = 0;    ///< over the load-bearing particles that are not held
-    double nonaffine_participation = 0;     ///< (sum u^2)^2 / (n sum u^4) over the same n particles; 0 when none moves
+    Eigen::VectorXd particle_non_affinity;  ///< N: |u| beyond the affine one per unit strain over the mean radius; 0 for rattlers
+    NonAffinity non_affinity;               ///< of the load-bearing particles that are not held
+    NonAffinity backbone_non_affinity;      ///< of those among them that belong to the backbone
 };
 
 struct LoadStructure {
