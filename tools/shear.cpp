@@ -202,7 +202,8 @@ Verb shear_verb() {
                     output("write to a new file; results are added to the input file when not given"),
                     flag("force", "replace an existing output file")},
         .run = run,
-        .notes = {"--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
+        .notes = {"With --frequency the springs may have losses (--model); of the solver's options the tolerance counts.",
+                  "--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
                   "The methods quasistatic and dem are not available in this version."}};
 }
 

@@ -95,7 +95,8 @@ private:
         } else if (drag >= shift) {
             factor_->factorise(network_.scalar_values(matrix, 0));
         } else {
-            factor_->factorise(network_.scalar_values(network_.matrix({ratios.shear, ratios.drag * (shift / drag)}), 0));
+            const Complex phase = ratios.drag / std::abs(ratios.drag);
+            factor_->factorise(network_.scalar_values(network_.matrix({ratios.shear, phase * (shift / translation_drag(1))}), 0));
         }
     }
 
@@ -140,7 +141,18 @@ FrequencyPoint start_point(double frequency, const ContactModel& model) {
     FrequencyPoint point;
     point.frequency = frequency;
     point.contact_stiffness = complex_stiffness(model, 2 * std::numbers::pi * frequency);
+    const ContactStiffness& k = point.contact_stiffness;
+    require(std::isfinite(std::norm(k.normal)) && std::isfinite(std::norm(k.shear)),
+            "the stiffness of a contact at " + to_text(frequency) + " Hz is too large a number: the frequency is out of range");
     return point;
+}
+
+/// No result is better than one that is no number.
+void check_finite(const FrequencyPoint& point) {
+    const bool finite = point.modulus.allFinite() &&
+                        std::all_of(point.derivative.begin(), point.derivative.end(), [](const auto& d) { return d.allFinite(); });
+    require(finite, "the response at " + to_text(point.frequency) +
+                        " Hz is not a finite number: the frequency or a parameter of the contact model is out of range");
 }
 
 }  // namespace
@@ -177,6 +189,7 @@ FrequencyResponse solve_frequency_sweep(const Packing& packing, const ContactNet
             forms = network.forms(solution.motion);
         }
         fill_point(point, forms, model, scales, response.parameters);
+        check_finite(point);
         response.points.push_back(std::move(point));
     }
     return response;

@@ -265,6 +265,19 @@ TEST(Frequency, SameBitsForOneAndTwoThreads) {
     }
 }
 
+TEST(Frequency, ExtremeFrequenciesGiveTheLimits) {
+    const Network sample;
+    const double elastic = solve_linear(sample.packing, sample.bonds).mean_shear_modulus();
+    const Complex slow = sample.at(1e-300, suspended({})).mean_shear_modulus();
+    EXPECT_NEAR(slow.real(), elastic, 1e-7 * elastic);
+    EXPECT_LT(slow.imag(), 1e-200);
+    ContactModel frictionless = suspended({});
+    frictionless.shear_stiffness = 0;
+    EXPECT_TRUE(sample.at(1.0, frictionless).modulus.allFinite());
+    frictionless.solvent_viscosity = unset;
+    EXPECT_TRUE(sample.at(1.0, frictionless).modulus.allFinite());
+}
+
 TEST(Frequency, NetworkThatCarriesNothingHasModulusZero) {
     const Packing packing = random_spheres(10, 40.0, 0.25e-6, 2);
     for (const ContactModel& model : {lossy_model(), suspended(lossy_model())}) {
@@ -282,6 +295,7 @@ TEST(Frequency, RefusesImpossibleInput) {
     model.normal_viscosity = -1;
     EXPECT_THROW(sample.at(1.0, model), std::invalid_argument);
     EXPECT_THROW(sample.at(1.0, {}, {.tolerance = 0}), std::invalid_argument);
+    EXPECT_THROW(sample.at(1e300, lossy_model()), std::invalid_argument);
     Network open;
     open.packing.cell = Cell::open(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(10e-6));
     EXPECT_THROW(open.at(1.0, {}), std::invalid_argument);
