@@ -214,14 +214,14 @@ Table load_structure_table(const LoadStructure& structure) {
     }
     if (std::any_of(structure.shear.begin(), structure.shear.end(), carried)) {
         const std::string axes = axes_of(structure.percolates);
-        table.emplace_back("load-bearing backbone", percent(mean(structure, backbone_fraction)) + " of the bonds store " +
-                                                        percent(structure.backbone_energy) + " of the energy" +
-                                                        (axes.empty() ? "" : "; the bonds reach around the box along " + axes));
+        table.emplace_back("backbone", percent(mean(structure, backbone_fraction)) + " of the bonds store " +
+                                           percent(structure.backbone_energy) + " of the energy" +
+                                           (axes.empty() ? "" : "; the bonds reach around the box along " + axes));
         table.emplace_back("participation",
                            percent(mean(structure, [](const ShearLoad& l) { return l.energy_participation; })) +
-                               " of the particles in the energy; those of the backbone move by " +
+                               " of the particles in the energy; median non-affine displacement " +
                                with_unit(mean(structure, [](const ShearLoad& l) { return l.backbone_non_affinity.median; }), "1") +
-                               " r0 times strain (median)");
+                               " r0 times strain");
     }
     return table;
 }
