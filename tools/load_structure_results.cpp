@@ -105,13 +105,19 @@ void append_shear(const Group& at, const ShearLoad& load, bool periodic) {
     append_non_affinity(at, "backbone/nonaffinity/", load.backbone_non_affinity);
 }
 
-/// Mean over the three planes.
+/// Mean over the planes that carry shear; 0 when none does.
 double mean(const LoadStructure& structure, double (*value)(const ShearLoad&)) {
-    return (value(structure.shear[0]) + value(structure.shear[1]) + value(structure.shear[2])) / 3;
+    double sum = 0;
+    double planes_that_carry = 0;
+    for (const ShearLoad& load : structure.shear) {
+        sum += load.carried ? value(load) : 0.0;
+        planes_that_carry += load.carried ? 1 : 0;
+    }
+    return sum / std::max(1.0, planes_that_carry);
 }
 
 void append_means(const Group& at, const LoadStructure& structure) {
-    const std::string of = "mean of the three planes";
+    const std::string of = "mean of the planes that carry shear";
     at.number("backbone_bond_fraction", mean(structure, backbone_fraction), "1", of);
     at.number("energy_participation", mean(structure, [](const ShearLoad& l) { return l.energy_participation; }), "1", of);
     at.number("backbone_nonaffinity_median", mean(structure, [](const ShearLoad& l) { return l.backbone_non_affinity.median; }),

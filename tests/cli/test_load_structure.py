@@ -121,6 +121,9 @@ class LoadStructure(ProgramTest):
         found = self.succeed_json("shear", "points.h5")
         self.assertEqual(found["load_structure"]["percolates"], [1, 1, 0])
         self.assertGreater(found["storage_modulus"]["xy"], 0)
+        self.assertEqual([found["load_structure"][plane]["carried"] for plane in PLANES], [1, 0, 0])
+        self.assertEqual(found["load_structure"]["mean"]["backbone_bond_fraction"],
+                         found["load_structure"]["xy"]["backbone"]["bond_fraction"])
         sentence = "G' = 0 in xz, yz: the bonded network does not reach around the box along z"
         self.assertEqual(found["load_structure"]["summary"], sentence)
         self.assertIn(sentence, self.succeed("shear", "points.h5"))
