@@ -56,8 +56,8 @@ struct Backbone {
 
 /// Displacements u of some particles beyond the affine ones, per unit strain over the mean radius; in a periodic cell relative to
 /// their median (of each component, over the load-bearing particles), which fixes the free translation. A few particles that hang
-/// between nearly straight links move by thousands: they rule mean square and participation of all, hardly those of the backbone
-/// and never the median.
+/// between nearly straight links move by thousands: they rule mean square and participation, of all more than of the backbone,
+/// but not the median.
 struct NonAffinity {
     Index particles = 0;
     double mean_square = 0;    ///< of u
