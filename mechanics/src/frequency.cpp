@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -18,8 +19,9 @@ namespace coagula::mechanics {
 
 namespace {
 
-constexpr int blas_threads = 2;      // fixed: the bits of a factor depend on it
-constexpr int most_iterations = 60;  // a good shift needs fewer than ten
+constexpr int blas_threads = 2;               // fixed: the bits of a factor depend on it
+constexpr int most_iterations = 60;           // a good shift needs fewer than ten
+constexpr int most_borrowed_iterations = 18;  // with the factor of another frequency: more would cost as much as a new one
 constexpr double largest_shift = 1e-5;
 constexpr double rounding = 1e-13;
 
@@ -69,13 +71,16 @@ public:
 
     ComplexSolution solve(const Ratios& ratios) {
         const ComplexBlocks matrix = network_.matrix(ratios);
+        if (serves(ratios)) {
+            ComplexSolution solution = iterate(matrix, ratios);
+            if (solution.residual <= 2 * options_.tolerance) {
+                return solution;
+            }
+        }
         ComplexSolution best;
         for (double shift = options_.shift; shift <= largest_shift; shift *= 100) {
             factorise(matrix, ratios, shift);
-            best = conjugate_orthogonal_gradients([&](const ComplexLoads& x, ComplexLoads& y) { network_.multiply(matrix, x, y); },
-                                                  network_.loads(ratios), rounding * network_.load_scale(),
-                                                  [&](const ComplexLoads& r, ComplexLoads& z) { factor_->solve(r, z); },
-                                                  options_.tolerance, most_iterations);
+            best = iterate(matrix, ratios);
             if (best.residual <= 2 * options_.tolerance) {
                 return best;
             }
@@ -86,9 +91,32 @@ public:
     }
 
 private:
+    /// Whether the factor of an earlier frequency is a good preconditioner: the stiffnesses along, across and of the drag have
+    /// changed by factors between 1 and z, and conjugate gradients then gain tanh(|log z| / 4) per iteration. Not so without drag,
+    /// where free motions slow them down: a new factor is cheaper there.
+    bool serves(const Ratios& ratios) const {
+        const auto change = [](const Complex& now, const Complex& then) {
+            return now == then ? 0.0 : std::abs(std::log(now / then));
+        };
+        const auto is_damped = [&](const Ratios& r) { return translation_drag(std::abs(r.drag)) >= options_.shift; };
+        if (!factorised_ || !is_damped(ratios) || !is_damped(*factorised_)) {
+            return false;
+        }
+        const double most = std::max(change(ratios.shear, factorised_->shear), change(ratios.drag, factorised_->drag));
+        return std::pow(std::tanh(most / 4), most_borrowed_iterations) < options_.tolerance;
+    }
+
+    ComplexSolution iterate(const ComplexBlocks& matrix, const Ratios& ratios) const {
+        return conjugate_orthogonal_gradients([&](const ComplexLoads& x, ComplexLoads& y) { network_.multiply(matrix, x, y); },
+                                              network_.loads(ratios), rounding * network_.load_scale(),
+                                              [&](const ComplexLoads& r, ComplexLoads& z) { factor_->solve(r, z); },
+                                              options_.tolerance, most_iterations);
+    }
+
     /// Without drag some motions have no stiffness and get the shift. With drag none is free, but at low frequency the drag may
     /// drown in rounding errors beside the bonds; the preconditioner then has more of the same drag.
     void factorise(const ComplexBlocks& matrix, const Ratios& ratios, double shift) {
+        factorised_ = ratios;
         const double drag = translation_drag(std::abs(ratios.drag));
         if (drag == 0) {
             factor_->factorise(network_.scalar_values(matrix, shift));
@@ -103,6 +131,7 @@ private:
     const FrequencyNetwork& network_;
     FrequencyOptions options_;
     std::unique_ptr<ComplexSymmetricFactor> factor_;
+    std::optional<Ratios> factorised_;  ///< what the factor was made for
 };
 
 /// Volume, length and angular frequency that turn the reduced sums into moduli.

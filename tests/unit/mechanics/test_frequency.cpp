@@ -265,6 +265,22 @@ TEST(Frequency, SameBitsForOneAndTwoThreads) {
     }
 }
 
+// In a sweep, a frequency may be solved with the factor of the one before.
+TEST(Frequency, SweepAgreesWithSingleFrequencies) {
+    const Network sample;
+    const std::array<double, 6> frequencies{1.0, 1.6, 2.5, 4.0, 400.0, 500.0};
+    for (const ContactModel& model : {lossy_model(), suspended(lossy_model()), suspended({})}) {
+        const auto sweep = solve_frequency_sweep(sample.packing, sample.bonds, model, frequencies);
+        for (const FrequencyPoint& point : sweep.points) {
+            const FrequencyPoint alone = sample.at(point.frequency, model);
+            EXPECT_LT((point.modulus - alone.modulus).norm(), 1e-10 * alone.modulus.norm());
+            for (std::size_t p = 0; p < sweep.parameters.size(); ++p) {
+                EXPECT_LT((point.derivative[p] - alone.derivative[p]).norm(), 1e-6 * alone.derivative[p].norm());
+            }
+        }
+    }
+}
+
 TEST(Frequency, ExtremeFrequenciesGiveTheLimits) {
     const Network sample;
     const double elastic = solve_linear(sample.packing, sample.bonds).mean_shear_modulus();
