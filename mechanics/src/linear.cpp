@@ -133,15 +133,6 @@ Solution solve(const Problem& problem, const Packing& packing, const LoadBearing
     return solution;
 }
 
-/// Second derivative of the minimal energy: correct to second order in the error of the motion.
-Block minimal_energy(const Problem& problem, const Loads& motion) {
-    Loads force;
-    multiply(problem.full, motion, force);
-    const Block work = problem.loads.transpose() * motion;
-    const Block energy = problem.affine - work - work.transpose() + motion.transpose() * force;
-    return 0.5 * (energy + energy.transpose());
-}
-
 /// Half of every bond belongs to each of its ends; held particles lie outside the measured volume.
 std::vector<double> bond_weights(const std::vector<LinearBond>& bonds) {
     std::vector<double> weights;
@@ -222,7 +213,7 @@ LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds,
         motion = solve(problem, packing, kept, options, progress, response).motion;
         response.floppy_modes -= periodic && response.floppy_modes >= 3 ? 3 : 0;  // rigid translation
         response.elastic_tensor =
-            scale * (periodic ? minimal_energy(problem, motion) : network.virial(motion, bond_weights(network.bonds())));
+            scale * (periodic ? network.energy(motion) : network.virial(motion, bond_weights(network.bonds())));
     }
     store_motion(packing, kept, motion, periodic, response);
     return response;

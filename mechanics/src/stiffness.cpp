@@ -154,19 +154,31 @@ Block LinearNetwork::affine_energy() const {
     return energy;
 }
 
+Eigen::Matrix<double, 3, 6> LinearNetwork::deformation(const LinearBond& bond, const Loads& motion) const {
+    Eigen::Matrix<double, 3, 6> delta = affine_displacements(bond.branch);
+    if (bond.first >= 0) {
+        delta += end_matrix(-1, bond.first_arm, bond.normal) * motion.middleRows<6>(6 * bond.first);
+    }
+    if (bond.second >= 0) {
+        delta += end_matrix(1, bond.second_arm, bond.normal) * motion.middleRows<6>(6 * bond.second);
+    }
+    return delta;
+}
+
+Block LinearNetwork::energy(const Loads& motion) const {
+    Block sum = Block::Zero();
+    for (const LinearBond& bond : bonds_) {
+        const auto delta = deformation(bond, motion);
+        sum += delta.transpose() * law_.tangent(bond.normal) * delta;
+    }
+    return sum;
+}
+
 Block LinearNetwork::virial(const Loads& motion, const std::vector<double>& weight) const {
     Block sum = Block::Zero();
     for (std::size_t k = 0; k < bonds_.size(); ++k) {
         const LinearBond& bond = bonds_[k];
-        const auto affine = affine_displacements(bond.branch);
-        Eigen::Matrix<double, 3, 6> delta = affine;
-        if (bond.first >= 0) {
-            delta += end_matrix(-1, bond.first_arm, bond.normal) * motion.middleRows<6>(6 * bond.first);
-        }
-        if (bond.second >= 0) {
-            delta += end_matrix(1, bond.second_arm, bond.normal) * motion.middleRows<6>(6 * bond.second);
-        }
-        sum += weight[k] * affine.transpose() * law_.tangent(bond.normal) * delta;
+        sum += weight[k] * affine_displacements(bond.branch).transpose() * law_.tangent(bond.normal) * deformation(bond, motion);
     }
     return sum;
 }

@@ -55,6 +55,11 @@ public:
     /// Twice the energy of affine motion, sum over bonds of e_a D e_b.
     Block affine_energy() const;
 
+    /// Twice the energy at the unknowns `motion`, sum over bonds of delta_a D delta_b: the elastic tensor times the volume when the
+    /// motion is that of equilibrium, correct to second order in its error. Bond by bond, because the motion of soft modes is large
+    /// and would cancel in f u and u K u.
+    Block energy(const Loads& motion) const;
+
     /// Sum over bonds of weight * e_a . t_b, t the forces at the unknowns `motion`: the volume times the mean stress.
     Block virial(const Loads& motion, const std::vector<double>& weight) const;
 
@@ -64,6 +69,7 @@ public:
     Index stiffen_spins(BlockMatrix& matrix) const;
 
 private:
+    Eigen::Matrix<double, 3, 6> deformation(const LinearBond& bond, const Loads& motion) const;
     void add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond) const;
     Block coupling(const LinearBond& bond) const;
 

@@ -89,6 +89,21 @@ TEST(Stiffness, LoadsAndAffineEnergyMatchTheEnergyUnderStrain) {
     }
 }
 
+TEST(Stiffness, EnergyBondByBondAtAnyMotion) {
+    const Sample sample;
+    const LinearNetwork network = sample.network();
+    Loads motion(6 * network.particles(), 6);
+    for (Index i = 0; i < motion.rows(); ++i) {
+        motion.row(i).setConstant(random_normal(6, RandomPurpose::test, 3, static_cast<std::uint64_t>(i))[0]);
+    }
+    const Block energies = network.energy(motion);
+    Eigen::Matrix3d shear_xy = Eigen::Matrix3d::Zero();
+    shear_xy(0, 1) = shear_xy(1, 0) = 0.5;
+    const Eigen::Matrix3d stretch_z = Eigen::Vector3d::UnitZ().asDiagonal();
+    EXPECT_NEAR(0.5 * energies(5, 5), energy(sample, motion.col(5), shear_xy), 1e-12 * energies(5, 5));
+    EXPECT_NEAR(0.5 * energies(2, 2), energy(sample, motion.col(2), stretch_z), 1e-12 * energies(2, 2));
+}
+
 TEST(Stiffness, RigidTranslationGivesNoForceAndRigidRotationOfAClusterNeither) {
     const Sample sample;
     const BlockMatrix full = both_triangles(sample.network().stiffness());
