@@ -51,7 +51,7 @@ struct LinearResponse {
     int iterations = 0;               ///< of conjugate gradients, largest over the strains
     double residual = 0;              ///< |f - K u| / |f|, recomputed from K itself, largest over the strains
     /// The error itself was half to ten times this estimate where it was compared with the direct solver.
-    double modulus_error = 0;         ///< estimated relative error of the moduli from stopping early (iterative solver)
+    double modulus_error = 0;  ///< estimated relative error of the moduli from stopping early (iterative solver)
 
     /// Shear modulus of one orientation (strain plane a-b with a, b in 0..2) [Pa].
     double shear_modulus(int a, int b) const;
