@@ -1,5 +1,7 @@
 #include "conjugate_gradients.hpp"
 
+#include "column_sums.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -10,39 +12,10 @@ namespace coagula::mechanics {
 
 namespace {
 
-using Row = Eigen::Array<double, 1, 6>;
+using Row = SixValues<double>;
 
 constexpr double rounding = 1e-13;
 constexpr std::size_t delay = 20;  // iterations whose gain estimates the error before them
-
-/// Column-wise a . b; summed in fixed pieces, so that the bits do not depend on the number of threads.
-Row dot(const Loads& a, const Loads& b) {
-    constexpr Index piece = 4096;
-    const Index pieces = (a.rows() + piece - 1) / piece;
-    Eigen::Array<double, Eigen::Dynamic, 6, Eigen::RowMajor> part(pieces, 6);
-#pragma omp parallel for schedule(static)
-    for (Index k = 0; k < pieces; ++k) {
-        const Index rows = std::min(piece, a.rows() - k * piece);
-        part.row(k) = (a.middleRows(k * piece, rows).array() * b.middleRows(k * piece, rows).array()).colwise().sum();
-    }
-    return part.colwise().sum();
-}
-
-/// a += b * factor, column by column.
-void add_scaled(Loads& a, const Loads& b, const Row& factor) {
-#pragma omp parallel for schedule(static)
-    for (Index row = 0; row < a.rows(); ++row) {
-        a.row(row).array() += b.row(row).array() * factor;
-    }
-}
-
-/// a = b + a * factor.
-void scale_and_add(Loads& a, const Row& factor, const Loads& b) {
-#pragma omp parallel for schedule(static)
-    for (Index row = 0; row < a.rows(); ++row) {
-        a.row(row).array() = b.row(row).array() + a.row(row).array() * factor;
-    }
-}
 
 /// Quotient where the column is still being solved, zero where it has ended.
 Row quotient(const Row& numerator, const Row& denominator, const Eigen::Array<bool, 1, 6>& open) {

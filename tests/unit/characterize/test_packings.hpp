@@ -4,10 +4,9 @@
 #include <coagula/common/packing.hpp>
 #include <coagula/common/random.hpp>
 
+#include "support/reference_data.hpp"
+
 #include <array>
-#include <fstream>
-#include <sstream>
-#include <string>
 #include <vector>
 
 namespace coagula::characterize::test {
@@ -57,37 +56,7 @@ inline Packing random_spheres(Index particles, const Eigen::Vector3d& lengths, d
     return packing;
 }
 
-/// Columns `first` to `first + 2` of a CSV file with a header line; no columns if there is no such file.
-inline Eigen::Matrix3Xd read_points(const std::string& path, int first) {
-    std::ifstream file(path);
-    std::vector<Eigen::Vector3d> points;
-    std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line)) {
-        std::istringstream fields(line);
-        std::string field;
-        Eigen::Vector3d point;
-        for (int column = 0; column < first + 3 && std::getline(fields, field, ','); ++column) {
-            if (column >= first) {
-                point[column - first] = std::stod(field);
-            }
-        }
-        points.push_back(point);
-    }
-    return points.empty() ? Eigen::Matrix3Xd(3, 0)
-                          : Eigen::Matrix3Xd(Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3, std::ssize(points)));
-}
-
-/// One of the reference structures: equal spheres in a periodic cube; empty if the file is absent.
-inline Packing reference_structure(const std::string& name) {
-    Packing packing;
-    packing.cell = Cell::periodic(Eigen::Vector3d::Constant(1.0939048394478881e-05));
-    packing.positions = read_points(std::string(COAGULA_SHARED_DATA) + "/reference_structures/" + name + ".csv", 0);
-    for (Index i = 0; i < packing.size(); ++i) {
-        packing.positions.col(i) = packing.cell.wrap(packing.positions.col(i));
-    }
-    packing.radii = Eigen::VectorXd::Constant(packing.size(), 2.5e-7);
-    return packing;
-}
+using coagula::testing::read_columns;
+using coagula::testing::reference_structure;
 
 }  // namespace coagula::characterize::test

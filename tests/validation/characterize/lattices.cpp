@@ -103,7 +103,7 @@ Crystal body_centred() {
     return crystal;
 }
 
-class Crystals : public testing::TestWithParam<Crystal (*)()> {};
+class Crystals : public ::testing::TestWithParam<Crystal (*)()> {};
 
 TEST_P(Crystals, LargestPoreAndCellVolumes) {
     const Crystal crystal = GetParam()();
@@ -169,7 +169,7 @@ TEST_P(Crystals, MomentsAreThoseOfAFinerCurve) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cubic, Crystals, testing::Values(&simple_cubic, &face_centred, &body_centred));
+INSTANTIATE_TEST_SUITE_P(Cubic, Crystals, ::testing::Values(&simple_cubic, &face_centred, &body_centred));
 
 }  // namespace
 }  // namespace coagula::characterize

@@ -17,7 +17,7 @@ namespace {
 
 const std::string shared_data = COAGULA_SHARED_DATA;
 
-class ReferenceStructure : public testing::TestWithParam<std::string> {
+class ReferenceStructure : public ::testing::TestWithParam<std::string> {
 protected:
     void SetUp() override {
         packing = test::reference_structure(GetParam());
@@ -62,7 +62,7 @@ TEST_P(ReferenceStructure, Coordination) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, ReferenceStructure,
-                         testing::Values("vem_1-8", "vem_1-2", "vem_2-1", "brownian_0mV", "brownian_15mV"), [](const auto& test) {
+                         ::testing::Values("vem_1-8", "vem_1-2", "vem_2-1", "brownian_0mV", "brownian_15mV"), [](const auto& test) {
                              std::string name = test.param;
                              std::replace(name.begin(), name.end(), '-', '_');
                              return name;
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Structures, ReferenceStructure,
 /// Finney's ball bearings of radius 1, a sample with a free surface.
 Packing finney() {
     Packing packing;
-    packing.positions = test::read_points(shared_data + "/finney_pack/finney.csv", 1);
+    packing.positions = test::read_columns(shared_data + "/finney_pack/finney.csv", 1);
     if (packing.size() > 0) {
         const Eigen::Vector3d lower = packing.positions.rowwise().minCoeff();
         packing.cell = Cell::open(lower, packing.positions.rowwise().maxCoeff() - lower);

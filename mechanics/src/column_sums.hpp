@@ -1,0 +1,55 @@
+// Operations on six columns at once that both gradient solvers need; the same bits for any number of threads.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace coagula::mechanics {
+
+template <class Value>
+using SixColumns = Eigen::Matrix<Value, Eigen::Dynamic, 6, Eigen::RowMajor>;
+template <class Value>
+using SixValues = Eigen::Array<Value, 1, 6>;
+
+/// Column-wise sums of `term(first row, rows)`, itself a sum over these rows; in fixed pieces.
+template <class Value, class Term>
+SixValues<Value> sum_of_pieces(Eigen::Index rows, const Term& term) {
+    constexpr Eigen::Index piece = 4096;
+    const Eigen::Index pieces = (rows + piece - 1) / piece;
+    Eigen::Array<Value, Eigen::Dynamic, 6, Eigen::RowMajor> part(pieces, 6);
+#pragma omp parallel for schedule(static)
+    for (Eigen::Index k = 0; k < pieces; ++k) {
+        part.row(k) = term(k * piece, std::min(piece, rows - k * piece));
+    }
+    return part.colwise().sum();
+}
+
+/// Column-wise a . b, without conjugation.
+template <class Value>
+SixValues<Value> dot(const SixColumns<Value>& a, const SixColumns<Value>& b) {
+    return sum_of_pieces<Value>(a.rows(), [&](Eigen::Index first, Eigen::Index rows) -> SixValues<Value> {
+        return (a.middleRows(first, rows).array() * b.middleRows(first, rows).array()).colwise().sum();
+    });
+}
+
+/// a += b * factor, column by column.
+template <class Value>
+void add_scaled(SixColumns<Value>& a, const SixColumns<Value>& b, const std::type_identity_t<SixValues<Value>>& factor) {
+#pragma omp parallel for schedule(static)
+    for (Eigen::Index row = 0; row < a.rows(); ++row) {
+        a.row(row).array() += b.row(row).array() * factor;
+    }
+}
+
+/// a = b + a * factor, column by column.
+template <class Value>
+void scale_and_add(SixColumns<Value>& a, const std::type_identity_t<SixValues<Value>>& factor, const SixColumns<Value>& b) {
+#pragma omp parallel for schedule(static)
+    for (Eigen::Index row = 0; row < a.rows(); ++row) {
+        a.row(row).array() = b.row(row).array() + a.row(row).array() * factor;
+    }
+}
+
+}  // namespace coagula::mechanics
