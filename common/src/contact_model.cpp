@@ -17,6 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr const char* paper = "Schenker et al. 2012, sec. 2.1";
 constexpr const char* polymers = "Ferry 1980, Viscoelastic Properties of Polymers, ch. 3";
+constexpr const char* beams = "Potyondy and Cundall 2004, Int. J. Rock Mech. Min. Sci. 41, 1329";
+constexpr const char* mechanics = "Johnson 1985, Contact Mechanics, ch. 4 and 7";
 constexpr const char* fractional = "Koeller 1984, J. Appl. Mech. 51, 299";
 
 /// The parameters of one direction.
@@ -58,6 +60,50 @@ void append_springpot(std::vector<ContactParameter>& list, const std::string& na
                     name + " springpot: 0 is a spring, 1 a dashpot", fractional});
 }
 
+void append_lubrication(std::vector<ContactParameter>& list) {
+    const char* source = "Jeffrey and Onishi 1984, J. Fluid Mech. 139, 261 (leading term)";
+    list.push_back({"lubrication_gap", "m", &ContactModel::lubrication_gap, 0, false, infinity,
+                    "smallest gap that counts for the squeezed film, the roughness of the surfaces", source});
+    list.push_back({"lubrication_cutoff", "m", &ContactModel::lubrication_cutoff, 0, false, infinity,
+                    "pairs with a smaller gap between their surfaces squeeze the solvent", source});
+}
+
+void append_moments(std::vector<ContactParameter>& list) {
+    list.push_back({"bending_stiffness", "N.m", &ContactModel::bending_stiffness, 0, true, infinity,
+                    "moment per relative rotation of the ends of a bond, across it", beams});
+    list.push_back({"twisting_stiffness", "N.m", &ContactModel::twisting_stiffness, 0, true, infinity,
+                    "moment per relative rotation of the ends of a bond, about it", beams});
+}
+
+void append_solids(std::vector<ContactParameter>& list) {
+    list.push_back({"young_modulus", "Pa", &ContactModel::young_modulus, 0, false, infinity,
+                    "of the particles: contacts by Hertz and Mindlin instead of the linear springs", mechanics});
+    list.push_back({"poisson_ratio", "1", &ContactModel::poisson_ratio, 0, true, 0.5, "of the particles", mechanics});
+    list.push_back({"work_of_adhesion", "J/m2", &ContactModel::work_of_adhesion, 0, false, infinity,
+                    "of two surfaces: adhesive contacts", "Johnson, Kendall and Roberts 1971, Proc. R. Soc. A 324, 301"});
+}
+
+void append_strengths(std::vector<ContactParameter>& list) {
+    using Model = ContactModel;
+    list.push_back({"normal_strength", "N", &Model::normal_strength, 0, false, infinity, "tension at which a bond breaks", paper});
+    list.push_back(
+        {"shear_strength", "N", &Model::shear_strength, 0, false, infinity, "shear force at which a bond breaks", paper});
+    list.push_back({"bending_strength", "N.m", &Model::bending_strength, 0, false, infinity,
+                    "moment, bending or twisting, at which a bond breaks", beams});
+    list.push_back({"friction", "1", &Model::friction, 0, true, infinity,
+                    "coefficient of Coulomb friction of contacts without a bond", "Cundall and Strack 1979, Geotechnique 29, 47"});
+}
+
+void append_state(std::vector<ContactParameter>& list) {
+    using Model = ContactModel;
+    list.push_back({"prestress", "N", &Model::prestress, -infinity, false, infinity,
+                    "normal force in every bond as found, before the network comes to rest; compression is positive",
+                    "Alexander 1998, Phys. Rep. 296, 65"});
+    list.push_back({"ageing_rate", "1", &Model::ageing_rate, 0, true, infinity,
+                    "all springs of a contact grow by 1 + rate ln(1 + t / time)", "Bonacci et al. 2020, Nat. Mater. 19, 775"});
+    list.push_back({"ageing_time", "s", &Model::ageing_time, 0, false, infinity, "the time in that law", "the same"});
+}
+
 std::vector<ContactParameter> make_parameters() {
     using Model = ContactModel;
     std::vector<ContactParameter> list{
@@ -72,6 +118,11 @@ std::vector<ContactParameter> make_parameters() {
     list.push_back({"solvent_viscosity", "Pa.s", &Model::solvent_viscosity, 0, false, infinity,
                     "viscosity of the solvent, which drags on every particle that leaves its affine flow",
                     "Stokes 1851; Happel and Brenner 1983, Low Reynolds Number Hydrodynamics, ch. 5"});
+    append_lubrication(list);
+    append_moments(list);
+    append_solids(list);
+    append_strengths(list);
+    append_state(list);
     return list;
 }
 
@@ -158,6 +209,9 @@ bool ContactParameter::is_set(const ContactModel& model) const {
 }
 
 std::string ContactParameter::range() const {
+    if (std::isinf(low)) {
+        return "any number";
+    }
     if (std::isfinite(high)) {
         return to_text(low) + " .. " + to_text(high);
     }

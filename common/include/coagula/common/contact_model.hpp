@@ -1,4 +1,4 @@
-// The contact with losses: springs, dashpots, Maxwell elements and springpots side by side, and the drag of the solvent.
+// What a contact is made of: springs, strengths, friction, losses, ageing, and the solvent around it.
 #pragma once
 
 #include <coagula/common/checks.hpp>
@@ -32,6 +32,24 @@ struct ContactModel {
     double shear_springpot_exponent = unset;
 
     double solvent_viscosity = unset;
+    double lubrication_gap = unset;
+    double lubrication_cutoff = unset;
+
+    double bending_stiffness = unset;
+    double twisting_stiffness = unset;
+
+    double young_modulus = unset;
+    double poisson_ratio = unset;
+    double work_of_adhesion = unset;
+
+    double normal_strength = unset;
+    double shear_strength = unset;
+    double bending_strength = unset;
+    double friction = unset;
+
+    double prestress = unset;
+    double ageing_rate = unset;
+    double ageing_time = unset;
 };
 
 /// One parameter of the model: name (the key in a file), SI unit, allowed values, meaning and source.
