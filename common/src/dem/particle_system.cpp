@@ -63,7 +63,7 @@ ParticleSystem::ParticleSystem(const Cell& cell, const Eigen::Matrix3Xd& positio
             "the particle system has " + std::to_string(positions.cols()) + " positions and " + std::to_string(radii.size()) +
                 " radii, but needs at least one particle and as many radii");
     const auto particles = static_cast<std::size_t>(radii.size());
-    Snapshot state;
+    ParticleState state;
     state.position.resize(particles);
     for (std::size_t particle = 0; particle < particles; ++particle) {
         const auto column = static_cast<Index>(particle);
@@ -82,9 +82,9 @@ ParticleSystem::ParticleSystem(const Cell& cell, const Eigen::Matrix3Xd& positio
     rebuild(std::move(state));
 }
 
-ParticleSystem::Snapshot ParticleSystem::snapshot() const {
+ParticleState ParticleSystem::state() const {
     const auto particles = slot_of_.size();
-    Snapshot state;
+    ParticleState state;
     const auto collect = [&](auto& target, const auto& source) {
         target.resize(particles);
         for (std::size_t particle = 0; particle < particles; ++particle) {
@@ -100,47 +100,95 @@ ParticleSystem::Snapshot ParticleSystem::snapshot() const {
     collect(state.inverse_mass, slots_.inverse_mass);
     collect(state.inverse_inertia, slots_.inverse_inertia);
     state.bonds = bonds();
+    state.shear = shear_;
     return state;
 }
 
+/// Takes whole periods out of the shear; bonds name the same images by other numbers.
+void ParticleSystem::reduce_shear(ParticleState& state) const {
+    CellShear& shear = state.shear;
+    const double period = cell_.lengths()[shear.direction] / cell_.lengths()[shear.normal];
+    const double whole = std::nearbyint(shear.strain / period);
+    if (whole != 0) {
+        shear.strain -= whole * period;
+        for (Bond& bond : state.bonds) {
+            bond.images[shear.direction] += static_cast<int>(whole) * bond.images[shear.normal];
+        }
+    }
+}
+
 /// Brings all particles into the periodic cell; bonds keep their images.
-void ParticleSystem::wrap(Snapshot& state) const {
+void ParticleSystem::wrap(ParticleState& state) const {
     std::vector<Eigen::Vector3i> moved(state.position.size());
     for (std::size_t particle = 0; particle < state.position.size(); ++particle) {
         Quad& position = state.position[particle];
-        const Eigen::Vector3d before = position.head<3>();
+        const Eigen::Vector3d before = state.shear.undo(position.head<3>());
         const Eigen::Array3d periods = (before - cell_.origin()).array() / cell_.lengths().array();
         if (!(periods.abs() < 500).all()) {
             throw std::runtime_error("particle " + std::to_string(particle) +
                                      " has left all bounds: the time step is too large for the stiffness of the contacts");
         }
         const Eigen::Vector3d after = cell_.wrap(before);
-        position.head<3>() = after;
         moved[particle] = ((before - after).array() / cell_.lengths().array()).round().cast<int>();
+        if (state.shear.strain == 0) {
+            position.head<3>() = after;
+        } else if (!moved[particle].isZero()) {
+            position.head<3>() -= state.shear.apply(moved[particle].cast<double>().cwiseProduct(cell_.lengths()));
+        }
     }
     for (Bond& bond : state.bonds) {
         bond.images += moved[at(bond.second)] - moved[at(bond.first)];
     }
 }
 
-void ParticleSystem::rebuild(Snapshot state) {
+/// Searches neighbours in the unsheared cell, with spheres and skin so much larger that no pair of the sheared one is missed.
+std::vector<ChunkPlan> ParticleSystem::plan(const ParticleState& state, std::vector<std::int32_t>& order) const {
+    const auto search = [&](const std::vector<Quad>& positions, double skin) {
+        const NeighbourSearch found(cell_, positions, skin);
+        order = found.order();
+        return plan_chunks(found, state.bonds);
+    };
+    if (state.shear.strain == 0) {
+        return search(state.position, skin_);
+    }
+    const double half = 0.5 * std::abs(state.shear.strain);
+    const double stretch = half + std::sqrt(1 + half * half);  // largest singular value of a simple shear
+    std::vector<Quad> unsheared = state.position;
+    for (Quad& position : unsheared) {
+        // Inside already, rounding apart.
+        const Eigen::Array3d place = (state.shear.undo(position.head<3>()) - cell_.origin()).array();
+        position.head<3>() = cell_.origin().array() + place.max(0.0).min((1 - 1e-15) * cell_.lengths().array());
+        position[3] *= stretch;
+    }
+    return search(unsheared, skin_ * stretch);
+}
+
+Eigen::Vector3d ParticleSystem::image_shift(const Eigen::Vector3i& images) const {
+    return shear_.apply(images.cast<double>().cwiseProduct(cell_.lengths()));
+}
+
+void ParticleSystem::rebuild(ParticleState state) {
+    reduce_shear(state);
     wrap(state);
-    const NeighbourSearch search(cell_, state.position, skin_);
-    const std::vector<ChunkPlan> plans = plan_chunks(search, state.bonds);
+    shear_ = state.shear;
+    std::vector<std::int32_t> order;
+    const std::vector<ChunkPlan> plans = plan(state, order);
     lay_out_chunks(plans);
     for (std::size_t number = 0; number < plans.size(); ++number) {
         const Chunk& chunk = chunks_[number];
         for (std::int32_t slot = chunk.begin; slot < chunk.own_end; ++slot) {
-            fill_slot(slot, search.order()[at(plans[number].first + slot - chunk.begin)], state);
+            fill_slot(slot, order[at(plans[number].first + slot - chunk.begin)], state);
         }
     }
 #pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
     for (std::size_t number = 0; number < plans.size(); ++number) {
-        fill_chunk(chunks_[number], plans[number], search.order(), state.bonds);
+        fill_chunk(chunks_[number], plans[number], order, state.bonds);
     }
     link_ghosts(slots_, chunks_);
     list_radii_ = radii_;
     growth_ = 0;
+    list_strain_ = shear_.strain;
+    approach_ = 0;
     ++list_builds_;
 }
 
@@ -161,7 +209,7 @@ void ParticleSystem::lay_out_chunks(const std::vector<ChunkPlan>& plans) {
     slot_of_.resize(static_cast<std::size_t>(size()));
 }
 
-void ParticleSystem::fill_slot(std::int32_t own_slot, std::int32_t particle, const Snapshot& state) {
+void ParticleSystem::fill_slot(std::int32_t own_slot, std::int32_t particle, const ParticleState& state) {
     const std::size_t slot = at(own_slot);
     const std::size_t from = at(particle);
     slot_of_[from] = own_slot;
@@ -186,17 +234,21 @@ void ParticleSystem::fill_chunk(Chunk& chunk, const ChunkPlan& plan, const std::
         slots_.particle[slot] = order[at(number_in(plan.ghosts[ghost]))];
         slots_.source[slot] = slot_of_[at(slots_.particle[slot])];
         slots_.images[slot] = images;
-        slots_.shift[slot] = padded(images.cast<double>().cwiseProduct(cell_.lengths()));
+        slots_.shift[slot] = padded(image_shift(images));
         slots_.position[slot] = slots_.position[at(slots_.source[slot])] + slots_.shift[slot];
     }
     chunk.pairs.reserve(plan.pairs.size());
     for (const ListedPair& pair : plan.pairs) {
         chunk.pairs.push_back(plan.slots_of(pair, chunk.begin));
     }
-    chunk.bonds.reserve(plan.bonds.size());
     for (std::size_t entry = 0; entry < plan.bonds.size(); ++entry) {
         const Bond& bond = bonds[plan.bond_numbers[entry]];
-        chunk.bonds.push_back({plan.slots_of(plan.bonds[entry], chunk.begin), bond.rest_length, bond.shear, bond.branch});
+        const SlotPair ends = plan.slots_of(plan.bonds[entry], chunk.begin);
+        if (general_) {
+            chunk.contacts.push_back({ends, bond.memory});
+        } else {
+            chunk.bonds.push_back({ends, bond.memory.rest_length, bond.memory.shear, bond.memory.branch});
+        }
     }
 }
 
@@ -213,8 +265,8 @@ void ParticleSystem::refresh_carefully(double margin) {
         displacement = std::max(displacement, chunk.path);
     }
     // Close to the limit measuring would have to be repeated all the time.
-    if (!(2 * (displacement + growth_) + margin <= 0.9 * skin_)) {
-        rebuild(snapshot());
+    if (!(2 * (displacement + growth_) + approach_ + margin <= 0.9 * skin_)) {
+        rebuild(this->state());
     }
 }
 
@@ -257,23 +309,71 @@ void ParticleSystem::set_spins(const Eigen::Matrix3Xd& spins) {
 }
 
 void ParticleSystem::add_bonds(const ContactNetwork& pairs) {
+    add_bonds(pairs, [](const Eigen::Vector3d& branch, double first_radius, double second_radius) {
+        ContactMemory memory;
+        memory.branch = branch;
+        memory.rest_length = first_radius + second_radius;
+        return memory;
+    });
+}
+
+void ParticleSystem::add_bonds(const ContactNetwork& pairs,
+                               const std::function<ContactMemory(const Eigen::Vector3d&, double, double)>& make) {
     require(pairs.particles == size(), "the bonds are those of " + std::to_string(pairs.particles) +
                                            " particles, but the particle system has " + std::to_string(size()));
-    Snapshot state = snapshot();
+    ParticleState state = this->state();
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         Bond bond;
         bond.first = pairs.ends(0, pair);
         bond.second = pairs.ends(1, pair);
         const Eigen::Vector3d direct = (state.position[at(bond.second)] - state.position[at(bond.first)]).head<3>();
         if (cell_.is_periodic()) {
-            const Eigen::Array3d periods = (pairs.branch.col(pair) - direct).array() / cell_.lengths().array();
+            const Eigen::Array3d periods = shear_.undo(pairs.branch.col(pair) - direct).array() / cell_.lengths().array();
             bond.images = periods.round().cast<int>();
         }
-        bond.branch = direct + bond.images.cast<double>().cwiseProduct(cell_.lengths());
-        bond.rest_length = radii_[bond.first] + radii_[bond.second];
+        bond.memory = make(direct + image_shift(bond.images), radii_[bond.first], radii_[bond.second]);
         state.bonds.push_back(bond);
     }
     rebuild(std::move(state));
+}
+
+void ParticleSystem::use_general_contacts(bool general) {
+    ParticleState state = this->state();
+    general_ = general;
+    rebuild(std::move(state));
+}
+
+void ParticleSystem::hold(const std::vector<Index>& particles) {
+    for (const Index particle : particles) {
+        const std::size_t slot = at(slot_of_[static_cast<std::size_t>(particle)]);
+        slots_.inverse_mass[slot] = 0;
+        slots_.inverse_inertia[slot] = 0;
+    }
+}
+
+void ParticleSystem::set_velocity(const std::vector<Index>& particles, const Eigen::Vector3d& velocity) {
+    for (const Index particle : particles) {
+        slots_.velocity[at(slot_of_[static_cast<std::size_t>(particle)])] = padded(velocity);
+    }
+}
+
+void ParticleSystem::shear(int direction, int normal, double increment) {
+    require(cell_.is_periodic(), "an open cell cannot be sheared");
+    const auto is_axis = [](int axis) { return axis >= 0 && axis < 3; };
+    require(is_axis(direction) && is_axis(normal) && direction != normal, "shear needs two different axes of 0, 1, 2");
+    require(shear_.strain == 0 || (shear_.direction == direction && shear_.normal == normal),
+            "the cell is sheared along other axes already");
+    shear_ = {direction, normal, shear_.strain + increment};
+    for (const Chunk& chunk : chunks_) {
+        for (std::size_t slot = at(chunk.begin); slot < at(chunk.own_end); ++slot) {
+            slots_.position[slot][direction] += increment * slots_.position[slot][normal];
+            slots_.reference[slot][direction] += increment * slots_.reference[slot][normal];
+        }
+        for (std::size_t ghost = at(chunk.own_end); ghost < at(chunk.end); ++ghost) {
+            slots_.shift[ghost] = padded(image_shift(slots_.images[ghost]));
+        }
+    }
+    approach_ = std::abs(shear_.strain - list_strain_) * (2 * radii_.maxCoeff() + skin_);
 }
 
 Eigen::Matrix3Xd ParticleSystem::in_callers_order(const std::vector<Quad>& values) const {
@@ -287,7 +387,8 @@ Eigen::Matrix3Xd ParticleSystem::in_callers_order(const std::vector<Quad>& value
 Eigen::Matrix3Xd ParticleSystem::positions() const {
     Eigen::Matrix3Xd result = in_callers_order(slots_.position);
     for (auto position : result.colwise()) {
-        position = cell_.wrap(position);
+        const Eigen::Vector3d place = cell_.wrap(shear_.undo(position));
+        position = shear_.apply(place);
     }
     return result;
 }
@@ -308,14 +409,22 @@ Eigen::Matrix3Xd ParticleSystem::moments() const {
     return in_callers_order(slots_.moment);
 }
 
+Bond ParticleSystem::in_callers_numbers(const SlotPair& ends) const {
+    const std::size_t second = at(ends.second);
+    return {slots_.particle[at(ends.first)], slots_.particle[second], slots_.images[second], ContactMemory{}};
+}
+
 std::vector<Bond> ParticleSystem::bonds() const {
     std::vector<Bond> bonds;
     for (const Chunk& chunk : chunks_) {
-        for (const SlotBond& bond : chunk.bonds) {
-            const std::size_t first = at(bond.ends.first);
-            const std::size_t second = at(bond.ends.second);
-            bonds.push_back({slots_.particle[first], slots_.particle[second], slots_.images[second], bond.rest_length, bond.shear,
-                             bond.branch});
+        for (const SlotBond& simple : chunk.bonds) {
+            Bond& bond = bonds.emplace_back(in_callers_numbers(simple.ends));
+            bond.memory.rest_length = simple.rest_length;
+            bond.memory.shear = simple.shear;
+            bond.memory.branch = simple.branch;
+        }
+        for (const SlotContact& contact : chunk.contacts) {
+            bonds.emplace_back(in_callers_numbers(contact.ends)).memory = contact.memory;
         }
     }
     return bonds;
@@ -328,9 +437,12 @@ ContactNetwork ParticleSystem::bond_network() const {
     };
     std::vector<Entry> entries;
     for (const Bond& bond : bonds()) {
+        if (!bond.memory.bonded) {
+            continue;
+        }
         const Quad& from = slots_.position[at(slot_of_[at(bond.first)])];
         const Quad& to = slots_.position[at(slot_of_[at(bond.second)])];
-        const Eigen::Vector3d branch = (to - from).head<3>() + bond.images.cast<double>().cwiseProduct(cell_.lengths());
+        const Eigen::Vector3d branch = (to - from).head<3>() + image_shift(bond.images);
         const bool swapped = bond.first > bond.second;
         entries.push_back(swapped ? Entry{bond.second, bond.first, -branch} : Entry{bond.first, bond.second, branch});
     }

@@ -9,12 +9,16 @@ void check(const StepOptions& options) {
 }
 
 double rms_force(const ParticleSystem& system, Index particles) {
-    const Index counted = particles < 0 ? system.size() : particles;
+    const Index last = particles < 0 ? system.size() : particles;
     const Slots& slots = system.slots();
+    Index counted = 0;
     double sum = 0;
     for (const Chunk& chunk : system.chunks()) {
         for (std::size_t slot = detail::at(chunk.begin); slot < detail::at(chunk.own_end); ++slot) {
-            sum += slots.particle[slot] < counted ? slots.force[slot].squaredNorm() : 0.0;
+            if (slots.particle[slot] < last && slots.inverse_mass[slot] > 0) {
+                sum += slots.force[slot].squaredNorm();
+                ++counted;
+            }
         }
     }
     return counted > 0 ? std::sqrt(sum / static_cast<double>(counted)) : 0.0;

@@ -261,6 +261,9 @@ inline double kinetic_energy(const ParticleSystem& system) {
     double energy = 0;
     for (const Chunk& chunk : system.chunks()) {
         for (std::size_t slot = detail::at(chunk.begin); slot < detail::at(chunk.own_end); ++slot) {
+            if (slots.inverse_mass[slot] == 0) {
+                continue;  // held
+            }
             energy += 0.5 * slots.velocity[slot].squaredNorm() / slots.inverse_mass[slot];
             energy += 0.5 * slots.spin[slot].squaredNorm() / slots.inverse_inertia[slot];
         }

@@ -77,6 +77,9 @@ private:
         Sums sums;
         detail::collect_all<Laws::turns>(slots, chunk);
         for (std::size_t slot = detail::at(chunk.begin); slot < detail::at(chunk.own_end); ++slot) {
+            if (slots.inverse_mass[slot] == 0) {
+                continue;  // held
+            }
             sums.add(slots.force[slot], slots.velocity[slot], slots.inverse_mass[slot]);
             sums.force_squared += slots.force[slot].squaredNorm();
             if constexpr (Laws::turns) {

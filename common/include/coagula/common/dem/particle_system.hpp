@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coagula/common/cell.hpp>
+#include <coagula/common/contact_memory.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/common/packing.hpp>
 
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace coagula::dem {
@@ -31,6 +34,12 @@ struct SlotBond {
     Eigen::Vector3d branch;  ///< centre of second minus centre of first when `shear` was last brought up to date [m]
 };
 
+/// A contact of the general law (general_forces.hpp), bonded or touching, between two slots.
+struct SlotContact {
+    SlotPair ends;
+    ContactMemory memory;
+};
+
 /// A part of space: the particles it owns, copies of the particles of other parts (ghosts) that they may touch, and the pairs.
 /// Each pair and bond belongs to one chunk; its first slot is owned by the chunk. The number of chunks depends on the number of
 /// particles only, so that sums over chunks in order do not depend on the number of threads.
@@ -40,6 +49,9 @@ struct Chunk {
     std::int32_t end = 0;
     std::vector<SlotPair> pairs;  ///< unbonded pairs nearer than r_i + r_j + skin when the list was made
     std::vector<SlotBond> bonds;
+    std::vector<SlotContact> contacts;
+    double dissipated = 0;                             ///< by general contacts in the last evaluation [J]
+    Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();  ///< of general contacts: sum of force on first times branch [J]
     std::size_t handed_begin = 0;  ///< forces from ghosts for this chunk are entries [handed_begin, handed_end) of Slots::handed
     std::size_t handed_end = 0;
     std::vector<std::int32_t> touching;  ///< scratch: pairs that overlap
@@ -65,14 +77,37 @@ struct Slots {
     std::vector<SlotPair> handed;         ///< own slot and ghost of it, sorted: whose forces go where
 };
 
-/// A bond in the caller's particle numbers.
+/// A bond, or a contact of the general law, in the caller's particle numbers.
 struct Bond {
     std::int32_t first = 0;
     std::int32_t second = 0;
-    Eigen::Vector3i images = Eigen::Vector3i::Zero();  ///< the bond reaches the image of `second` that is so many periods away
-    double rest_length = 0;                            ///< [m]
-    Eigen::Vector3d shear = Eigen::Vector3d::Zero();   ///< shear displacement [m]
-    Eigen::Vector3d branch = Eigen::Vector3d::Zero();  ///< centre of second minus centre of first [m]
+    Eigen::Vector3i images = Eigen::Vector3i::Zero();  ///< it reaches the image of `second` that is so many periods away
+    ContactMemory memory;                              ///< simple bonds have rest length, branch and shear only
+};
+
+/// Simple shear of the periodic cell: the image one period along `normal` lies `strain` periods along `direction` farther.
+struct CellShear {
+    int direction = 0;
+    int normal = 2;
+    double strain = 0;
+
+    /// Where shear takes a point of the unsheared cell, and back.
+    Eigen::Vector3d apply(Eigen::Vector3d point) const {
+        point[direction] += strain * point[normal];
+        return point;
+    }
+    Eigen::Vector3d undo(Eigen::Vector3d point) const {
+        point[direction] -= strain * point[normal];
+        return point;
+    }
+};
+
+/// All that moves and all that is remembered, in the caller's order: a system made of it goes on to the same bits.
+struct ParticleState {
+    std::vector<Quad> position, velocity, spin, turn, force, moment;
+    std::vector<double> inverse_mass, inverse_inertia;
+    std::vector<Bond> bonds;
+    CellShear shear;
 };
 
 struct ChunkPlan;
@@ -99,6 +134,26 @@ public:
     void set_spins(const Eigen::Matrix3Xd& spins);
     /// Bonds pairs (each once, not yet bonded); rest length r_i + r_j. Branches name the image meant and are measured anew.
     void add_bonds(const ContactNetwork& pairs);
+    /// The same with a memory for each, made by `make(branch, first_radius, second_radius)`.
+    void add_bonds(const ContactNetwork& pairs, const std::function<ContactMemory(const Eigen::Vector3d&, double, double)>& make);
+    /// Bonds become contacts of the general law (general_forces.hpp), or simple bonds again.
+    void use_general_contacts(bool general);
+
+    /// These particles are moved by nobody but set_velocity: their mass is infinite.
+    void hold(const std::vector<Index>& particles);
+    /// Gives these particles one velocity [m/s].
+    void set_velocity(const std::vector<Index>& particles, const Eigen::Vector3d& velocity);
+
+    /// Strains the periodic cell and all particles in it affinely by x_direction += increment x_normal; contacts will see it as
+    /// motion. One pair of axes per system, the cell starts unsheared. Throws std::invalid_argument for an open cell or other axes.
+    void shear(int direction, int normal, double increment);
+    /// Shear of the cell now; whole periods of strain are left out, because the lattice repeats.
+    const CellShear& cell_shear() const { return shear_; }
+
+    /// Everything that a run needs to go on.
+    ParticleState state() const;
+    /// Goes on from a state of a system of the same particles; the neighbour list is made anew.
+    void restore(ParticleState state) { rebuild(std::move(state)); }
 
     Eigen::Matrix3Xd positions() const;   ///< wrapped into a periodic cell [m]
     Eigen::Matrix3Xd velocities() const;  ///< [m/s]
@@ -112,13 +167,14 @@ public:
     ContactNetwork bond_network() const;
 
     /// Makes the neighbour list anew if it may lack a pair nearer than r_i + r_j + margin, that is if
-    /// 2 (largest displacement + growth of a radius) + margin > skin. @param margin [m], < skin.
+    /// 2 (largest displacement + growth of a radius) + margin > skin; shear of the cell brings pairs closer, too.
+    /// @param margin [m], < skin.
     void refresh(double margin = 0) {
         double path = 0;
         for (const Chunk& chunk : chunks_) {
             path = std::max(path, chunk.path);
         }
-        if (!(2 * (path + growth_) + margin <= skin_)) {
+        if (!(2 * (path + growth_) + approach_ + margin <= skin_)) {
             refresh_carefully(margin);
         }
     }
@@ -132,18 +188,15 @@ public:
     const std::vector<Chunk>& chunks() const { return chunks_; }
 
 private:
-    /// State in the caller's order, between two lists.
-    struct Snapshot {
-        std::vector<Quad> position, velocity, spin, turn, force, moment;
-        std::vector<double> inverse_mass, inverse_inertia;
-        std::vector<Bond> bonds;
-    };
     void refresh_carefully(double margin);
-    Snapshot snapshot() const;
-    void wrap(Snapshot& state) const;
-    void rebuild(Snapshot state);
+    void reduce_shear(ParticleState& state) const;
+    void wrap(ParticleState& state) const;
+    void rebuild(ParticleState state);
+    std::vector<ChunkPlan> plan(const ParticleState& state, std::vector<std::int32_t>& order) const;
+    Eigen::Vector3d image_shift(const Eigen::Vector3i& images) const;
+    Bond in_callers_numbers(const SlotPair& ends) const;
     void lay_out_chunks(const std::vector<ChunkPlan>& plans);
-    void fill_slot(std::int32_t own_slot, std::int32_t particle, const Snapshot& state);
+    void fill_slot(std::int32_t own_slot, std::int32_t particle, const ParticleState& state);
     void fill_chunk(Chunk& chunk, const ChunkPlan& plan, const std::vector<std::int32_t>& order, const std::vector<Bond>& bonds);
     Eigen::Matrix3Xd in_callers_order(const std::vector<Quad>& values) const;
     void set_in_slots(std::vector<Quad>& values, const Eigen::Matrix3Xd& given, const char* name);
@@ -153,6 +206,10 @@ private:
     Eigen::VectorXd radii_;       ///< caller's order [m]
     Eigen::VectorXd list_radii_;  ///< when the list was made [m]
     double growth_ = 0;           ///< of a radius since then, the largest [m]
+    CellShear shear_;
+    double list_strain_ = 0;  ///< of the cell when the list was made
+    double approach_ = 0;     ///< that shear since then may have brought unlisted pairs closer, at most [m]
+    bool general_ = false;
     Index list_builds_ = 0;
     Slots slots_;
     std::vector<Chunk> chunks_;

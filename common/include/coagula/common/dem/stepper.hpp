@@ -70,7 +70,8 @@ void step(ParticleSystem& system, const Laws& laws, const StepOptions& options) 
 /// Throws std::invalid_argument unless the time step is positive and 0 <= damping < 1.
 void check(const StepOptions& options);
 
-/// Root of the mean squared force on a particle [N], over the first `particles` (all if negative), as left by the last evaluation.
+/// Root of the mean squared force on a particle that is not held [N], among the first `particles` (all if negative), as left by the
+/// last evaluation.
 double rms_force(const ParticleSystem& system, Index particles = -1);
 
 }  // namespace coagula::dem

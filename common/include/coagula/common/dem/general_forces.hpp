@@ -1,0 +1,105 @@
+// Force evaluation with the general contact law: bonds with moments that may break, contacts with friction that come and go.
+#pragma once
+
+#include <coagula/common/dem/forces.hpp>
+#include <coagula/common/general_contact.hpp>
+
+namespace coagula::dem {
+
+/// Bonds and touching contacts of the general law, in a system that uses general contacts.
+struct GeneralInteractions {
+    GeneralContact law;
+    double time_step = 0;  ///< between evaluations [s], for dashpots and Maxwell elements; 0: they take no part
+
+    static constexpr bool turns = true;
+};
+
+namespace detail {
+
+/// A pair's motion since its memory was brought up to date.
+inline PairMotion motion_of(const Slots& slots, const SlotPair& ends) {
+    const std::size_t i = at(ends.first);
+    const std::size_t j = at(ends.second);
+    return {(slots.position[j] - slots.position[i]).template head<3>(), slots.turn[i].template head<3>(),
+            slots.turn[j].template head<3>(), slots.position[i][3], slots.position[j][3]};
+}
+
+/// Adds the force of a contact to its ends.
+inline void apply(Slots& slots, const SlotPair& ends, const PairMotion& motion, const ContactForce& contact) {
+    const std::size_t i = at(ends.first);
+    const std::size_t j = at(ends.second);
+    const double share = motion.first_radius / (motion.first_radius + motion.second_radius);
+    const Eigen::Vector3d torque = motion.branch.cross(contact.force);
+    slots.force[i].template head<3>() += contact.force;
+    slots.force[j].template head<3>() -= contact.force;
+    slots.moment[i].template head<3>() += share * torque + contact.moment;
+    slots.moment[j].template head<3>() += (1 - share) * torque - contact.moment;
+}
+
+/// Touching pairs become contacts.
+inline void make_contacts(const Slots& slots, Chunk& chunk, const GeneralContact& law) {
+    const std::size_t count = find_touching(slots, chunk);
+    for (std::size_t entry = count; entry-- > 0;) {
+        const auto place = static_cast<std::ptrdiff_t>(chunk.touching[entry]);
+        const SlotPair ends = chunk.pairs[at(chunk.touching[entry])];
+        const PairMotion motion = motion_of(slots, ends);
+        chunk.contacts.push_back({ends, law.make_contact(motion.branch, motion.first_radius, motion.second_radius)});
+        chunk.pairs.erase(chunk.pairs.begin() + place);
+    }
+}
+
+/// Broken bonds and contacts without bond that have parted become ordinary pairs.
+inline void part_contacts(const Slots& slots, Chunk& chunk, const GeneralContact& law) {
+    std::erase_if(chunk.contacts, [&](const SlotContact& contact) {
+        const bool parted =
+            !law.touches(contact.memory, slots.position[at(contact.ends.first)][3], slots.position[at(contact.ends.second)][3]);
+        if (parted) {
+            chunk.pairs.push_back(contact.ends);
+        }
+        return parted;
+    });
+}
+
+template <>
+inline void evaluate(Slots& slots, Chunk& chunk, const GeneralInteractions& interactions) {
+    prepare<true>(slots, chunk);
+    chunk.dissipated = 0;
+    chunk.virial.setZero();
+    make_contacts(slots, chunk, interactions.law);
+    for (SlotContact& contact : chunk.contacts) {
+        const PairMotion motion = motion_of(slots, contact.ends);
+        const ContactForce force = interactions.law.update(contact.memory, motion, interactions.time_step);
+        apply(slots, contact.ends, motion, force);
+        chunk.dissipated += force.dissipated;
+        chunk.virial += force.force * motion.branch.transpose();
+    }
+    part_contacts(slots, chunk, interactions.law);
+}
+
+}  // namespace detail
+
+/// A bond that broke.
+struct BrokenBond {
+    std::int32_t first;
+    std::int32_t second;
+    Eigen::Vector3d branch;  ///< when it broke [m]
+    double lost;             ///< energy [J]
+};
+
+/// Breaks every bond that is above a strength at the last force evaluation; in the order of the chunks.
+std::vector<BrokenBond> break_bonds(ParticleSystem& system, const GeneralContact& law);
+
+/// The age of all contacts becomes `factor`, forces stay; returns the energy lost [J].
+double set_age(ParticleSystem& system, GeneralContact& law, double factor);
+
+/// Energy in the springs at the last force evaluation [J].
+double potential_energy(const ParticleSystem& system, const GeneralInteractions& interactions);
+
+/// Sum over contacts of force on the first particle times branch, and energy dissipated by contacts, at the last evaluation [J].
+struct ContactSums {
+    Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
+    double dissipated = 0;
+};
+ContactSums contact_sums(const ParticleSystem& system);
+
+}  // namespace coagula::dem
