@@ -245,7 +245,7 @@ void ParticleSystem::fill_chunk(Chunk& chunk, const ChunkPlan& plan, const std::
         const Bond& bond = bonds[plan.bond_numbers[entry]];
         const SlotPair ends = plan.slots_of(plan.bonds[entry], chunk.begin);
         if (general_) {
-            chunk.contacts.push_back({ends, bond.memory});
+            chunk.contacts.push_back({ends, bond.memory, Eigen::Vector3d::Zero()});
         } else {
             chunk.bonds.push_back({ends, bond.memory.rest_length, bond.memory.shear, bond.memory.branch});
         }
@@ -412,6 +412,14 @@ Eigen::Matrix3Xd ParticleSystem::moments() const {
 Bond ParticleSystem::in_callers_numbers(const SlotPair& ends) const {
     const std::size_t second = at(ends.second);
     return {slots_.particle[at(ends.first)], slots_.particle[second], slots_.images[second], ContactMemory{}};
+}
+
+Eigen::Vector3d ParticleSystem::total_force(const std::vector<Index>& particles) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Index particle : particles) {
+        sum += slots_.force[at(slot_of_[static_cast<std::size_t>(particle)])].head<3>();
+    }
+    return sum;
 }
 
 std::vector<Bond> ParticleSystem::bonds() const {

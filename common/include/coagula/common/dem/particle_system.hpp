@@ -38,6 +38,7 @@ struct SlotBond {
 struct SlotContact {
     SlotPair ends;
     ContactMemory memory;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on the first at the last evaluation [N]
 };
 
 /// A part of space: the particles it owns, copies of the particles of other parts (ghosts) that they may touch, and the pairs.
@@ -160,6 +161,8 @@ public:
     Eigen::Matrix3Xd spins() const;       ///< [rad/s]
     Eigen::Matrix3Xd forces() const;      ///< of the last evaluation [N]
     Eigen::Matrix3Xd moments() const;     ///< of the last evaluation [N m]
+    /// Sum of the forces on these particles at the last evaluation [N].
+    Eigen::Vector3d total_force(const std::vector<Index>& particles) const;
     const Eigen::VectorXd& radii() const { return radii_; }
     Packing packing() const { return {cell_, positions(), radii_}; }
     std::vector<Bond> bonds() const;

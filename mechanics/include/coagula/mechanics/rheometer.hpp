@@ -1,0 +1,135 @@
+// Oscillatory shear by explicit discrete elements: the rheometer of Schenker et al. 2012 (sec. 2.4), and homogeneous shear of a
+// periodic cell.
+#pragma once
+
+#include <coagula/common/checks.hpp>
+#include <coagula/common/contact_model.hpp>
+#include <coagula/common/contact_network.hpp>
+#include <coagula/common/dem/particle_system.hpp>
+#include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <vector>
+
+namespace coagula::mechanics {
+
+/// Plates lie across axis `normal`, the upper one moves along axis `direction`; different axes of 0, 1, 2.
+struct ShearOrientation {
+    int normal = 2;
+    int direction = 0;
+};
+
+/// The six orientations of the paper: xy, xz, yx, yz, zx, zy (normal, direction).
+std::vector<ShearOrientation> all_orientations();
+
+enum class RheometerBoundary {
+    plates,   ///< layers of the periodic repetition below (fixed) and above (driven), periodic along the plates
+    periodic  ///< no plates: the periodic cell is sheared
+};
+
+struct RheometerOptions {
+    ContactModel model;
+    RheometerBoundary boundary = RheometerBoundary::plates;
+    double amplitude = 1e-3;            ///< strain of the last oscillation, > 0; the k-th of n has k / n of it
+    int oscillations = 10;              ///< > 0
+    double frequency = 1;               ///< [Hz], > 0; with scaled masses, see RheometerResult::mass_scaling
+    int steps_per_oscillation = 3000;   ///< >= 100
+    int samples_per_oscillation = 100;  ///< of the stress; >= 8, a multiple of 4 and a divisor of steps_per_oscillation
+    double damping = 0.9;               ///< alpha of the local damping, 0 <= alpha < 1
+    double density = 3690;              ///< of the particles [kg/m^3], > 0: what the scaled masses are compared with
+    bool unstressed_as_found = true;    ///< bonds have no force where they are found; else at distance r_i + r_j
+    double plate_layers = 3;            ///< thickness of a plate in mean diameters
+    int measurement_spheres = 5;        ///< between the plates, from a fifth to four fifths of the height
+    double measurement_radius = 0.2;    ///< of a measurement sphere over the height
+    double rest_tolerance = 1e-9;       ///< relaxation ends at this mean force over (normal contact stiffness x mean radius) ...
+    double rest_change = 1e-3;          ///< ... or when the mean force changes by less than this share within 100 steps
+    Index most_rest_steps = 200000;
+    bool compare_with_rest = true;      ///< measure RheometerRun::rate_error
+};
+
+/// One oscillation with amplitude gamma_0.
+struct Oscillation {
+    double amplitude = unset;        ///< of strain
+    double storage_modulus = unset;  ///< |G*| cos(phase) [Pa], |G*| = largest stress / largest strain, as in the paper
+    double loss_modulus = unset;     ///< |G*| sin(phase) [Pa]
+    double phase = unset;            ///< of the fundamental of the stress before that of the strain [rad]
+    double fundamental_storage = unset;  ///< G' and G'' of the fundamental alone [Pa]
+    double fundamental_loss = unset;
+    double third_harmonic = unset;  ///< amplitude of the third harmonic of the stress over the first
+    double offset = unset;          ///< mean stress [Pa]
+    Index broken_bonds = 0;         ///< in this oscillation
+};
+
+/// A bond that broke.
+struct BrokenInShear {
+    Index first;  ///< in the packing; a particle of a plate by the one that it repeats
+    Index second;
+    double strain;
+    int oscillation;
+};
+
+/// One orientation.
+struct RheometerRun {
+    ShearOrientation orientation;
+    std::vector<Oscillation> oscillations;
+    std::vector<double> strain;        ///< samples, all oscillations one after the other
+    std::vector<double> stress;        ///< mean over the whole volume [Pa]
+    std::vector<double> plate_stress;  ///< force on the driven plate over its area [Pa]; empty without plates
+    Eigen::MatrixXd sphere_stress;     ///< samples x spheres [Pa]; no columns without plates
+    std::vector<BrokenInShear> broken;
+    Index rest_steps = 0;             ///< of the relaxation before
+    double rest_force = unset;        ///< mean unbalanced force left, over (normal contact stiffness x mean radius)
+    double unbalanced_ratio = unset;  ///< mean unbalanced force over mean contact force at the last peak
+    double rate_error = unset;  ///< relative: stress at a further peak minus the stress there after the network has come to rest
+};
+
+struct RheometerResult {
+    std::vector<RheometerRun> runs;
+    Index contacts = 0;               ///< bonds of the packing
+    double contact_normal_stiffness = unset;  ///< [N/m]; of unloaded Hertz contacts 0
+    double contact_shear_stiffness = unset;
+    double time_step = unset;         ///< [s]
+    double mass_scaling = unset;      ///< mass of a particle in the run over its real mass
+    double inertial_number = unset;   ///< largest strain rate x sqrt(mass / normal contact stiffness)
+
+    /// Of the last oscillation, mean over the orientations and standard deviation [Pa].
+    double storage_modulus() const;
+    double storage_deviation() const;
+    double loss_modulus() const;
+    double loss_deviation() const;
+    double phase() const;
+};
+
+/// Where a run stands after an oscillation; going on from it gives the same bits as not having stopped.
+struct RheometerCheckpoint {
+    std::vector<RheometerRun> finished;
+    RheometerRun current;
+    dem::ParticleState state;
+};
+
+struct RheometerControl {
+    std::function<void(const RheometerCheckpoint&)> on_checkpoint;  ///< called after every oscillation, if given
+    const RheometerCheckpoint* resume = nullptr;                    ///< go on from here
+};
+
+/// Shears `packing` with its `bonds` (periodic cell) in each of the orientations, each from the start.
+///
+/// Before the test the network relaxes by steps after each of which all velocities are set to zero, until the mean unbalanced force
+/// is constant. The strain is amplitude x sin(2 pi frequency t), growing from oscillation to oscillation, at constant volume; local
+/// damping as in the paper. Masses are scaled so that the stiffest motion takes a fixed part of a time step: the elastic response
+/// has no rate, and `rate_error` tells what the rate in the run costs.
+///
+/// Stress is the mean over the volume between the plates (each bond counts with the part of it inside), the force on the driven
+/// plate over its area, and that of measurement spheres (PFC3D: solid fraction in the sphere over the volume of the particles whose
+/// centres lie in it, times the sum of lever x contact force).
+///
+/// Throws std::invalid_argument for impossible options, models that have no time-domain force (springpots) or an open cell;
+/// std::runtime_error when positions run away.
+RheometerResult run_rheometer(const Packing& packing, const ContactNetwork& bonds, const RheometerOptions& options,
+                              const std::vector<ShearOrientation>& orientations, const Progress& progress = {},
+                              const RheometerControl& control = {});
+
+}  // namespace coagula::mechanics
