@@ -27,8 +27,11 @@ ContactIncrement advance(ContactMemory& memory, const PairMotion& motion) {
 
     // What is added in the motion turns by half of it.
     const Eigen::Vector3d half_turned = now.displacement + 0.5 * turn.cross(now.displacement);
-    const Eigen::Vector3d shear = turned(memory.shear, turn) + half_turned;
-    memory.shear = shear - shear.dot(now.normal) * now.normal;
+    const auto in_plane = [&](const Eigen::Vector3d& vector) -> Eigen::Vector3d {
+        return vector - vector.dot(now.normal) * now.normal;
+    };
+    now.shear_growth = in_plane(half_turned);
+    memory.shear = in_plane(turned(memory.shear, turn)) + now.shear_growth;
     const Eigen::Vector3d bend = motion.second_turn - motion.first_turn;
     memory.bend = turned(memory.bend, turn) + bend + 0.5 * turn.cross(bend);
     memory.maxwell = turned(memory.maxwell, turn) + half_turned;

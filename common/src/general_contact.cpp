@@ -28,8 +28,8 @@ Vector3d along(const Vector3d& vector, const Vector3d& normal) {
 
 /// Relaxes the displacement of a Maxwell spring that grew by `increment`, included in `held`, within `duration`.
 Vector3d relaxed(const Vector3d& held, const Vector3d& increment, double duration, double time) {
-    const double kept = std::exp(-duration / time);
-    return kept * (held - increment) + (time / duration) * (1 - kept) * increment;
+    const double lost = -std::expm1(-duration / time);
+    return (1 - lost) * (held - increment) + (time / duration) * lost * increment;
 }
 
 }  // namespace
@@ -57,9 +57,6 @@ struct GeneralContact::Jkr {
     /// Contact radius at which the law ends when the distance is controlled.
     double end() const { return std::cbrt(pi * adhesion * radius * radius / (8 * modulus)); }
     double contact_radius(double wanted) const {
-        if (wanted <= overlap(end())) {
-            return end();
-        }
         // The overlap is convex in a, and the start lies beyond the root: Newton's steps come down to it.
         double a = std::sqrt(radius * std::max(wanted, 0.0)) + rest();
         for (int iteration = 0; iteration < 100; ++iteration) {
@@ -97,12 +94,12 @@ void GeneralContact::set_age_factor(double factor) {
     age_ = require_positive(factor, "the factor of ageing");
 }
 
-double GeneralContact::overlap_under(double force, double effective_radius) const {
+double GeneralContact::overlap_under(double force, double effective_radius, bool bonded) const {
     const double fresh = force / age_;
     if (!is_hertzian()) {
         return fresh / normal_stiffness_;
     }
-    if (adhesion_ == 0) {
+    if (adhesion_ == 0 || !bonded) {
         const double stiffness = 4.0 / 3 * contact_modulus_ * std::sqrt(effective_radius);
         return std::copysign(std::pow(std::abs(fresh) / stiffness, 2.0 / 3), fresh);
     }
@@ -114,8 +111,12 @@ ContactMemory GeneralContact::make_bond(const Vector3d& branch, double first_rad
                                         double unstressed_distance) const {
     ContactMemory memory;
     const double radius = effective(first_radius, second_radius);
+    const double prestress = or_zero(model_.prestress);
+    require(adhesion_ == 0 || -prestress < 1.5 * pi * adhesion_ * radius,
+            "prestress of the contact model is " + to_text(prestress) + " N: adhesion bears a tension of " +
+                to_text(1.5 * pi * adhesion_ * radius) + " N between these particles, 3/2 pi W R");
     memory.branch = branch;
-    memory.rest_length = unstressed_distance + overlap_under(or_zero(model_.prestress), radius);
+    memory.rest_length = unstressed_distance + overlap_under(prestress, radius, true);
     memory.shear_stiffness = normal(memory.rest_length - branch.norm(), radius, true).shear_stiffness;
     return memory;
 }
@@ -139,9 +140,14 @@ NormalResponse GeneralContact::hertz(double overlap, double effective_radius) co
 
 NormalResponse GeneralContact::jkr(double overlap, double effective_radius) const {
     const Jkr law{contact_modulus_, effective_radius, adhesion_};
-    const double a = law.contact_radius(overlap + law.overlap(law.rest()));
-    return {law.force(a), law.force_rate(a) / std::max(law.overlap_rate(a), 1e-9 * a / effective_radius),
-            law.energy(a) - law.energy(law.rest()), 8 * shear_modulus_ * a};
+    const double total = overlap + law.overlap(law.rest());
+    const double beyond = total - law.overlap(law.end());
+    if (beyond <= 0) {  // where the bond is to be broken; until then the force stays
+        const double force = law.force(law.end());
+        return {force, 0, law.energy(law.end()) + force * beyond - law.energy(law.rest()), 8 * shear_modulus_ * law.end()};
+    }
+    const double a = law.contact_radius(total);
+    return {law.force(a), law.force_rate(a) / law.overlap_rate(a), law.energy(a) - law.energy(law.rest()), 8 * shear_modulus_ * a};
 }
 
 NormalResponse GeneralContact::normal(double overlap, double effective_radius, bool bonded) const {
@@ -161,24 +167,17 @@ NormalResponse GeneralContact::normal(double overlap, double effective_radius, b
     return response;
 }
 
-void GeneralContact::follow_stiffness(ContactMemory& memory, double now, double& dissipated) const {
-    const double before = memory.shear_stiffness;
-    if (now > before) {
-        const double kept = before / now;
-        dissipated += 0.5 * before * (1 - kept) * memory.shear.squaredNorm();
-        memory.shear *= kept;
-    } else {
-        dissipated += 0.5 * (before - now) * memory.shear.squaredNorm();
+void GeneralContact::follow_stiffness(ContactMemory& memory, double now) const {
+    if (now > memory.shear_stiffness) {
+        memory.shear *= memory.shear_stiffness / now;
     }
     memory.shear_stiffness = now;
 }
 
-void GeneralContact::slip(ContactMemory& memory, const Vector3d& force_before, double limit, double& dissipated) const {
+void GeneralContact::limit_shear(ContactMemory& memory, double limit) const {
     const double trial = memory.shear_stiffness * memory.shear.norm();
     if (trial > limit) {
-        const Vector3d slid = (1 - limit / trial) * memory.shear;
-        memory.shear -= slid;
-        dissipated += 0.5 * (force_before + memory.shear_stiffness * memory.shear).dot(slid);
+        memory.shear *= limit / trial;
     }
 }
 
@@ -208,19 +207,30 @@ Vector3d GeneralContact::losses(ContactMemory& memory, const ContactIncrement& i
 }
 
 ContactForce GeneralContact::update(ContactMemory& memory, const PairMotion& motion, double duration) const {
-    const Vector3d force_before = memory.shear_stiffness * memory.shear;
     const ContactIncrement increment = advance(memory, motion);
+    const double stiffness_before = memory.shear_stiffness;
+    const Vector3d shear_before = memory.shear - increment.shear_growth;
+    const Vector3d trial = memory.shear;
     const NormalResponse response =
         normal(memory.rest_length - increment.distance, effective(motion.first_radius, motion.second_radius), memory.bonded);
     ContactForce result;
-    follow_stiffness(memory, response.shear_stiffness, result.dissipated);
+    follow_stiffness(memory, response.shear_stiffness);
     if (!memory.bonded) {
-        slip(memory, force_before, or_zero(model_.friction) * response.force, result.dissipated);
+        limit_shear(memory, or_zero(model_.friction) * response.force);
         memory.bend.setZero();
     }
-    result.force = memory.shear_stiffness * memory.shear - response.force * increment.normal;
+    const Vector3d shear_force = memory.shear_stiffness * memory.shear;
+    if (memory.shear != trial || memory.shear_stiffness != stiffness_before) {
+        // What the shear spring took in, by the trapezium rule, less what it has stored.
+        const Vector3d force_before = stiffness_before * shear_before;
+        result.dissipated = 0.5 * (force_before + shear_force).dot(increment.shear_growth) -
+                            0.5 * (shear_force.dot(memory.shear) - force_before.dot(shear_before));
+    }
+    result.force = shear_force - response.force * increment.normal;
     if (duration > 0) {
         result.force += losses(memory, increment, duration, result.dissipated);
+    } else {
+        memory.maxwell.setZero();
     }
     const Vector3d twist = along(memory.bend, increment.normal);
     result.moment = age_ * (or_zero(model_.bending_stiffness) * (memory.bend - twist) + or_zero(model_.twisting_stiffness) * twist);
@@ -279,14 +289,12 @@ double GeneralContact::load_ratio(const ContactMemory& memory, double first_radi
 double GeneralContact::break_bond(ContactMemory& memory, double first_radius, double second_radius) const {
     const double before = energy(memory, first_radius, second_radius);
     memory.bonded = false;
-    memory.rest_length = first_radius + second_radius;
     memory.bend.setZero();
     memory.maxwell.setZero();
     const NormalResponse response =
         normal(memory.rest_length - memory.branch.norm(), effective(first_radius, second_radius), false);
-    double unused = 0;
-    follow_stiffness(memory, response.shear_stiffness, unused);
-    slip(memory, Vector3d::Zero(), or_zero(model_.friction) * response.force, unused);
+    follow_stiffness(memory, response.shear_stiffness);
+    limit_shear(memory, or_zero(model_.friction) * response.force);
     return before - energy(memory, first_radius, second_radius);
 }
 
@@ -296,9 +304,9 @@ double GeneralContact::reage(ContactMemory& memory, double before, double first_
     const double energy_before = earlier.energy(memory, first_radius, second_radius);
     const double radius = effective(first_radius, second_radius);
     const double distance = memory.branch.norm();
-    if (memory.bonded) {
-        const double force = earlier.normal(memory.rest_length - distance, radius, true).force;
-        memory.rest_length = distance + overlap_under(force, radius);
+    const double force = earlier.normal(memory.rest_length - distance, radius, memory.bonded).force;
+    if (memory.bonded || force > 0) {
+        memory.rest_length = distance + overlap_under(force, radius, memory.bonded);
     }
     const double now = normal(memory.rest_length - distance, radius, memory.bonded).shear_stiffness;
     memory.shear *= now > 0 ? memory.shear_stiffness / now : 0.0;
@@ -308,7 +316,7 @@ double GeneralContact::reage(ContactMemory& memory, double before, double first_
 }
 
 bool GeneralContact::touches(const ContactMemory& memory, double first_radius, double second_radius) const {
-    return memory.bonded || memory.branch.norm() < first_radius + second_radius;
+    return memory.bonded || memory.branch.norm() < std::max(memory.rest_length, first_radius + second_radius);
 }
 
 }  // namespace coagula

@@ -25,9 +25,9 @@ TEST_F(ContactModelFile, ReadsQuantitiesAndKeepsTheRest) {
 
 TEST_F(ContactModelFile, WhatIsWrittenReadsBackAsTheSameModel) {
     ContactModel model;
-    double value = 0.1;
+    double value = 0.1;  // later ones are larger: cutoff above gap
     for (const ContactParameter& parameter : contact_parameters()) {
-        model.*parameter.value = value / 3;
+        model.*parameter.value = value / 7;
         value += 0.1;
     }
     const ContactModel again = read_contact_model(write("model.toml", contact_model_text(model)));
@@ -55,6 +55,9 @@ TEST_F(ContactModelFile, RefusesWithFileAndKey) {
     refused("normal_viscosity = -1\n", "normal_viscosity");
     refused("normal_stiffness = 0\n", "normal_stiffness");
     refused("normal_maxwell_time = \"1s\"\n", "normal_maxwell_stiffness");
+    refused("bending_stiffness = \"3 N/m\"\n", "key 'bending_stiffness'");
+    refused("work_of_adhesion = \"0.5 J/m2\"\n", "young_modulus");
+    refused("lubrication_gap = \"1 nm\"\nlubrication_cutoff = \"20 nm\"\n", "solvent_viscosity");
     refused("shear_stiffness = 3\nnormal_viscosity = \n", "line 2");
     refused(std::string("\0\1\2\xff", 4), "model.toml");
     EXPECT_THROW(read_contact_model(file("absent.toml")), InputError);

@@ -163,7 +163,7 @@ TEST(Frequency, DerivativesAgreeWithFiniteDifferences) {
     const ContactModel model = suspended(lossy_model());
     const double frequency = 30.0;
     const auto response = solve_frequency_sweep(sample.packing, sample.bonds, model, std::array{frequency});
-    ASSERT_EQ(response.parameters.size(), contact_parameters().size());
+    ASSERT_EQ(response.parameters.size(), 15U);  // two springs, twelve losses, the solvent
     for (std::size_t p = 0; p < response.parameters.size(); ++p) {
         const auto member = response.parameters[p].value;
         const double step = 3e-4 * model.*member;

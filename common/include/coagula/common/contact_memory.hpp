@@ -29,6 +29,7 @@ struct PairMotion {
 /// What moved: displacement of second against first at the contact point, and the turn of the pair.
 struct ContactIncrement {
     Eigen::Vector3d displacement;  ///< with its normal part [m]
+    Eigen::Vector3d shear_growth;  ///< of the shear displacement, beyond its turn with the pair [m]
     Eigen::Vector3d normal;        ///< unit vector from first to second, now
     double distance;               ///< of the centres, now [m]
     double first_lever;            ///< distances of the contact point from the centres, now [m]

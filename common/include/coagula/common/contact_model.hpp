@@ -73,7 +73,8 @@ struct ContactParameter {
 std::span<const ContactParameter> contact_parameters();
 
 /// Throws std::invalid_argument with a sentence that names the parameter, its value and the rule: a value out of range, the normal
-/// stiffness missing, or a Maxwell element or springpot of which only a part is given.
+/// stiffness missing, an element of which only a part is given (Maxwell, springpot, Hertz, lubrication, ageing), a strength that no
+/// force can reach or that the prestress passes.
 void check(const ContactModel& model);
 
 /// Force over displacement of a contact at one frequency [N/m].

@@ -20,7 +20,9 @@ struct NormalResponse {
 struct ContactForce {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< at the contact point [N]
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< couple besides [N m]
-    double dissipated = 0;  ///< since the memory was last brought up to date: friction, micro-slip, dashpots [J]
+    /// Since the memory was last brought up to date: friction, micro-slip, dashpots [J]. The work of the forces in springs and
+    /// friction is counted by the trapezium rule, mean of the forces before and after times motion.
+    double dissipated = 0;
 };
 
 /// Stiffness of a contact for small further motion, the losses aside.
@@ -38,7 +40,8 @@ struct ContactTangent {
 /// `work_of_adhesion` that of Johnson, Kendall and Roberts, measured from its own overlap at rest, so that a bond of rest length d
 /// carries no force at d. Bonds act both ways (Hertz's law continues as an odd function), other contacts push only.
 /// Shear force k_s s; with `young_modulus` Mindlin's 8 G* (contact radius), where a change of stiffness loses energy as in
-/// Elata and Berryman (Mech. Mater. 24, 1996, 229): unloading keeps s, loading keeps the force.
+/// Elata and Berryman (Mech. Mater. 24, 1996, 229): unloading keeps s, loading keeps the force. JKR's law ends at the overlap of
+/// pull-off at controlled distance; a bond that has not yet been broken there keeps its last force.
 /// Bonds pass moments k_b (bending) and k_t (twisting) times relative rotation, and break at the strengths.
 /// Contacts without a bond slip at friction x normal force.
 /// Dashpots and Maxwell elements act beside the springs, in bonds and other contacts.
@@ -55,7 +58,7 @@ public:
 
     /// Memory of a new bond between particles `branch` apart that carries the model's prestress.
     /// @param unstressed_distance centre distance without normal force if there were no prestress [m]: r_i + r_j, or the distance
-    /// as found.
+    /// as found. Throws std::invalid_argument for a tensile prestress that adhesion cannot bear.
     ContactMemory make_bond(const Eigen::Vector3d& branch, double first_radius, double second_radius,
                             double unstressed_distance) const;
     /// Memory of a contact that is just being made, without a bond.
@@ -65,7 +68,7 @@ public:
     NormalResponse normal(double overlap, double effective_radius, bool bonded) const;
 
     /// Brings the memory up to date with a motion and returns the forces after it.
-    /// @param duration of the motion [s] for dashpots and Maxwell elements; 0: they take no part.
+    /// @param duration of the motion [s] for dashpots and Maxwell elements; 0: they take no part, as in infinitely slow motion.
     ContactForce update(ContactMemory& memory, const PairMotion& motion, double duration) const;
 
     /// Energy in the springs [J]; those of Maxwell elements included.
@@ -77,24 +80,26 @@ public:
     /// strength and for contacts without a bond. A JKR bond also breaks where its law ends (pull-off at controlled distance).
     double load_ratio(const ContactMemory& memory, double first_radius, double second_radius) const;
 
-    /// Breaks the bond: what remains is a touching contact, within the limit of friction, or nothing. Returns the energy lost [J].
+    /// Breaks the bond: what remains, at the same rest length, is a touching contact within the limit of friction, or nothing.
+    /// Returns the energy lost [J].
     double break_bond(ContactMemory& memory, double first_radius, double second_radius) const;
 
     /// Changes the memory from stiffness factor `before` to the present one without changing any force: new stiffness grows
     /// unstressed. Returns the energy lost [J].
     double reage(ContactMemory& memory, double before, double first_radius, double second_radius) const;
 
-    /// Whether a contact without a bond still touches (adhesion included).
+    /// Whether to keep the memory: false for a contact without a bond that has parted, both from its rest length (that of a broken
+    /// bond may differ from the sum of radii) and from where make_contact() would begin a new one.
     bool touches(const ContactMemory& memory, double first_radius, double second_radius) const;
 
 private:
     struct Jkr;
     NormalResponse hertz(double overlap, double effective_radius) const;
     NormalResponse jkr(double overlap, double effective_radius) const;
-    double overlap_under(double force, double effective_radius) const;
+    double overlap_under(double force, double effective_radius, bool bonded) const;
     bool is_hertzian() const { return contact_modulus_ > 0; }
-    void follow_stiffness(ContactMemory& memory, double shear_stiffness, double& dissipated) const;
-    void slip(ContactMemory& memory, const Eigen::Vector3d& force_before, double limit, double& dissipated) const;
+    void follow_stiffness(ContactMemory& memory, double now) const;
+    void limit_shear(ContactMemory& memory, double limit) const;
     Eigen::Vector3d losses(ContactMemory& memory, const ContactIncrement& increment, double duration, double& dissipated) const;
 
     ContactModel model_;

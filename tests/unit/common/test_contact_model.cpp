@@ -27,6 +27,20 @@ ContactModel full_model() {
     model.shear_springpot_time = 0.002;
     model.shear_springpot_exponent = 0.7;
     model.solvent_viscosity = 1e-3;
+    model.lubrication_gap = 1e-9;
+    model.lubrication_cutoff = 2e-8;
+    model.bending_stiffness = 3e-13;
+    model.twisting_stiffness = 2e-13;
+    model.young_modulus = 70e9;
+    model.poisson_ratio = 0.3;
+    model.work_of_adhesion = 0.5;
+    model.normal_strength = 1e-7;
+    model.shear_strength = 1e-8;
+    model.bending_strength = 1e-15;
+    model.friction = 0.3;
+    model.prestress = 1e-9;
+    model.ageing_rate = 0.1;
+    model.ageing_time = 5;
     return model;
 }
 
@@ -115,26 +129,56 @@ void expect_refused(const ContactModel& model, const std::string& part) {
     }
 }
 
-TEST(ContactModel, RefusesWhatCannotBe) {
+TEST(ContactModel, RefusesValuesOutOfRange) {
     EXPECT_NO_THROW(check(full_model()));
+    EXPECT_NO_THROW(check({}));
     for (const ContactParameter& parameter : contact_parameters()) {
         ContactModel model = full_model();
-        model.*parameter.value = -1;
-        expect_refused(model, parameter.name + " of the contact model is -1");
+        if (std::isfinite(parameter.low)) {
+            model.*parameter.value = -1;
+            expect_refused(model, parameter.name + " of the contact model is -1");
+        }
         model.*parameter.value = std::numeric_limits<double>::infinity();
         expect_refused(model, parameter.name);
     }
-    ContactModel model;
-    model.normal_stiffness = unset;
-    expect_refused(model, "needs normal_stiffness");
-    model = {};
-    model.shear_maxwell_stiffness = 1;
-    expect_refused(model, "no shear_maxwell_time");
-    model = full_model();
-    model.normal_springpot_exponent = unset;
-    expect_refused(model, "no normal_springpot_exponent");
+    ContactModel model = full_model();
     model.normal_springpot_exponent = 1.5;
     expect_refused(model, "0 .. 1");
+    model = full_model();
+    model.poisson_ratio = 0.6;
+    expect_refused(model, "0 .. 0.5");
+}
+
+TEST(ContactModel, RefusesPartsWithoutWhatTheyNeed) {
+    struct Missing {
+        double ContactModel::*parameter;
+        const char* part;
+    };
+    const Missing all[] = {{&ContactModel::normal_stiffness, "needs normal_stiffness"},
+                           {&ContactModel::shear_maxwell_time, "shear_maxwell_stiffness but no shear_maxwell_time"},
+                           {&ContactModel::normal_springpot_exponent, "but no normal_springpot_exponent"},
+                           {&ContactModel::poisson_ratio, "young_modulus but no poisson_ratio"},
+                           {&ContactModel::ageing_rate, "ageing_time but no ageing_rate"},
+                           {&ContactModel::lubrication_cutoff, "lubrication_gap but no lubrication_cutoff"},
+                           {&ContactModel::solvent_viscosity, "lubrication_gap but no solvent_viscosity"}};
+    for (const Missing& missing : all) {
+        ContactModel model = full_model();
+        model.*missing.parameter = unset;
+        expect_refused(model, missing.part);
+    }
+    expect_refused({.work_of_adhesion = 1}, "work_of_adhesion but no young_modulus");
+    ContactModel model = full_model();
+    model.lubrication_gap = 3e-8;
+    expect_refused(model, "3e-08 m: it must not be larger than lubrication_cutoff");
+}
+
+TEST(ContactModel, RefusesStrengthsThatNothingReaches) {
+    expect_refused({.shear_stiffness = 0, .shear_strength = 1e-6}, "shear_strength, but its shear_stiffness is 0");
+    expect_refused({.bending_strength = 1e-15}, "neither bending_stiffness nor twisting_stiffness");
+    expect_refused({.bending_stiffness = 0, .bending_strength = 1e-15}, "neither bending_stiffness nor twisting_stiffness");
+    EXPECT_NO_THROW(check({.twisting_stiffness = 1e-13, .bending_strength = 1e-15}));
+    expect_refused({.normal_strength = 1e-6, .prestress = -2e-6}, "a bond breaks at a tension of 1e-06 N");
+    EXPECT_NO_THROW(check({.normal_strength = 1e-6, .prestress = 2e-6}));
 }
 
 }  // namespace
