@@ -6,6 +6,8 @@
 #include "progress_bar.hpp"
 #include "provenance.hpp"
 #include "report.hpp"
+#include "rheometer_run.hpp"
+#include "shear_findings.hpp"
 #include "shear_results.hpp"
 #include "verbs.hpp"
 
@@ -62,8 +64,8 @@ mechanics::LinearOptions linear_options(const Arguments& arguments, const Contac
 }
 
 void check_method(const std::string& method) {
-    if (method != "linear") {
-        throw InputError("--method " + method + " is not available in this version; use --method linear");
+    if (method == "quasistatic") {
+        throw InputError("--method " + method + " is not available in this version; use --method linear or dem");
     }
 }
 
@@ -89,16 +91,6 @@ std::optional<mechanics::RelaxedNetwork> relaxed(const Arguments& arguments, con
     options.scheme = scheme == "paper" ? mechanics::RelaxationScheme::stopped_steps : mechanics::RelaxationScheme::minimise;
     return mechanics::relax(packing, bonds, options, progress);
 }
-
-/// What one method finds: for the file, for programs and for people.
-struct Findings {
-    std::string group;  ///< in the file
-    Results results;
-    std::vector<io::ParticleField> fields = {};
-    Table table;
-    Results bond_results = {};  ///< one value per bond each: for the file only
-    std::vector<io::BondField> bond_fields = {};
-};
 
 void append_load_structure(Findings& found, const mechanics::LoadStructure& structure, bool periodic) {
     for (io::Dataset& dataset : load_structure_datasets(structure, periodic)) {
@@ -146,7 +138,8 @@ void run(const Arguments& arguments) {
     check_method(arguments.text("method"));
     const std::vector<double> frequencies = frequencies_of(arguments);
     const ContactModel model = contact_model(arguments);
-    if (frequencies.empty()) {
+    const bool explicit_run = arguments.text("method") == "dem";
+    if (frequencies.empty() && !explicit_run) {
         check_elastic(arguments, model);
     }
     const Packing packing = io::read_structure(arguments.input()).packing;
@@ -156,8 +149,9 @@ void run(const Arguments& arguments) {
     const auto rest = relaxed(arguments, packing, bonds, model, progress);
     const Packing& sheared = rest ? rest->packing : packing;
     const ContactNetwork& network = rest ? rest->bonds : bonds;
-    Findings found = frequencies.empty() ? linear_response(arguments, packing, sheared, network, model, progress)
-                                         : frequency_response(arguments, sheared, network, model, frequencies, progress);
+    Findings found = explicit_run          ? rheometer_response(arguments, sheared, network, model, frequencies, progress)
+                     : frequencies.empty() ? linear_response(arguments, packing, sheared, network, model, progress)
+                                           : frequency_response(arguments, sheared, network, model, frequencies, progress);
     if (rest) {
         append_relaxation(found.group, found.results, found.fields, *rest);
     }
@@ -179,7 +173,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Verb shear_verb() {
-    return {
+    Verb verb{
         .name = "shear",
         .summary = "shear modulus and elastic tensor of the bonded packing",
         .input = "FILE.h5",
@@ -202,9 +196,13 @@ Verb shear_verb() {
                     output("write to a new file; results are added to the input file when not given"),
                     flag("force", "replace an existing output file")},
         .run = run,
-        .notes = {"With --frequency the springs may have losses (--model); of the solver's options the tolerance counts.",
+        .notes = {"With --method dem one --frequency counts (default 1Hz); masses are scaled so that it can be stepped through.",
+                  "With --frequency the springs may have losses (--model); of the solver's options the tolerance counts.",
                   "--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
-                  "The methods quasistatic and dem are not available in this version."}};
+                  "The method quasistatic is not available in this version."}};
+    const std::vector<Option> own = rheometer_options();
+    verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
+    return verb;
 }
 
 }  // namespace coagula::tools

@@ -26,8 +26,7 @@ struct Rigidity {
 Rigidity rigidity(const GeneralContact& law, const Eigen::Vector3d& branch, double first, double second,
                   const RheometerOptions& options) {
     const double distance = branch.norm();
-    const ContactMemory memory =
-        law.make_bond(branch, first, second, options.unstressed_as_found ? distance : first + second);
+    const ContactMemory memory = law.make_bond(branch, first, second, options.unstressed_as_found ? distance : first + second);
     const double overlap = std::abs(memory.rest_length - distance) + strain_concentration * options.amplitude * distance;
     const NormalResponse response = law.normal(overlap, first * second / (first + second), true);
     const ContactModel& model = law.model();
@@ -36,7 +35,8 @@ Rigidity rigidity(const GeneralContact& law, const Eigen::Vector3d& branch, doub
             law.age_factor() * std::max(or_zero(model.bending_stiffness), or_zero(model.twisting_stiffness))};
 }
 
-/// Largest row sum of the matrix over the mass, Gershgorin's bound, if a bond has rigidity `of(bond)`; for mean radius and unit mass.
+/// Largest row sum of the matrix over the mass, Gershgorin's bound, if a bond has rigidity `of(bond)`; for mean radius and unit
+/// mass.
 template <class Of>
 double row_bound(const Packing& packing, const ContactNetwork& bonds, Of&& of) {
     const double mean = mean_radius(packing);

@@ -7,8 +7,8 @@
 namespace coagula::mechanics {
 
 /// Mass of a particle of mean radius [kg] (others in proportion to their volume) for which the time step is four fifths of the
-/// stability limit of central differences, dt^2 l_k / 4 + dt l_c / 2 < 1, with Gershgorin's bounds l_k and l_c of the eigenvalues of
-/// stiffness and dashpots over mass.
+/// stability limit of central differences, dt^2 l_k / 4 + dt l_c / 2 < 1, with Gershgorin's bounds l_k and l_c of the eigenvalues
+/// of stiffness and dashpots over mass.
 double scaled_mass(const Packing& packing, const ContactNetwork& bonds, const GeneralContact& law, const RheometerOptions& options,
                    double time_step);
 

@@ -1,5 +1,5 @@
-// One orientation of the rheometer: rest, oscillate, compare with rest. A template over the interactions, so that simple bonds run at
-// full speed.
+// One orientation of the rheometer: rest, oscillate, compare with rest. A template over the interactions, so that simple bonds run
+// at full speed.
 #pragma once
 
 #include "oscillation.hpp"
@@ -131,7 +131,21 @@ public:
         }
     }
 
-    const RheometerRun& result() const { return run_; }
+    RheometerRun result() const {
+        RheometerRun run = run_;
+        if (mounted_.has_plates()) {
+            const auto last = static_cast<std::size_t>(options_.samples_per_oscillation);
+            run.plate_storage =
+                evaluate_oscillation({run.plate_stress.data() + (run.plate_stress.size() - last), last}, options_.amplitude)
+                    .fundamental_storage;
+            run.sphere_storage.resize(probe_.spheres());
+            for (Index sphere = 0; sphere < probe_.spheres(); ++sphere) {
+                const Eigen::VectorXd stress = run.sphere_stress.col(sphere).tail(options_.samples_per_oscillation);
+                run.sphere_storage[sphere] = evaluate_oscillation({stress.data(), last}, options_.amplitude).fundamental_storage;
+            }
+        }
+        return run;
+    }
 
 private:
     static constexpr int rest_block = 100;
@@ -198,8 +212,9 @@ private:
 
     static void require_finite(double stress) {
         if (!std::isfinite(stress)) {
-            throw std::runtime_error("the explicit run has become unstable: its stress is not finite; more steps per oscillation "
-                                     "make the time step smaller");
+            throw std::runtime_error(
+                "the explicit run has become unstable: its stress is not finite; more steps per oscillation "
+                "make the time step smaller");
         }
     }
 

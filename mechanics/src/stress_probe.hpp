@@ -12,8 +12,8 @@
 
 namespace coagula::mechanics {
 
-/// Calls visit(slot of the first particle, slot of the second, branch, force on the first) for every bond and touching pair, as left
-/// by the last force evaluation.
+/// Calls visit(slot of the first particle, slot of the second, branch, force on the first) for every bond and touching pair, as
+/// left by the last force evaluation.
 template <class BondLaw, class Visit>
 void for_each_force(const dem::ParticleSystem& system, const dem::Interactions<RepulsiveSpring, BondLaw>& laws, Visit&& visit) {
     const dem::Slots& slots = system.slots();
@@ -87,8 +87,8 @@ private:
     double area_;
     bool has_plates_;
     std::vector<Index> upper_;
-    Eigen::Matrix3Xd centres_;               ///< of the measurement spheres [m]
-    Eigen::VectorXd per_volume_;             ///< solid fraction in each over the volume of the particles in it [1/m^3]
+    Eigen::Matrix3Xd centres_;                 ///< of the measurement spheres [m]
+    Eigen::VectorXd per_volume_;               ///< solid fraction in each over the volume of the particles in it [1/m^3]
     std::vector<std::vector<int>> in_sphere_;  ///< spheres in which the centre of each particle lies
 };
 

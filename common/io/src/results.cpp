@@ -116,6 +116,14 @@ void write_provenance(File& file, const Provenance& entry) {
                              "SHA-256 of the positions that went in (nm, little-endian doubles); empty for a generator"));
 }
 
+void write_datasets(const std::string& path, const std::vector<Dataset>& datasets, bool overwrite) {
+    File file = File::create(path);
+    for (const Dataset& dataset : datasets) {
+        write_dataset(file, dataset);
+    }
+    file.save(overwrite);
+}
+
 std::vector<Dataset> read_results(const std::string& path, const std::string& group) {
     const File file = File::open(path);
     std::vector<Dataset> results;

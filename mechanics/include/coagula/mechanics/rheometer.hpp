@@ -36,7 +36,7 @@ struct RheometerOptions {
     double amplitude = 1e-3;            ///< strain of the last oscillation, > 0; the k-th of n has k / n of it
     int oscillations = 10;              ///< > 0
     double frequency = 1;               ///< [Hz], > 0; with scaled masses, see RheometerResult::mass_scaling
-    int steps_per_oscillation = 3000;   ///< >= 100
+    int steps_per_oscillation = 6000;   ///< >= 100
     int samples_per_oscillation = 100;  ///< of the stress; >= 8, a multiple of 4 and a divisor of steps_per_oscillation
     double damping = 0.9;               ///< alpha of the local damping, 0 <= alpha < 1
     double density = 3690;              ///< of the particles [kg/m^3], > 0: what the scaled masses are compared with
@@ -44,18 +44,18 @@ struct RheometerOptions {
     double plate_layers = 3;            ///< thickness of a plate in mean diameters
     int measurement_spheres = 5;        ///< between the plates, from a fifth to four fifths of the height
     double measurement_radius = 0.2;    ///< of a measurement sphere over the height
-    double rest_tolerance = 1e-9;       ///< relaxation ends at this mean force over (normal contact stiffness x mean radius) ...
-    double rest_change = 1e-3;          ///< ... or when the mean force changes by less than this share within 100 steps
+    double rest_tolerance = 1e-9;       ///< relaxation ends at this rms force over (normal contact stiffness x mean radius) ...
+    double rest_change = 1e-3;          ///< ... or when the rms force changes by less than this share within 100 steps
     Index most_rest_steps = 200000;
-    bool compare_with_rest = true;      ///< measure RheometerRun::rate_error
+    bool compare_with_rest = true;  ///< measure RheometerRun::rate_error
 };
 
 /// One oscillation with amplitude gamma_0.
 struct Oscillation {
-    double amplitude = unset;        ///< of strain
-    double storage_modulus = unset;  ///< |G*| cos(phase) [Pa], |G*| = largest stress / largest strain, as in the paper
-    double loss_modulus = unset;     ///< |G*| sin(phase) [Pa]
-    double phase = unset;            ///< of the fundamental of the stress before that of the strain [rad]
+    double amplitude = unset;            ///< of strain
+    double storage_modulus = unset;      ///< |G*| cos(phase) [Pa], |G*| = largest stress / largest strain, as in the paper
+    double loss_modulus = unset;         ///< |G*| sin(phase) [Pa]
+    double phase = unset;                ///< of the fundamental of the stress before that of the strain [rad]
     double fundamental_storage = unset;  ///< G' and G'' of the fundamental alone [Pa]
     double fundamental_loss = unset;
     double third_harmonic = unset;  ///< amplitude of the third harmonic of the stress over the first
@@ -79,21 +79,23 @@ struct RheometerRun {
     std::vector<double> stress;        ///< mean over the whole volume [Pa]
     std::vector<double> plate_stress;  ///< force on the driven plate over its area [Pa]; empty without plates
     Eigen::MatrixXd sphere_stress;     ///< samples x spheres [Pa]; no columns without plates
+    Eigen::VectorXd sphere_storage;    ///< G' of the fundamental in the last oscillation, in each sphere [Pa]
+    double plate_storage = unset;      ///< the same from the force on the plate [Pa]
     std::vector<BrokenInShear> broken;
     Index rest_steps = 0;             ///< of the relaxation before
-    double rest_force = unset;        ///< mean unbalanced force left, over (normal contact stiffness x mean radius)
-    double unbalanced_ratio = unset;  ///< mean unbalanced force over mean contact force at the last peak
+    double rest_force = unset;        ///< rms unbalanced force left, over (normal contact stiffness x mean radius)
+    double unbalanced_ratio = unset;  ///< rms unbalanced force over mean contact force at a further peak
     double rate_error = unset;  ///< relative: stress at a further peak minus the stress there after the network has come to rest
 };
 
 struct RheometerResult {
     std::vector<RheometerRun> runs;
-    Index contacts = 0;               ///< bonds of the packing
+    Index contacts = 0;                       ///< bonds of the packing
     double contact_normal_stiffness = unset;  ///< [N/m]; of unloaded Hertz contacts 0
     double contact_shear_stiffness = unset;
-    double time_step = unset;         ///< [s]
-    double mass_scaling = unset;      ///< mass of a particle in the run over its real mass
-    double inertial_number = unset;   ///< largest strain rate x sqrt(mass / normal contact stiffness)
+    double time_step = unset;        ///< [s]
+    double mass_scaling = unset;     ///< mass of a particle in the run over its real mass
+    double inertial_number = unset;  ///< largest strain rate x sqrt(mass / normal contact stiffness)
 
     /// Of the last oscillation, mean over the orientations and standard deviation [Pa].
     double storage_modulus() const;

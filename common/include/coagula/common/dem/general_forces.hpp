@@ -43,8 +43,8 @@ inline void make_contacts(const Slots& slots, Chunk& chunk, const GeneralContact
         const auto place = static_cast<std::ptrdiff_t>(chunk.touching[entry]);
         const SlotPair ends = chunk.pairs[at(chunk.touching[entry])];
         const PairMotion motion = motion_of(slots, ends);
-        chunk.contacts.push_back({ends, law.make_contact(motion.branch, motion.first_radius, motion.second_radius),
-                                  Eigen::Vector3d::Zero()});
+        chunk.contacts.push_back(
+            {ends, law.make_contact(motion.branch, motion.first_radius, motion.second_radius), Eigen::Vector3d::Zero()});
         chunk.pairs.erase(chunk.pairs.begin() + place);
     }
 }

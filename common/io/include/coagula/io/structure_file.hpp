@@ -90,6 +90,9 @@ void add_results(const std::string& source, const std::string& target, const std
                  const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
                  const std::vector<BondField>& bond_fields = {});
 
+/// Writes a file of these datasets and nothing else, as write_structure does.
+void write_datasets(const std::string& path, const std::vector<Dataset>& datasets, bool overwrite);
+
 /// All datasets below a group ("/characterization"), sorted by path; empty when the group does not exist.
 std::vector<Dataset> read_results(const std::string& path, const std::string& group);
 

@@ -1,0 +1,274 @@
+#include "rheometer_checkpoint.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace coagula::tools {
+
+namespace {
+
+using dem::Bond;
+using dem::ParticleState;
+using dem::Quad;
+using mechanics::Oscillation;
+using mechanics::RheometerCheckpoint;
+using mechanics::RheometerRun;
+using Numbers = std::vector<double>;
+using Integers = std::vector<std::int64_t>;
+
+const std::string kind = "checkpoint of coagula shear --method dem";
+
+/// Data sets by path, with a sentence for what is missing.
+class Reader {
+public:
+    explicit Reader(const std::string& path) : path_(path) {
+        for (io::Dataset& dataset : io::read_results(path, "/")) {
+            datasets_.emplace(dataset.path, std::move(dataset));
+        }
+    }
+    bool has(const std::string& name) const { return datasets_.contains(name); }
+    template <class Values>
+    const Values& get(const std::string& name) const {
+        const auto found = datasets_.find(name);
+        if (found == datasets_.end() || !std::holds_alternative<Values>(found->second.values)) {
+            throw InputError(path_ + ": " + name + " is missing: this is no " + kind);
+        }
+        return std::get<Values>(found->second.values);
+    }
+    /// The values of a table with so many columns.
+    template <class Values>
+    const Values& table(const std::string& name, std::size_t columns, std::size_t rows) const {
+        const Values& values = get<Values>(name);
+        if (values.size() != columns * rows) {
+            throw InputError(path_ + ": " + name + " has " + std::to_string(values.size()) + " values, not " +
+                             std::to_string(columns * rows) + ": the checkpoint is damaged");
+        }
+        return values;
+    }
+    [[noreturn]] void fail(const std::string& rule) const { throw InputError(path_ + " " + rule); }
+
+private:
+    std::string path_;
+    std::map<std::string, io::Dataset> datasets_;
+};
+
+void put(std::vector<io::Dataset>& all, const std::string& path, Numbers values) {
+    const std::size_t count = values.size();
+    all.push_back({path, {count}, std::move(values), "1", "state of the run, SI units"});
+}
+void put(std::vector<io::Dataset>& all, const std::string& path, Integers values) {
+    const std::size_t count = values.size();
+    all.push_back({path, {count}, std::move(values), "1", "state of the run"});
+}
+
+/// The per-particle vectors of a state with their names.
+template <class State>
+auto vectors_of(State& state) {
+    return std::array{std::pair{"position", &state.position}, std::pair{"velocity", &state.velocity},
+                      std::pair{"spin", &state.spin},         std::pair{"turn", &state.turn},
+                      std::pair{"force", &state.force},       std::pair{"moment", &state.moment}};
+}
+
+/// The vectors of a bond's memory.
+template <class Memory>
+auto vectors_in(Memory& memory) {
+    return std::array{&memory.branch, &memory.shear, &memory.bend, &memory.maxwell};
+}
+
+constexpr std::size_t bond_integers = 6;
+constexpr std::size_t bond_numbers = 14;
+
+void put_bonds(std::vector<io::Dataset>& all, const std::vector<Bond>& bonds) {
+    Integers integers;
+    Numbers numbers;
+    for (const Bond& bond : bonds) {
+        integers.insert(integers.end(),
+                        {bond.first, bond.second, bond.images[0], bond.images[1], bond.images[2], bond.memory.bonded ? 1 : 0});
+        numbers.insert(numbers.end(), {bond.memory.rest_length, bond.memory.shear_stiffness});
+        for (const Eigen::Vector3d* vector : vectors_in(bond.memory)) {
+            numbers.insert(numbers.end(), vector->begin(), vector->end());
+        }
+    }
+    put(all, "/state/bond_integers", std::move(integers));
+    put(all, "/state/bond_numbers", std::move(numbers));
+}
+
+std::vector<Bond> read_bonds(const Reader& file, std::size_t particles) {
+    const std::size_t count = file.get<Integers>("/state/bond_integers").size() / bond_integers;
+    const Integers& integers = file.table<Integers>("/state/bond_integers", bond_integers, count);
+    const Numbers& numbers = file.table<Numbers>("/state/bond_numbers", bond_numbers, count);
+    std::vector<Bond> bonds(count);
+    for (std::size_t entry = 0; entry < count; ++entry) {
+        const std::int64_t* whole = &integers[bond_integers * entry];
+        const double* real = &numbers[bond_numbers * entry];
+        for (int end = 0; end < 2; ++end) {
+            if (whole[end] < 0 || whole[end] >= static_cast<std::int64_t>(particles)) {
+                file.fail("names particle " + std::to_string(whole[end]) + ", which does not exist: the checkpoint is damaged");
+            }
+        }
+        Bond& bond = bonds[entry];
+        bond.first = static_cast<std::int32_t>(whole[0]);
+        bond.second = static_cast<std::int32_t>(whole[1]);
+        bond.images << static_cast<int>(whole[2]), static_cast<int>(whole[3]), static_cast<int>(whole[4]);
+        bond.memory.bonded = whole[5] != 0;
+        bond.memory.rest_length = real[0];
+        bond.memory.shear_stiffness = real[1];
+        real += 2;
+        for (Eigen::Vector3d* vector : vectors_in(bond.memory)) {
+            *vector << real[0], real[1], real[2];
+            real += 3;
+        }
+    }
+    return bonds;
+}
+
+void put_state(std::vector<io::Dataset>& all, const ParticleState& state) {
+    for (const auto& [name, vectors] : vectors_of(state)) {
+        Numbers values;
+        values.reserve(4 * vectors->size());
+        for (const Quad& vector : *vectors) {
+            values.insert(values.end(), vector.begin(), vector.end());
+        }
+        put(all, std::string("/state/") + name, std::move(values));
+    }
+    put(all, "/state/inverse_mass", state.inverse_mass);
+    put(all, "/state/inverse_inertia", state.inverse_inertia);
+    put(all, "/state/shear_axes", Integers{state.shear.direction, state.shear.normal});
+    put(all, "/state/shear_strain", Numbers{state.shear.strain});
+    put_bonds(all, state.bonds);
+}
+
+ParticleState read_state(const Reader& file) {
+    ParticleState state;
+    const std::size_t particles = file.get<Numbers>("/state/inverse_mass").size();
+    for (const auto& [name, vectors] : vectors_of(state)) {
+        const Numbers& values = file.table<Numbers>(std::string("/state/") + name, 4, particles);
+        vectors->resize(particles);
+        for (std::size_t particle = 0; particle < particles; ++particle) {
+            (*vectors)[particle] = Quad::Map(&values[4 * particle]);
+        }
+    }
+    state.inverse_mass = file.get<Numbers>("/state/inverse_mass");
+    state.inverse_inertia = file.table<Numbers>("/state/inverse_inertia", 1, particles);
+    const Integers& axes = file.table<Integers>("/state/shear_axes", 2, 1);
+    state.shear = {static_cast<int>(axes[0]), static_cast<int>(axes[1]), file.table<Numbers>("/state/shear_strain", 1, 1)[0]};
+    state.bonds = read_bonds(file, particles);
+    return state;
+}
+
+constexpr std::array oscillation_numbers{
+    &Oscillation::amplitude,           &Oscillation::storage_modulus,  &Oscillation::loss_modulus,   &Oscillation::phase,
+    &Oscillation::fundamental_storage, &Oscillation::fundamental_loss, &Oscillation::third_harmonic, &Oscillation::offset};
+constexpr std::array run_numbers{&RheometerRun::plate_storage, &RheometerRun::rest_force, &RheometerRun::unbalanced_ratio,
+                                 &RheometerRun::rate_error};
+
+void put_run(std::vector<io::Dataset>& all, const std::string& group, const RheometerRun& run) {
+    put(all, group + "orientation", Integers{run.orientation.normal, run.orientation.direction, run.rest_steps});
+    Numbers of_run;
+    for (const auto value : run_numbers) {
+        of_run.push_back(run.*value);
+    }
+    put(all, group + "numbers", std::move(of_run));
+    Numbers numbers;
+    Integers broken;
+    for (const Oscillation& oscillation : run.oscillations) {
+        for (const auto value : oscillation_numbers) {
+            numbers.push_back(oscillation.*value);
+        }
+        broken.push_back(oscillation.broken_bonds);
+    }
+    put(all, group + "oscillations", std::move(numbers));
+    put(all, group + "broken_per_oscillation", std::move(broken));
+    put(all, group + "strain", run.strain);
+    put(all, group + "stress", run.stress);
+    put(all, group + "plate_stress", run.plate_stress);
+    put(all, group + "sphere_storage", Numbers(run.sphere_storage.begin(), run.sphere_storage.end()));
+    put(all, group + "spheres", Integers{run.sphere_stress.rows(), run.sphere_stress.cols()});
+    put(all, group + "sphere_stress", Numbers(run.sphere_stress.data(), run.sphere_stress.data() + run.sphere_stress.size()));
+    Integers where;
+    Numbers strains;
+    for (const mechanics::BrokenInShear& bond : run.broken) {
+        where.insert(where.end(), {bond.first, bond.second, bond.oscillation});
+        strains.push_back(bond.strain);
+    }
+    put(all, group + "broken", std::move(where));
+    put(all, group + "broken_strain", std::move(strains));
+}
+
+RheometerRun read_run(const Reader& file, const std::string& group) {
+    RheometerRun run;
+    const Integers& head = file.table<Integers>(group + "orientation", 3, 1);
+    run.orientation = {static_cast<int>(head[0]), static_cast<int>(head[1])};
+    run.rest_steps = head[2];
+    const Numbers& of_run = file.table<Numbers>(group + "numbers", run_numbers.size(), 1);
+    for (std::size_t k = 0; k < run_numbers.size(); ++k) {
+        run.*run_numbers[k] = of_run[k];
+    }
+    const Integers& broken = file.get<Integers>(group + "broken_per_oscillation");
+    const Numbers& numbers = file.table<Numbers>(group + "oscillations", oscillation_numbers.size(), broken.size());
+    run.oscillations.resize(broken.size());
+    for (std::size_t entry = 0; entry < broken.size(); ++entry) {
+        for (std::size_t k = 0; k < oscillation_numbers.size(); ++k) {
+            run.oscillations[entry].*oscillation_numbers[k] = numbers[oscillation_numbers.size() * entry + k];
+        }
+        run.oscillations[entry].broken_bonds = broken[entry];
+    }
+    run.strain = file.get<Numbers>(group + "strain");
+    run.stress = file.table<Numbers>(group + "stress", 1, run.strain.size());
+    run.plate_stress = file.get<Numbers>(group + "plate_stress");
+    const Numbers& spheres = file.get<Numbers>(group + "sphere_storage");
+    run.sphere_storage = Eigen::VectorXd::Map(spheres.data(), static_cast<Index>(spheres.size()));
+    const Integers& shape = file.table<Integers>(group + "spheres", 2, 1);
+    const Numbers& stress =
+        file.table<Numbers>(group + "sphere_stress", static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[1]));
+    run.sphere_stress = Eigen::MatrixXd::Map(stress.data(), shape[0], shape[1]);
+    const Numbers& strains = file.get<Numbers>(group + "broken_strain");
+    const Integers& where = file.table<Integers>(group + "broken", 3, strains.size());
+    for (std::size_t entry = 0; entry < strains.size(); ++entry) {
+        run.broken.push_back({where[3 * entry], where[3 * entry + 1], strains[entry], static_cast<int>(where[3 * entry + 2])});
+    }
+    return run;
+}
+
+std::string finished_group(std::size_t number) {
+    return "/finished/" + std::to_string(number) + "/";
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const std::string& signature, const RheometerCheckpoint& checkpoint) {
+    std::vector<io::Dataset> all;
+    all.push_back(io::text("/kind", kind, "what this file is"));
+    all.push_back(io::text("/signature", signature, "options and structure of the run"));
+    for (std::size_t run = 0; run < checkpoint.finished.size(); ++run) {
+        put_run(all, finished_group(run), checkpoint.finished[run]);
+    }
+    put_run(all, "/current/", checkpoint.current);
+    put_state(all, checkpoint.state);
+    io::write_datasets(path, all, true);
+}
+
+RheometerCheckpoint read_checkpoint(const std::string& path, const std::string& signature) {
+    const Reader file(path);
+    if (file.get<std::string>("/kind") != kind) {
+        file.fail("is no " + kind);
+    }
+    if (file.get<std::string>("/signature") != signature) {
+        file.fail(
+            "is the checkpoint of a run with other options or another structure: remove it, or repeat the call that wrote it");
+    }
+    RheometerCheckpoint checkpoint;
+    for (std::size_t run = 0; file.has(finished_group(run) + "orientation"); ++run) {
+        checkpoint.finished.push_back(read_run(file, finished_group(run)));
+    }
+    checkpoint.current = read_run(file, "/current/");
+    checkpoint.state = read_state(file);
+    return checkpoint;
+}
+
+}  // namespace coagula::tools
