@@ -86,8 +86,23 @@ private:
             const SimpleInteractions laws{RepulsiveSpring(bond.normal_stiffness()), bond};
             return run_with(mounted, orientation, laws, false, resumes, finished);
         }
-        return run_with(mounted, orientation, dem::GeneralInteractions{law_, time_step_}, true, resumes, finished);
+        const dem::GeneralInteractions laws{law_, time_step_, solvent(mounted, orientation)};
+        return run_with(mounted, orientation, laws, true, resumes, finished);
     }
+
+    dem::Solvent solvent(const MountedSample& mounted, const ShearOrientation& orientation) const {
+        const ContactModel& model = options_.model;
+        dem::Solvent fluid;
+        fluid.viscosity = std::isnan(model.solvent_viscosity) ? 0.0 : model.solvent_viscosity;
+        fluid.lubrication_cutoff = film_reach();
+        fluid.lubrication_gap = model.lubrication_gap;
+        fluid.direction = orientation.direction;
+        fluid.normal = orientation.normal;
+        fluid.cell_moves = !mounted.has_plates();
+        fluid.resting_plane = mounted.bottom;
+        return fluid;
+    }
+    double film_reach() const { return std::isnan(options_.model.lubrication_cutoff) ? 0.0 : options_.model.lubrication_cutoff; }
 
     template <class Laws>
     RheometerRun run_with(const MountedSample& mounted, const ShearOrientation& orientation, const Laws& laws, bool general,
@@ -114,7 +129,8 @@ private:
     dem::ParticleSystem make_system(const MountedSample& mounted, bool general) const {
         const Packing& all = mounted.packing;
         const double radius = mean_radius(packing_);
-        dem::ParticleSystem system(all.cell, all.positions, all.radii, skin * radius);
+        dem::ParticleSystem system(all.cell, all.positions, all.radii, skin * radius + film_reach());
+        system.keep_listed(film_reach());
         system.set_masses(mass() * (all.radii / radius).array().cube().matrix());
         system.use_general_contacts(general);
         system.add_bonds(mounted.bonds, [&](const Eigen::Vector3d& branch, double first, double second) {

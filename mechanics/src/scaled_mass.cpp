@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace coagula::mechanics {
 
@@ -65,9 +66,16 @@ double scaled_mass(const Packing& packing, const ContactNetwork& bonds, const Ge
         return rigidity(law, bonds.branch.col(bond), radius(0, bond), radius(1, bond), options);
     });
     const ContactModel& model = law.model();
-    const double dashpots = row_bound(packing, bonds, [&](Index /*bond*/) {
-        return Rigidity{or_zero(model.normal_viscosity), or_zero(model.shear_viscosity), 0};
-    });
+    const double viscosity = or_zero(model.solvent_viscosity);
+    const auto film = [&](Index bond) {
+        const double reduced = radius(0, bond) * radius(1, bond) / (radius(0, bond) + radius(1, bond));
+        return 6 * std::numbers::pi * viscosity * reduced * reduced / model.lubrication_gap;
+    };
+    const double drag = viscosity * (translation_drag(1) + rotation_drag(1) / inertia) * mean_radius(packing);
+    const double dashpots =
+        drag + row_bound(packing, bonds, [&](Index bond) {
+            return Rigidity{or_zero(model.normal_viscosity) + or_zero(film(bond)), or_zero(model.shear_viscosity), 0};
+        });
     const double bound = (0.25 * time_step * springs + 0.5 * dashpots) * time_step;
     // Without bonds nothing moves but overlapping particles.
     return std::max(bound, time_step * time_step * law.normal(mean_radius(packing), mean_radius(packing), true).stiffness) /

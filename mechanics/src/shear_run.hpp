@@ -33,6 +33,10 @@ inline void become_older(dem::ParticleSystem& system, dem::GeneralInteractions& 
         dem::set_age(system, laws.law, 1 + model.ageing_rate * std::log1p(time / model.ageing_time));
     }
 }
+inline void set_shear_rate(SimpleInteractions& /*laws*/, double /*rate*/) {}
+inline void set_shear_rate(dem::GeneralInteractions& laws, double rate) {
+    laws.solvent.shear_rate = rate;
+}
 /// The same without losses that depend on the rate.
 inline SimpleInteractions at_rest(const SimpleInteractions& laws) {
     return laws;
@@ -179,6 +183,7 @@ private:
                 velocity[direction] = increment * mounted_.height / time_step_;
                 system_.set_velocity(mounted_.upper, velocity);
             }
+            set_shear_rate(laws_, increment / time_step_);
             dem::step(system_, laws_, stepping);
             note_broken(strain, oscillation);
             if (step % interval == 0) {

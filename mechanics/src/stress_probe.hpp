@@ -41,6 +41,9 @@ void for_each_force(const dem::ParticleSystem& system, const dem::GeneralInterac
         for (const dem::SlotContact& contact : chunk.contacts) {
             visit(contact.ends, contact.memory.branch, contact.force);
         }
+        for (const dem::SlotFilm& film : chunk.films) {
+            visit(film.ends, film.branch, film.force);
+        }
     }
 }
 

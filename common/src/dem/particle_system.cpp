@@ -265,7 +265,7 @@ void ParticleSystem::refresh_carefully(double margin) {
         displacement = std::max(displacement, chunk.path);
     }
     // Close to the limit measuring would have to be repeated all the time.
-    if (!(2 * (displacement + growth_) + approach_ + margin <= 0.9 * skin_)) {
+    if (!(2 * (displacement + growth_) + approach_ <= 0.9 * (skin_ - listed_gap_ - margin))) {
         rebuild(this->state());
     }
 }
@@ -341,6 +341,12 @@ void ParticleSystem::use_general_contacts(bool general) {
     ParticleState state = this->state();
     general_ = general;
     rebuild(std::move(state));
+}
+
+void ParticleSystem::keep_listed(double gap) {
+    require(gap >= 0 && gap < skin_, "the gap of listed pairs is " + to_text(gap) + " m, but the skin of the list is " +
+                                         to_text(skin_) + " m and must be larger");
+    listed_gap_ = gap;
 }
 
 void ParticleSystem::hold(const std::vector<Index>& particles) {

@@ -6,10 +6,24 @@
 
 namespace coagula::dem {
 
-/// Bonds and touching contacts of the general law, in a system that uses general contacts.
+/// Viscous fluid around the particles in simple shear: drag on each (Stokes), and films that pairs squeeze (leading term of
+/// Jeffrey and Onishi 1984, 6 pi eta R*^2 / gap).
+struct Solvent {
+    double viscosity = 0;           ///< [Pa s]; 0: there is none
+    double lubrication_gap = 0;     ///< gaps count as this at least [m]
+    double lubrication_cutoff = 0;  ///< pairs with a smaller gap squeeze a film [m]; 0: none do
+    int direction = 0;
+    int normal = 2;
+    double shear_rate = 0;     ///< [1/s]
+    bool cell_moves = true;    ///< velocities are those beyond the flow, as in a sheared cell; else the fluid is at rest at ...
+    double resting_plane = 0;  ///< ... this height along the normal [m]
+};
+
+/// Bonds and touching contacts of the general law, in a system that uses general contacts, and the solvent.
 struct GeneralInteractions {
     GeneralContact law;
-    double time_step = 0;  ///< between evaluations [s], for dashpots and Maxwell elements; 0: they take no part
+    double time_step = 0;  ///< between evaluations [s], for dashpots and Maxwell elements; 0: they and the solvent take no part
+    Solvent solvent = {};
 
     static constexpr bool turns = true;
 };
@@ -61,6 +75,12 @@ inline void part_contacts(const Slots& slots, Chunk& chunk, const GeneralContact
     });
 }
 
+/// Drag on the own particles of a chunk.
+void add_drag(Slots& slots, Chunk& chunk, const Solvent& solvent, double time_step);
+
+/// Forces of the films of a chunk's pairs, touching or not.
+void add_films(Slots& slots, Chunk& chunk, const Solvent& solvent, double time_step);
+
 template <>
 inline void evaluate(Slots& slots, Chunk& chunk, const GeneralInteractions& interactions) {
     prepare<true>(slots, chunk);
@@ -74,6 +94,11 @@ inline void evaluate(Slots& slots, Chunk& chunk, const GeneralInteractions& inte
         contact.force = force.force;
         chunk.dissipated += force.dissipated;
         chunk.virial += force.force * motion.branch.transpose();
+    }
+    chunk.films.clear();
+    if (interactions.solvent.viscosity > 0 && interactions.time_step > 0) {
+        add_drag(slots, chunk, interactions.solvent, interactions.time_step);
+        add_films(slots, chunk, interactions.solvent, interactions.time_step);
     }
     part_contacts(slots, chunk, interactions.law);
 }
@@ -97,7 +122,8 @@ double set_age(ParticleSystem& system, GeneralContact& law, double factor);
 /// Energy in the springs at the last force evaluation [J].
 double potential_energy(const ParticleSystem& system, const GeneralInteractions& interactions);
 
-/// Sum over contacts of force on the first particle times branch, and energy dissipated by contacts, at the last evaluation [J].
+/// Sum over contacts and films of force on the first particle times branch, and energy dissipated by contacts and solvent since the
+/// evaluation before, at the last one [J].
 struct ContactSums {
     Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
     double dissipated = 0;

@@ -41,6 +41,13 @@ struct SlotContact {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on the first at the last evaluation [N]
 };
 
+/// A film of solvent that two particles squeeze.
+struct SlotFilm {
+    SlotPair ends;
+    Eigen::Vector3d branch;  ///< [m]
+    Eigen::Vector3d force;   ///< on the first [N]
+};
+
 /// A part of space: the particles it owns, copies of the particles of other parts (ghosts) that they may touch, and the pairs.
 /// Each pair and bond belongs to one chunk; its first slot is owned by the chunk. The number of chunks depends on the number of
 /// particles only, so that sums over chunks in order do not depend on the number of threads.
@@ -51,6 +58,7 @@ struct Chunk {
     std::vector<SlotPair> pairs;  ///< unbonded pairs nearer than r_i + r_j + skin when the list was made
     std::vector<SlotBond> bonds;
     std::vector<SlotContact> contacts;
+    std::vector<SlotFilm> films;                       ///< scratch: those of the last evaluation
     double dissipated = 0;                             ///< by general contacts in the last evaluation [J]
     Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();  ///< of general contacts: sum of force on first times branch [J]
     std::size_t handed_begin = 0;  ///< forces from ghosts for this chunk are entries [handed_begin, handed_end) of Slots::handed
@@ -177,10 +185,12 @@ public:
         for (const Chunk& chunk : chunks_) {
             path = std::max(path, chunk.path);
         }
-        if (!(2 * (path + growth_) + approach_ + margin <= skin_)) {
+        if (!(2 * (path + growth_) + approach_ + listed_gap_ + margin <= skin_)) {
             refresh_carefully(margin);
         }
     }
+    /// The list must always hold all pairs nearer than r_i + r_j + gap [m], < skin.
+    void keep_listed(double gap);
     /// How often the list has been made.
     Index list_builds() const { return list_builds_; }
 
@@ -212,6 +222,7 @@ private:
     CellShear shear_;
     double list_strain_ = 0;  ///< of the cell when the list was made
     double approach_ = 0;     ///< that shear since then may have brought unlisted pairs closer, at most [m]
+    double listed_gap_ = 0;
     bool general_ = false;
     Index list_builds_ = 0;
     Slots slots_;
