@@ -24,6 +24,7 @@ mechanics::RheometerOptions options_of(const Arguments& arguments, const Contact
     options.boundary =
         arguments.text("boundary") == "plates" ? mechanics::RheometerBoundary::plates : mechanics::RheometerBoundary::periodic;
     options.amplitude = arguments.quantity("amplitude");
+    options.growing = !arguments.flag("constant-amplitude");
     options.oscillations = static_cast<int>(arguments.count("oscillations"));
     options.frequency = frequencies.empty() ? options.frequency : frequencies.front();
     options.steps_per_oscillation = static_cast<int>(arguments.count("steps-per-oscillation"));
@@ -47,6 +48,7 @@ std::string fingerprint(const Arguments& arguments, const Packing& packing, cons
 std::vector<Option> rheometer_options() {
     return {choice("boundary", {"plates", "periodic"}, "dem: plates of three layers, or a periodic cell that is sheared", "plates"),
             quantity("amplitude", "1", "dem: strain of the last oscillation; they grow linearly", "0.001", Range{0, 1, false}),
+            flag("constant-amplitude", "dem: all oscillations have that strain"),
             count("oscillations", "dem: number of oscillations", "10", within(1, 100000)),
             count("steps-per-oscillation", "dem: time steps, a multiple of 100", "6000", within(100, 100000000)),
             quantity("damping", "1", "dem: coefficient of the local damping", "0.9", Range{0, 0.999, true}),

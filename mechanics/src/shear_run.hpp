@@ -96,7 +96,7 @@ public:
         const auto total = static_cast<double>(options_.oscillations);
         for (auto number = static_cast<int>(run_.oscillations.size()); number < options_.oscillations; ++number) {
             become_older(system_, laws_, number / options_.frequency);
-            const double amplitude = options_.amplitude * (number + 1) / total;
+            const double amplitude = options_.growing ? options_.amplitude * (number + 1) / total : options_.amplitude;
             const std::size_t first = run_.stress.size();
             const std::size_t broken = run_.broken.size();
             move(amplitude, 0, options_.steps_per_oscillation, number);
