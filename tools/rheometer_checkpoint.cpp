@@ -77,11 +77,11 @@ auto vectors_of(State& state) {
 /// The vectors of a bond's memory.
 template <class Memory>
 auto vectors_in(Memory& memory) {
-    return std::array{&memory.branch, &memory.shear, &memory.bend, &memory.maxwell};
+    return std::array{&memory.branch, &memory.shear, &memory.bend, &memory.maxwell, &memory.dashpot};
 }
 
 constexpr std::size_t bond_integers = 6;
-constexpr std::size_t bond_numbers = 14;
+constexpr std::size_t bond_numbers = 17;
 
 void put_bonds(std::vector<io::Dataset>& all, const std::vector<Bond>& bonds) {
     Integers integers;

@@ -187,7 +187,9 @@ Vector3d GeneralContact::losses(ContactMemory& memory, const ContactIncrement& i
     const Vector3d shear_part = increment.displacement - normal_part;
     const Vector3d dashpot =
         (or_zero(model_.normal_viscosity) * normal_part + or_zero(model_.shear_viscosity) * shear_part) / duration;
-    dissipated += dashpot.dot(increment.displacement);
+    // By the trapezoidal rule, as central differences do work.
+    dissipated += 0.5 * (memory.dashpot + dashpot).dot(increment.displacement);
+    memory.dashpot = dashpot;
 
     Vector3d maxwell = Vector3d::Zero();
     Vector3d held = Vector3d::Zero();

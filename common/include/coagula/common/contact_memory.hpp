@@ -15,6 +15,7 @@ struct ContactMemory {
     Eigen::Vector3d shear = Eigen::Vector3d::Zero();    ///< elastic shear displacement of second against first [m]
     Eigen::Vector3d bend = Eigen::Vector3d::Zero();     ///< rotation of second against first, bending and twisting [rad]
     Eigen::Vector3d maxwell = Eigen::Vector3d::Zero();  ///< displacement held by the springs of the Maxwell elements [m]
+    Eigen::Vector3d dashpot = Eigen::Vector3d::Zero();  ///< force of the dashpots in the motion before [N]
 };
 
 /// Motion of a pair since its memory was last brought up to date.

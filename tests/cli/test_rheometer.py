@@ -1,0 +1,85 @@
+"""The explicit rheometer: keys, agreement with the linear method, checkpoints of killed runs, what is refused."""
+
+import subprocess
+import time
+import unittest
+
+import h5py
+
+from support import PROGRAM, ProgramTest
+
+QUICK = ["--method", "dem", "--boundary", "periodic", "--bond-tolerance", "0.1", "--amplitude", "1e-5"]
+
+
+class Rheometer(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.copy_of_packing()
+
+    def shear(self, *words):
+        return self.succeed_json("shear", "packing.h5", "-o", "out.h5", "--force", *QUICK, "--oscillations", "2", *words)
+
+    def test_keys_and_agreement_with_the_linear_method(self):
+        found = self.shear("--orientation", "zx,xy")
+        linear = self.succeed_json("shear", "packing.h5", "--bond-tolerance", "0.1", "-o", "linear.h5")
+        self.assertEqual(found["method"], "dem")
+        self.assertEqual(found["contacts"], linear["contacts"])
+        self.assertEqual(found["contact_stiffness"], linear["contact_stiffness"])
+        self.assertEqual(set(found["storage_modulus"]), {"mean", "std", "zx", "xy"})
+        for name in ("zx", "xy"):
+            self.assertAlmostEqual(found["storage_modulus"][name] / linear["storage_modulus"][name], 1, delta=0.01)
+        self.assertLess(abs(found["phase"]), 0.05)
+        self.assertEqual(found["broken_bonds"], 0)
+        self.assertEqual(len(found["oscillations"]["amplitude"]), 2)
+        self.assertEqual(found["oscillations"]["amplitude"][0], [5e-6, 1e-5])
+        self.assertEqual(len(found["rate_error"]), 2)
+        with h5py.File(self.folder / "out.h5") as file:
+            samples = file["mechanics/dem/samples/stress"]
+            self.assertEqual(samples.shape, (2, 200))
+            self.assertEqual(samples.attrs["unit"], "Pa")
+
+    def test_plates(self):
+        found = self.succeed_json("shear", "packing.h5", "-o", "out.h5", "--method", "dem", "--orientation", "yz", "--oscillations",
+                                  "1", "--bond-tolerance", "0.1")
+        self.assertEqual(found["boundary"], "plates")
+        self.assertEqual(len(found["sphere_storage_modulus"][0]), 5)
+        self.assertAlmostEqual(found["plate_storage_modulus"][0] / found["storage_modulus"]["yz"], 1, delta=0.1)
+
+    def test_a_killed_run_goes_on_to_the_same_bits(self):
+        model = self.write("model.toml", 'friction = 0.2\nnormal_strength = "20 pN"\n')
+        words = [*QUICK, "--oscillations", "6", "--steps-per-oscillation", "1500", "--orientation", "zx,xy", "--model", str(model)]
+        whole = self.succeed_json("shear", "packing.h5", "-o", "whole.h5", *words)
+        call = ["shear", "packing.h5", "-o", "killed.h5", "--checkpoint", "state.h5", *words]
+        running = subprocess.Popen([PROGRAM, *call], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (self.folder / "state.h5").exists() and running.poll() is None:
+            time.sleep(0.002)
+        running.kill()
+        running.wait()
+        self.assertTrue((self.folder / "state.h5").exists())
+        self.assertFalse((self.folder / "killed.h5").exists())
+        again = self.succeed_json(*call)
+        self.assertGreater(whole["broken_bonds"], 0)
+        for key in ("storage_modulus", "loss_modulus", "oscillations", "samples", "broken", "rate_error"):
+            self.assertEqual(again[key], whole[key])
+        self.fail_with(2, *call, "--damping", "0.8", "--force", says=["state.h5", "other options"])
+        damaged = bytearray((self.folder / "state.h5").read_bytes())
+        (self.folder / "state.h5").write_bytes(damaged[:len(damaged) // 2])
+        self.fail_with(2, *call, "--force", says="state.h5")
+
+    def test_refusals(self):
+        def refused(*words, says):
+            self.fail_with(2, "shear", "packing.h5", "-o", "new.h5", "--method", "dem", *words, says=says)
+
+        refused("--steps-per-oscillation", "150", says="multiple of the 100 samples")
+        refused("--amplitude", "0", says="amplitude")
+        refused("--orientation", "xx", says="'xx'")
+        refused("--orientation", "xy,xy", says="twice")
+        refused("--frequency", "1Hz,2Hz", says="one frequency")
+        refused("--checkpoint", "packing.h5", says="packing.h5")
+        springpot = 'normal_springpot_stiffness = 1\nnormal_springpot_time = 1\nnormal_springpot_exponent = 0.5\n'
+        refused("--model", self.write("pot.toml", springpot), says="springpot")
+        refused("--model", self.write("weak.toml", "normal_strength = -1\n"), says=["weak.toml", "normal_strength"])
+
+
+if __name__ == "__main__":
+    unittest.main()
