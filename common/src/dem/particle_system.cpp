@@ -337,6 +337,33 @@ void ParticleSystem::add_bonds(const ContactNetwork& pairs,
     rebuild(std::move(state));
 }
 
+std::vector<Bond> ParticleSystem::remove_bonds(const std::function<bool(const Bond&)>& breaks) {
+    std::vector<Bond> removed;
+    for (Chunk& chunk : chunks_) {
+        std::size_t kept = 0;
+        for (const SlotBond& simple : chunk.bonds) {
+            const Bond bond = in_callers_numbers(simple);
+            if (breaks(bond)) {
+                removed.push_back(bond);
+                chunk.pairs.push_back(simple.ends);
+            } else {
+                chunk.bonds.set(kept++, simple);
+            }
+        }
+        chunk.bonds.resize(kept);
+    }
+    return removed;
+}
+
+detail::BondExtremes ParticleSystem::largest_bond_loads() const {
+    detail::BondExtremes largest;
+    for (const Chunk& chunk : chunks_) {
+        largest.stretch = std::max(largest.stretch, chunk.extremes.stretch);
+        largest.shear_squared = std::max(largest.shear_squared, chunk.extremes.shear_squared);
+    }
+    return largest;
+}
+
 void ParticleSystem::use_general_contacts(bool general) {
     ParticleState state = this->state();
     general_ = general;
@@ -428,14 +455,19 @@ Eigen::Vector3d ParticleSystem::total_force(const std::vector<Index>& particles)
     return sum;
 }
 
+Bond ParticleSystem::in_callers_numbers(const SlotBond& simple) const {
+    Bond bond = in_callers_numbers(simple.ends);
+    bond.memory.rest_length = simple.rest_length;
+    bond.memory.shear = simple.shear;
+    bond.memory.branch = simple.branch;
+    return bond;
+}
+
 std::vector<Bond> ParticleSystem::bonds() const {
     std::vector<Bond> bonds;
     for (const Chunk& chunk : chunks_) {
         for (const SlotBond& simple : chunk.bonds) {
-            Bond& bond = bonds.emplace_back(in_callers_numbers(simple.ends));
-            bond.memory.rest_length = simple.rest_length;
-            bond.memory.shear = simple.shear;
-            bond.memory.branch = simple.branch;
+            bonds.push_back(in_callers_numbers(simple));
         }
         for (const SlotContact& contact : chunk.contacts) {
             bonds.emplace_back(in_callers_numbers(contact.ends)).memory = contact.memory;

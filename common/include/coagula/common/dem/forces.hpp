@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coagula/common/contact_law.hpp>
+#include <coagula/common/dem/kernels.hpp>
 #include <coagula/common/dem/particle_system.hpp>
 
 #include <cmath>
@@ -122,54 +123,39 @@ void add_contact_forces(Slots& slots, Chunk& chunk, const Law& law, bool bond_on
 
 template <CentralLaw Law>
 void add_bond_forces(Slots& slots, Chunk& chunk, const Law& law) {
-    for (const SlotBond& bond : chunk.bonds) {
-        Quad separation = slots.position[at(bond.ends.second)] - slots.position[at(bond.ends.first)];
+    chunk.extremes = {};
+    for (std::size_t bond = 0; bond < chunk.bonds.size(); ++bond) {
+        const SlotPair ends = chunk.bonds.ends(bond);
+        Quad separation = slots.position[at(ends.second)] - slots.position[at(ends.first)];
         separation[3] = 0;
-        const Quad force = central_force(law, separation, bond.rest_length);
-        slots.force[at(bond.ends.first)] += force;
-        slots.force[at(bond.ends.second)] -= force;
+        const double distance = std::sqrt(separation.template head<3>().squaredNorm());
+        const double stretch = distance - chunk.bonds.rest_length(bond);
+        const Quad force = (-law.force(-stretch) / std::max(distance, 1e-300)) * separation;
+        slots.force[at(ends.first)] += force;
+        slots.force[at(ends.second)] -= force;
+        chunk.extremes.stretch = std::max(chunk.extremes.stretch, stretch);
     }
 }
 
-/// Brings the shear displacement of a bond up to date (Cundall and Strack 1979, eq. 2 of Schenker et al. 2012): it turns with the
-/// contact plane and with the spin of the pair about its axis, and grows by the tangential motion at the contact point.
-/// Everything is taken at the middle of the step, so a rigid rotation by an angle t adds an error of order t^3 only.
-/// @param lever_first,lever_second distances of the contact point from the two centres [m].
-inline void update_shear(SlotBond& bond, const Eigen::Vector3d& branch, double distance, const Quad& turn_first,
-                         const Quad& turn_second, double lever_first, double lever_second) {
-    const Eigen::Vector3d moved = branch - bond.branch;
-    const Eigen::Vector3d axis = (0.5 / distance) * (branch + bond.branch);
-    const Eigen::Vector3d first = turn_first.template head<3>();
-    const Eigen::Vector3d second = turn_second.template head<3>();
-    const Eigen::Vector3d rolled = moved - (lever_first * first + lever_second * second).cross(axis);
-    // Turn of the contact plane, and of the pair about its axis.
-    const Eigen::Vector3d turn = axis.cross(moved) / distance + (0.5 * (first + second).dot(axis)) * axis;
-    Eigen::Vector3d shear = bond.shear + rolled + turn.cross(bond.shear + 0.5 * (rolled + turn.cross(bond.shear)));
-    const Eigen::Vector3d normal = branch / distance;
-    shear -= shear.dot(normal) * normal;
-    bond.shear = shear;
-    bond.branch = branch;
+inline SlotArrays arrays_of(Slots& slots) {
+    return {slots.position.data()->data(), slots.turn.data()->data(), slots.force.data()->data(), slots.moment.data()->data()};
 }
 
 template <ShearLaw Law>
 void add_bond_forces(Slots& slots, Chunk& chunk, const Law& law) {
-    for (SlotBond& bond : chunk.bonds) {
-        const std::size_t i = at(bond.ends.first);
-        const std::size_t j = at(bond.ends.second);
-        const Eigen::Vector3d branch = (slots.position[j] - slots.position[i]).template head<3>();
-        const double distance = std::max(branch.norm(), 1e-300);
-        const Eigen::Vector3d normal = branch / distance;
-        // The contact point divides the line of centres in the ratio of the radii, d r_i / (r_i + r_j), as in the linear solver.
-        const double lever_i = distance * slots.position[i][3] / (slots.position[i][3] + slots.position[j][3]);
-        const double lever_j = distance - lever_i;
-        update_shear(bond, branch, distance, slots.turn[i], slots.turn[j], lever_i, lever_j);
-        const Eigen::Vector3d force = law.force((distance - bond.rest_length) * normal + bond.shear, normal);
-        const Eigen::Vector3d moment = normal.cross(force);
-        slots.force[i].template head<3>() += force;
-        slots.force[j].template head<3>() -= force;
-        slots.moment[i].template head<3>() += lever_i * moment;
-        slots.moment[j].template head<3>() += lever_j * moment;
-    }
+    using Vector = BondFormulas<OneLane>::Vector;
+    const auto force = [&](double stretch, const Vector& shear, const Vector& normal) -> Vector {
+        const Eigen::Vector3d direction(normal.x, normal.y, normal.z);
+        const Eigen::Vector3d pull = law.force(stretch * direction + Eigen::Vector3d(shear.x, shear.y, shear.z), direction);
+        return {pull[0], pull[1], pull[2]};
+    };
+    chunk.extremes = add_bond_forces<OneLane, OneLane>(arrays_of(slots), chunk.bonds.blocks(), chunk.bonds.size(), force);
+}
+
+/// Linear springs: as many bonds at a time as the processor can.
+inline void add_bond_forces(Slots& slots, Chunk& chunk, const BondedContact& law) {
+    const SpringForce springs{law.normal_stiffness(), law.shear_stiffness()};
+    chunk.extremes = fastest_kernels().add_spring_forces(arrays_of(slots), chunk.bonds.blocks(), chunk.bonds.size(), springs);
 }
 
 template <class Laws>
@@ -200,12 +186,12 @@ inline constexpr std::ptrdiff_t fewest_parallel_chunks = 6;
 
 /// Runs `work(chunk)` for all chunks in parallel; chunks do not write to each other's slots within one call.
 template <class Work>
-void for_each_chunk(ParticleSystem& system, Work&& work) {
+void for_each_chunk(ParticleSystem& system, Work&& work, bool backwards = false) {
     std::vector<Chunk>& chunks = system.chunks();
     const auto count = static_cast<std::ptrdiff_t>(chunks.size());
 #pragma omp parallel for schedule(dynamic) if (count >= fewest_parallel_chunks)
     for (std::ptrdiff_t chunk = 0; chunk < count; ++chunk) {
-        work(chunks[static_cast<std::size_t>(chunk)]);
+        work(chunks[static_cast<std::size_t>(backwards ? count - 1 - chunk : chunk)]);
     }
 }
 

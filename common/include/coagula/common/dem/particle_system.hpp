@@ -4,6 +4,7 @@
 #include <coagula/common/cell.hpp>
 #include <coagula/common/contact_memory.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/dem/bond_list.hpp>
 #include <coagula/common/packing.hpp>
 
 #include <Eigen/Core>
@@ -19,20 +20,6 @@ namespace coagula::dem {
 
 /// Three components and a companion number, padded so that two vector registers hold them.
 using Quad = Eigen::Vector4d;
-
-/// Two slots (see Slots) whose particles may touch.
-struct SlotPair {
-    std::int32_t first;
-    std::int32_t second;
-};
-
-/// A bond between two slots and its memory.
-struct SlotBond {
-    SlotPair ends;
-    double rest_length;      ///< centre distance without normal force [m]
-    Eigen::Vector3d shear;   ///< shear displacement of second against first at the contact point [m]
-    Eigen::Vector3d branch;  ///< centre of second minus centre of first when `shear` was last brought up to date [m]
-};
 
 /// A contact of the general law (general_forces.hpp), bonded or touching, between two slots.
 struct SlotContact {
@@ -56,7 +43,8 @@ struct Chunk {
     std::int32_t own_end = 0;  ///< ghosts are [own_end, end)
     std::int32_t end = 0;
     std::vector<SlotPair> pairs;  ///< unbonded pairs nearer than r_i + r_j + skin when the list was made
-    std::vector<SlotBond> bonds;
+    BondList bonds;
+    detail::BondExtremes extremes;  ///< of the bonds in the last evaluation
     std::vector<SlotContact> contacts;
     std::vector<SlotFilm> films;                       ///< scratch: those of the last evaluation
     double dissipated = 0;                             ///< by general contacts in the last evaluation [J]
@@ -145,6 +133,13 @@ public:
     void add_bonds(const ContactNetwork& pairs);
     /// The same with a memory for each, made by `make(branch, first_radius, second_radius)`.
     void add_bonds(const ContactNetwork& pairs, const std::function<ContactMemory(const Eigen::Vector3d&, double, double)>& make);
+    /// Takes away the simple bonds for which `breaks(bond)` holds and returns them; their particles become ordinary pairs. Nothing
+    /// else changes, not even the order in which forces are summed. Branches and shear are those of the last force evaluation by a
+    /// law with shear; see largest_bond_loads() for whether any bond need be visited.
+    std::vector<Bond> remove_bonds(const std::function<bool(const Bond&)>& breaks);
+    /// Largest stretch and squared shear displacement of a simple bond in the last force evaluation; those made on touch in it are
+    /// left out.
+    detail::BondExtremes largest_bond_loads() const;
     /// Bonds become contacts of the general law (general_forces.hpp), or simple bonds again.
     void use_general_contacts(bool general);
 
@@ -208,6 +203,7 @@ private:
     std::vector<ChunkPlan> plan(const ParticleState& state, std::vector<std::int32_t>& order) const;
     Eigen::Vector3d image_shift(const Eigen::Vector3i& images) const;
     Bond in_callers_numbers(const SlotPair& ends) const;
+    Bond in_callers_numbers(const SlotBond& simple) const;
     void lay_out_chunks(const std::vector<ChunkPlan>& plans);
     void fill_slot(std::int32_t own_slot, std::int32_t particle, const ParticleState& state);
     void fill_chunk(Chunk& chunk, const ChunkPlan& plan, const std::vector<std::int32_t>& order, const std::vector<Bond>& bonds);

@@ -18,40 +18,15 @@ struct StepOptions {
 
 namespace detail {
 
-/// dt/m (F + F_d) with the local damping F_d = -alpha |F| sign(v), where sign(0) = 0: only accelerating motion is braked.
-inline double gain(double velocity, double force, double time_over_mass, double damping) {
-    const double brake = damping * std::abs(force);
-    return time_over_mass * (force - (velocity > 0 ? brake : 0.0) + (velocity < 0 ? brake : 0.0));
-}
-
-/// Works on single components: vectors put together from components would have to wait for their way through memory.
 template <bool Turns>
 void integrate(Slots& slots, Chunk& chunk, const StepOptions& options) {
     collect_all<Turns>(slots, chunk);
-    const double dt = options.time_step;
-    const double damping = options.damping;
-    const double kept = options.stop_after_step ? 0.0 : 1.0;
-    double fastest_squared = 0;
-    for (std::size_t slot = at(chunk.begin); slot < at(chunk.own_end); ++slot) {
-        double speed_squared = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            double& velocity = slots.velocity[slot][axis];
-            const double now = velocity + gain(velocity, slots.force[slot][axis], dt * slots.inverse_mass[slot], damping);
-            slots.position[slot][axis] += dt * now;
-            speed_squared += now * now;
-            velocity = kept * now;
-        }
-        fastest_squared = std::max(fastest_squared, speed_squared);
-        if constexpr (Turns) {
-            for (int axis = 0; axis < 3; ++axis) {
-                double& spin = slots.spin[slot][axis];
-                const double now = spin + gain(spin, slots.moment[slot][axis], dt * slots.inverse_inertia[slot], damping);
-                slots.turn[slot][axis] = dt * now;
-                spin = kept * now;
-            }
-        }
-    }
-    chunk.path += dt * std::sqrt(fastest_squared);
+    const MotionArrays arrays{slots.position.data()->data(), slots.velocity.data()->data(), slots.force.data()->data(),
+                              slots.inverse_mass.data(),     slots.spin.data()->data(),     slots.turn.data()->data(),
+                              slots.moment.data()->data(),   slots.inverse_inertia.data()};
+    const MotionStep step{options.time_step, options.damping, options.stop_after_step ? 0.0 : 1.0, Turns};
+    const double fastest_squared = fastest_kernels().move_particles(arrays, at(chunk.begin), at(chunk.own_end), step);
+    chunk.path += options.time_step * std::sqrt(fastest_squared);
 }
 
 }  // namespace detail
@@ -64,7 +39,9 @@ void step(ParticleSystem& system, const Laws& laws, const StepOptions& options) 
     system.refresh();
     Slots& slots = system.slots();
     detail::for_each_chunk(system, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws); });
-    detail::for_each_chunk(system, [&](Chunk& chunk) { detail::integrate<Laws::turns>(slots, chunk, options); });
+    // Backwards, to begin with what the caches still hold.
+    detail::for_each_chunk(
+        system, [&](Chunk& chunk) { detail::integrate<Laws::turns>(slots, chunk, options); }, true);
 }
 
 /// Throws std::invalid_argument unless the time step is positive and 0 <= damping < 1.
