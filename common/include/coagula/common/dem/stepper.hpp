@@ -18,14 +18,18 @@ struct StepOptions {
 
 namespace detail {
 
+inline MotionArrays motion_arrays_of(Slots& slots) {
+    return {slots.position.data()->data(), slots.velocity.data()->data(), slots.force.data()->data(),
+            slots.inverse_mass.data(),     slots.spin.data()->data(),     slots.turn.data()->data(),
+            slots.moment.data()->data(),   slots.inverse_inertia.data()};
+}
+
 template <bool Turns>
 void integrate(Slots& slots, Chunk& chunk, const StepOptions& options) {
     collect_all<Turns>(slots, chunk);
-    const MotionArrays arrays{slots.position.data()->data(), slots.velocity.data()->data(), slots.force.data()->data(),
-                              slots.inverse_mass.data(),     slots.spin.data()->data(),     slots.turn.data()->data(),
-                              slots.moment.data()->data(),   slots.inverse_inertia.data()};
     const MotionStep step{options.time_step, options.damping, options.stop_after_step ? 0.0 : 1.0, Turns};
-    const double fastest_squared = fastest_kernels().move_particles(arrays, at(chunk.begin), at(chunk.own_end), step);
+    const double fastest_squared =
+        fastest_kernels().move_particles(motion_arrays_of(slots), at(chunk.begin), at(chunk.own_end), step);
     chunk.path += options.time_step * std::sqrt(fastest_squared);
 }
 
