@@ -171,8 +171,6 @@ BondExtremes add_bond_forces(const SlotArrays& slots, BondBlock* blocks, std::si
     LaneExtremes<Wide> wide;
     const std::size_t filled = count / BondBlock::width;
     for (std::size_t block = 0; block < filled; ++block) {
-        __builtin_prefetch(blocks + block + 8, 1);
-        __builtin_prefetch(blocks[block + 8].shear, 1);
         for (std::size_t lane = 0; lane < BondBlock::width; lane += Wide::width) {
             add_bond_forces(slots, blocks[block], lane, force, wide);
         }
