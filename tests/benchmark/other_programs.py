@@ -93,7 +93,7 @@ def yade(folder, steps, particles):
 
 def stepper(program, steps, particles):
     output = measured([program, particles, steps])[2]
-    speed, processor_speed = (float(figure) for figure in re.search(r"([\d.]+) million .*, ([\d.]+) per CPU", output).groups())
+    speed, processor_speed = (float(figure) for figure in re.search(r"1 thread *: *([\d.]+) \(per processor second ([\d.]+)\)", output).groups())
     work = 1e-6 * particles * steps
     print_scaled("coagula, explicit steps (bench_stepper), 1 core", work / speed, work / processor_speed, steps, particles)
 

@@ -46,9 +46,11 @@ SlotPair ChunkPlan::slots_of(const ListedPair& pair, std::int32_t begin) const {
 
 namespace {
 
-/// About 512 particles each: they and their ghosts stay in a core's nearest cache, and there is work for many threads.
+/// About 512 particles each: they and their ghosts stay in a core's near caches, and there is work for many threads. Where threads
+/// share them, a multiple of four, so that two or four have the same to do.
 std::int32_t chunk_count(std::size_t particles) {
-    return static_cast<std::int32_t>(std::clamp<std::size_t>(particles / 512, 1, 1024));
+    const auto count = static_cast<std::int32_t>(std::clamp<std::size_t>(particles / 512, 1, 1024));
+    return count < 6 ? count : (count + 3) / 4 * 4;
 }
 
 /// Bonded partners of each particle, both ways, so that the search can leave bonded pairs out.
