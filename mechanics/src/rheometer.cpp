@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -44,13 +45,28 @@ void check(const Packing& packing, const ContactNetwork& bonds, const RheometerO
     }
 }
 
-/// Linear springs without anything else: the law of the paper without its strengths.
+/// Linear springs and strengths without anything else: the law of the paper.
 bool is_simple(const ContactModel& model) {
     const auto all = contact_parameters();
     return std::none_of(all.begin(), all.end(), [&](const ContactParameter& parameter) {
         return parameter.is_set(model) && parameter.value != &ContactModel::normal_stiffness &&
-               parameter.value != &ContactModel::shear_stiffness;
+               parameter.value != &ContactModel::shear_stiffness && parameter.value != &ContactModel::normal_strength &&
+               parameter.value != &ContactModel::shear_strength;
     });
+}
+
+/// Force over stiffness; as long as one likes where there is no limit to the force or no spring.
+double reach(double strength, double stiffness) {
+    return std::isnan(strength) || stiffness == 0 ? std::numeric_limits<double>::max() : strength / stiffness;
+}
+
+SimpleInteractions simple_interactions(const GeneralContact& law) {
+    const NormalResponse response = law.normal(0, 1, true);
+    SimpleInteractions laws{{RepulsiveSpring(response.stiffness), BondedContact(response.stiffness, response.shear_stiffness)}};
+    laws.longest_stretch = reach(law.model().normal_strength, response.stiffness);
+    // A square that stays finite.
+    laws.longest_shear = std::min(reach(law.model().shear_strength, response.shear_stiffness), 1e100);
+    return laws;
 }
 
 /// One run per orientation, from the start or from a checkpoint.
@@ -82,9 +98,7 @@ private:
     RheometerRun run_one(const ShearOrientation& orientation, bool resumes, const std::vector<RheometerRun>& finished) const {
         const MountedSample mounted = mount(packing_, bonds_, options_, orientation);
         if (is_simple(options_.model)) {
-            const BondedContact bond(law_.normal(0, 1, true).stiffness, law_.normal(0, 1, true).shear_stiffness);
-            const SimpleInteractions laws{RepulsiveSpring(bond.normal_stiffness()), bond};
-            return run_with(mounted, orientation, laws, false, resumes, finished);
+            return run_with(mounted, orientation, simple_interactions(law_), false, resumes, finished);
         }
         const dem::GeneralInteractions laws{law_, time_step_, solvent(mounted, orientation)};
         return run_with(mounted, orientation, laws, true, resumes, finished);

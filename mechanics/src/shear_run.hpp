@@ -17,11 +17,30 @@
 
 namespace coagula::mechanics {
 
-using SimpleInteractions = dem::Interactions<RepulsiveSpring, BondedContact>;
+/// Linear springs and strengths, the contact of the paper: the fast way.
+struct SimpleInteractions : dem::Interactions<RepulsiveSpring, BondedContact> {
+    double longest_stretch = 0;  ///< a bond breaks beyond [m]
+    double longest_shear = 0;    ///< [m]
+};
 
 /// What differs between the interactions.
-inline std::vector<dem::BrokenBond> break_overloaded(dem::ParticleSystem& /*system*/, const SimpleInteractions& /*laws*/) {
-    return {};  // simple bonds have no strength
+inline std::vector<dem::BrokenBond> break_overloaded(dem::ParticleSystem& system, const SimpleInteractions& laws) {
+    const auto loads = system.largest_bond_loads();
+    const double shear_squared = laws.longest_shear * laws.longest_shear;
+    if (loads.stretch <= laws.longest_stretch && loads.shear_squared <= shear_squared) {
+        return {};
+    }
+    std::vector<dem::BrokenBond> broken;
+    for (const dem::Bond& bond : system.remove_bonds([&](const dem::Bond& held) {
+             return held.memory.branch.norm() - held.memory.rest_length > laws.longest_stretch ||
+                    held.memory.shear.squaredNorm() > shear_squared;
+         })) {
+        const double stretch = bond.memory.branch.norm() - bond.memory.rest_length;
+        const Eigen::Vector3d normal = bond.memory.branch.normalized();
+        broken.push_back(
+            {bond.first, bond.second, bond.memory.branch, laws.bond.energy(stretch * normal + bond.memory.shear, normal)});
+    }
+    return broken;
 }
 inline std::vector<dem::BrokenBond> break_overloaded(dem::ParticleSystem& system, const dem::GeneralInteractions& laws) {
     return dem::break_bonds(system, laws.law);

@@ -237,6 +237,25 @@ TEST(Rheometer, BreaksBondsAboveTheirStrengthAndLosesStiffness) {
     EXPECT_EQ(counted, static_cast<Index>(weak.broken.size()));
 }
 
+/// The fast way and the general one break the same bonds, until rounding tells their avalanches apart.
+TEST(Rheometer, BreaksTheSameBondsEitherWay) {
+    RheometerOptions options = gentle();
+    options.steps_per_oscillation = 2400;
+    options.model.normal_strength = 3e-11;
+    options.model.shear_strength = 2e-11;
+    const RheometerRun fast = run(options).runs[0];
+    options.model.friction = 0;  // makes it general
+    const RheometerRun general = run(options).runs[0];
+    ASSERT_GT(fast.broken.size(), 3U);
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(fast.broken[k].first, general.broken[k].first);
+        EXPECT_EQ(fast.broken[k].second, general.broken[k].second);
+        EXPECT_EQ(fast.broken[k].strain, general.broken[k].strain);
+    }
+    EXPECT_NEAR(static_cast<double>(fast.broken.size()), static_cast<double>(general.broken.size()), 5);
+    EXPECT_NEAR(fast.oscillations[0].storage_modulus / general.oscillations[0].storage_modulus, 1, 0.01);
+}
+
 TEST(Rheometer, AgesBetweenOscillations) {
     RheometerOptions options = gentle();
     options.oscillations = 3;
