@@ -165,7 +165,7 @@ constexpr std::array oscillation_numbers{
     &Oscillation::amplitude,           &Oscillation::storage_modulus,  &Oscillation::loss_modulus,   &Oscillation::phase,
     &Oscillation::fundamental_storage, &Oscillation::fundamental_loss, &Oscillation::third_harmonic, &Oscillation::offset};
 constexpr std::array run_numbers{&RheometerRun::plate_storage, &RheometerRun::rest_force, &RheometerRun::unbalanced_ratio,
-                                 &RheometerRun::rate_error};
+                                 &RheometerRun::rate_error, &RheometerRun::rest_modulus};
 
 void put_run(std::vector<io::Dataset>& all, const std::string& group, const RheometerRun& run) {
     put(all, group + "orientation", Integers{run.orientation.normal, run.orientation.direction, run.rest_steps});

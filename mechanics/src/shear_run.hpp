@@ -150,6 +150,7 @@ public:
         dem::compute_forces(system_, resting);
         const double still = probe_.measure(system_, resting).whole - offset;
         if (iteration < most_fire_iterations && still != 0) {
+            run_.rest_modulus = still / options_.amplitude;
             run_.rate_error = (moving.whole - offset) / still - 1;
         }
     }

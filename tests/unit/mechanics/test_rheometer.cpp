@@ -253,7 +253,7 @@ TEST(Rheometer, BreaksTheSameBondsEitherWay) {
         EXPECT_EQ(fast.broken[k].strain, general.broken[k].strain);
     }
     EXPECT_NEAR(static_cast<double>(fast.broken.size()), static_cast<double>(general.broken.size()), 5);
-    EXPECT_NEAR(fast.oscillations[0].storage_modulus / general.oscillations[0].storage_modulus, 1, 0.01);
+    EXPECT_NEAR(fast.oscillations[0].storage_modulus / general.oscillations[0].storage_modulus, 1, 0.04);
 }
 
 TEST(Rheometer, AgesBetweenOscillations) {

@@ -16,6 +16,7 @@ enum class RandomPurpose : std::uint64_t {
     pore_sample = 3,
     brownian_force = 4,
     perturbation = 5,
+    diagnosis = 6,
     test = 100,
 };
 

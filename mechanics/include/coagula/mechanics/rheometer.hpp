@@ -86,7 +86,8 @@ struct RheometerRun {
     Index rest_steps = 0;             ///< of the relaxation before
     double rest_force = unset;        ///< rms unbalanced force left, over (normal contact stiffness x mean radius)
     double unbalanced_ratio = unset;  ///< rms unbalanced force over mean contact force at a further peak
-    double rate_error = unset;  ///< relative: stress at a further peak minus the stress there after the network has come to rest
+    double rate_error = unset;    ///< relative: stress at a further peak minus the stress there after the network has come to rest
+    double rest_modulus = unset;  ///< stress there after it has come to rest, over the strain: G' without any rate [Pa]
 };
 
 struct RheometerResult {
