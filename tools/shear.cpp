@@ -43,9 +43,7 @@ ContactModel contact_model(const Arguments& arguments) {
 /// Losses act at a frequency only.
 void check_elastic(const Arguments& arguments, const ContactModel& model) {
     for (const ContactParameter& parameter : contact_parameters()) {
-        const bool is_spring =
-            parameter.value == &ContactModel::normal_stiffness || parameter.value == &ContactModel::shear_stiffness;
-        if (!is_spring && parameter.is_set(model)) {
+        if (parameter.is_loss && parameter.is_set(model)) {
             throw InputError(arguments.text("model") + " has " + parameter.name +
                              ", a loss that acts at a frequency only: give --frequency or --frequency-sweep");
         }

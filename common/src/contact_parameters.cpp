@@ -20,25 +20,25 @@ constexpr const char* fractional = "Koeller 1984, J. Appl. Mech. 51, 299";
 
 void append_maxwell(std::vector<ContactParameter>& list, const std::string& name, const Direction& d) {
     list.push_back({name + "_maxwell_stiffness", "N/m", d.maxwell_stiffness, 0, true, infinity,
-                    name + " spring in series with a dashpot, of a contact", polymers});
+                    name + " spring in series with a dashpot, of a contact", polymers, true});
     list.push_back({name + "_maxwell_time", "s", d.maxwell_time, 0, false, infinity,
-                    name + " dashpot of that element over its spring: relaxation time", polymers});
+                    name + " dashpot of that element over its spring: relaxation time", polymers, true});
 }
 
 void append_springpot(std::vector<ContactParameter>& list, const std::string& name, const Direction& d) {
     list.push_back({name + "_springpot_stiffness", "N/m", d.springpot_stiffness, 0, true, infinity,
-                    name + " springpot of a contact: |k*| where w times its time is 1", fractional});
-    list.push_back({name + "_springpot_time", "s", d.springpot_time, 0, false, infinity, name + " springpot: time", fractional});
+                    name + " springpot of a contact: |k*| where w times its time is 1", fractional, true});
+    list.push_back({name + "_springpot_time", "s", d.springpot_time, 0, false, infinity, name + " springpot: time", fractional, true});
     list.push_back({name + "_springpot_exponent", "1", d.springpot_exponent, 0, true, 1,
-                    name + " springpot: 0 is a spring, 1 a dashpot", fractional});
+                    name + " springpot: 0 is a spring, 1 a dashpot", fractional, true});
 }
 
 void append_lubrication(std::vector<ContactParameter>& list) {
     const char* source = "Jeffrey and Onishi 1984, J. Fluid Mech. 139, 261 (leading term)";
     list.push_back({"lubrication_gap", "m", &ContactModel::lubrication_gap, 0, false, infinity,
-                    "smallest gap that counts for the squeezed film, the roughness of the surfaces", source});
+                    "smallest gap that counts for the squeezed film, the roughness of the surfaces", source, true});
     list.push_back({"lubrication_cutoff", "m", &ContactModel::lubrication_cutoff, 0, false, infinity,
-                    "pairs with a smaller gap between their surfaces squeeze the solvent", source});
+                    "pairs with a smaller gap between their surfaces squeeze the solvent", source, true});
 }
 
 void append_moments(std::vector<ContactParameter>& list) {
@@ -82,15 +82,15 @@ std::vector<ContactParameter> make_parameters() {
     std::vector<ContactParameter> list{
         {"normal_stiffness", "N/m", &Model::normal_stiffness, 0, false, infinity, "normal spring of a particle", paper},
         {"shear_stiffness", "N/m", &Model::shear_stiffness, 0, true, infinity, "shear spring of a particle", paper},
-        {"normal_viscosity", "N.s/m", &Model::normal_viscosity, 0, true, infinity, "normal dashpot of a contact", polymers},
-        {"shear_viscosity", "N.s/m", &Model::shear_viscosity, 0, true, infinity, "shear dashpot of a contact", polymers}};
+        {"normal_viscosity", "N.s/m", &Model::normal_viscosity, 0, true, infinity, "normal dashpot of a contact", polymers, true},
+        {"shear_viscosity", "N.s/m", &Model::shear_viscosity, 0, true, infinity, "shear dashpot of a contact", polymers, true}};
     append_maxwell(list, "normal", normal_direction);
     append_maxwell(list, "shear", shear_direction);
     append_springpot(list, "normal", normal_direction);
     append_springpot(list, "shear", shear_direction);
     list.push_back({"solvent_viscosity", "Pa.s", &Model::solvent_viscosity, 0, false, infinity,
                     "viscosity of the solvent, which drags on every particle that leaves its affine flow",
-                    "Stokes 1851; Happel and Brenner 1983, Low Reynolds Number Hydrodynamics, ch. 5"});
+                    "Stokes 1851; Happel and Brenner 1983, Low Reynolds Number Hydrodynamics, ch. 5", true});
     append_lubrication(list);
     append_moments(list);
     append_solids(list);

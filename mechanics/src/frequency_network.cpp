@@ -6,12 +6,9 @@ namespace coagula::mechanics {
 
 namespace {
 
-/// Laws whose stiffness is (n n^T) and I: K* is a combination of the two, as BondedContact::tangent is.
-BondedContact along_law() {
-    return {1, 0};
-}
-BondedContact isotropic_law() {
-    return {1, 1};
+/// The same stiffness for every bond: along (n n^T), or in all directions (I).
+std::vector<ContactTangent> alike(const ContactNetwork& bonds, const ContactTangent& tangent) {
+    return std::vector<ContactTangent>(static_cast<std::size_t>(bonds.size()), tangent);
 }
 
 Eigen::VectorXd drag_of(const Packing& packing, const LoadBearing& kept) {
@@ -47,8 +44,8 @@ std::vector<Block> free_spins(const LinearNetwork& network, BlockMatrix upper) {
 }  // namespace
 
 FrequencyNetwork::FrequencyNetwork(const Packing& packing, const ContactNetwork& bonds, const LoadBearing& kept)
-    : along_(packing, bonds, kept, along_law()),
-      isotropic_(packing, bonds, kept, isotropic_law()),
+    : along_(packing, bonds, kept, alike(bonds, {.normal = 1}), 1),
+      isotropic_(packing, bonds, kept, alike(bonds, {.normal = 1, .shear = 1}), 1),
       upper_(along_.stiffness()),
       along_matrix_(both_triangles(upper_)),
       isotropic_matrix_(both_triangles(isotropic_.stiffness())),

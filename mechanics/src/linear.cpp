@@ -34,11 +34,49 @@ int voigt(int a, int b) {
 
 constexpr std::array<std::pair<int, int>, 6> orientations{{{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}}};
 
-BondedContact contact_law(const LinearOptions& options) {
+/// Stiffness of every bond, and what the solver needs to know of it.
+struct Springs {
+    std::vector<ContactTangent> tangents;
+    double normal = 0;  ///< means [N/m]
+    double shear = 0;
+    bool moments = false;   ///< some bond resists bending or twisting
+    bool unstable = false;  ///< some bond has a negative stiffness
+
+    explicit Springs(std::vector<ContactTangent> of_bonds) : tangents(std::move(of_bonds)) {
+        const auto count = static_cast<double>(tangents.size());
+        for (const ContactTangent& k : tangents) {
+            normal += k.normal / count;
+            shear += k.shear / count;
+            moments = moments || k.bending > 0 || k.twisting > 0;
+            unstable = unstable || k.normal < 0 || k.tension < 0;
+        }
+    }
+};
+
+Springs springs_of(const ContactNetwork& bonds, const LinearOptions& options) {
+    if (!options.bond_tangents.empty()) {
+        return Springs(options.bond_tangents);
+    }
     require_positive(options.normal_stiffness, "the normal particle stiffness", "N/m");
     require_non_negative(options.shear_stiffness, "the shear particle stiffness", "N/m");
-    return {stiffness_in_series(options.normal_stiffness, options.normal_stiffness),
-            stiffness_in_series(options.shear_stiffness, options.shear_stiffness)};
+    const ContactTangent contact{.normal = stiffness_in_series(options.normal_stiffness, options.normal_stiffness),
+                                 .shear = stiffness_in_series(options.shear_stiffness, options.shear_stiffness)};
+    Springs springs(std::vector<ContactTangent>(static_cast<std::size_t>(bonds.size()), contact));
+    springs.normal = contact.normal;  // not off by rounding, and also where nothing is bonded
+    springs.shear = contact.shear;
+    return springs;
+}
+
+void check_tangents(const ContactNetwork& bonds, const std::vector<ContactTangent>& tangents) {
+    require(tangents.empty() || tangents.size() == static_cast<std::size_t>(bonds.size()),
+            "the stiffnesses of the bonds must be one per bond");
+    for (std::size_t bond = 0; bond < tangents.size(); ++bond) {
+        const ContactTangent& k = tangents[bond];
+        const std::string name = "bond " + std::to_string(bond);
+        require(std::isfinite(k.normal) && std::isfinite(k.tension) && k.shear >= 0 && k.bending >= 0 && k.twisting >= 0,
+                name + " has an impossible stiffness");
+        require(k.normal != 0, name + " has no normal stiffness: a contact by Hertz's law needs prestress or adhesion");
+    }
 }
 
 void check(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options) {
@@ -47,6 +85,7 @@ void check(const Packing& packing, const ContactNetwork& bonds, const LinearOpti
     require_positive(options.tolerance, "the tolerance of the solver");
     require_positive(options.modulus_tolerance, "the tolerance of the moduli");
     require_between(options.shift, 0.0, 1e-3, "the shift of the preconditioner");
+    check_tangents(bonds, options.bond_tangents);
     if (options.held.empty()) {
         require(packing.cell.is_periodic(), "the packing has a free surface: its outer particles must be held to be sheared");
         return;
@@ -167,7 +206,7 @@ void store_motion(const Packing& packing, const LoadBearing& kept, const Loads& 
 }
 
 /// Affine tensor over all bonds, those of rattlers included, times the volume, in reduced units.
-Block affine_energy_of_all(const Packing& packing, const ContactNetwork& bonds, const BondedContact& law,
+Block affine_energy_of_all(const Packing& packing, const ContactNetwork& bonds, const Springs& springs,
                            const LinearOptions& options) {
     LoadBearing all;
     all.number.assign(static_cast<std::size_t>(packing.size()), -1);
@@ -179,38 +218,63 @@ Block affine_energy_of_all(const Packing& packing, const ContactNetwork& bonds, 
     }
     all.bond.resize(static_cast<std::size_t>(bonds.size()));
     std::iota(all.bond.begin(), all.bond.end(), Index{0});
-    const LinearNetwork network(packing, bonds, all, law);
+    const LinearNetwork network(packing, bonds, all, springs.tangents, springs.normal);
     return network.virial(Loads::Zero(6 * network.particles(), 6), bond_weights(network.bonds()));
 }
 
 }  // namespace
 
+std::vector<ContactTangent> bond_tangents(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model) {
+    ContactModel springs = model;  // without the losses, of which the time-domain law does not know all
+    springs.normal_springpot_stiffness = springs.shear_springpot_stiffness = unset;
+    springs.normal_springpot_time = springs.shear_springpot_time = unset;
+    springs.normal_springpot_exponent = springs.shear_springpot_exponent = unset;
+    coagula::check(model);
+    const GeneralContact law(springs);
+    std::vector<ContactTangent> tangents;
+    tangents.reserve(static_cast<std::size_t>(bonds.size()));
+    for (Index bond = 0; bond < bonds.size(); ++bond) {
+        const Eigen::Vector3d branch = bonds.branch.col(bond);
+        const double first = packing.radii[bonds.ends(0, bond)];
+        const double second = packing.radii[bonds.ends(1, bond)];
+        tangents.push_back(law.tangent(law.make_bond(branch, first, second, branch.norm()), first, second));
+    }
+    return tangents;
+}
+
 LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options,
                             const Progress& progress) {
     check(packing, bonds, options);
-    const BondedContact law = contact_law(options);
+    const Springs springs = springs_of(bonds, options);
     const bool periodic = options.held.empty();
-    const LoadBearing kept = find_load_bearing(bonds, options.held);
+    const LoadBearing kept = find_load_bearing(bonds, options.held, springs.moments);
     const auto held = std::count(options.held.begin(), options.held.end(), true);
 
     LinearResponse response;
-    response.contact_normal_stiffness = law.normal_stiffness();
-    response.contact_shear_stiffness = law.shear_stiffness();
+    response.bond_tangents = springs.tangents;
+    response.contact_normal_stiffness = springs.normal;
+    response.contact_shear_stiffness = springs.shear;
     response.contacts = bonds.size();
     response.rattlers = packing.size() - static_cast<Index>(kept.particle.size()) - held;
     const double r0 = mean_radius(packing);
     const double volume = periodic ? packing.cell.volume() : options.volume;
-    const double scale = law.normal_stiffness() * r0 * r0 / volume;
-    response.affine_tensor = scale * affine_energy_of_all(packing, bonds, law, options);
+    const double scale = springs.normal * r0 * r0 / volume;
+    response.affine_tensor = scale * affine_energy_of_all(packing, bonds, springs, options);
     response.elastic_tensor.setZero();
 
     Loads motion = Loads::Zero(6 * static_cast<Index>(kept.particle.size()), 6);
     if (kept.particle.empty()) {
         response.floppy_modes = 0;
     } else {
-        const LinearNetwork network(packing, bonds, kept, law);
+        const LinearNetwork network(packing, bonds, kept, springs.tangents, springs.normal);
         const Problem problem = build_problem(network);
-        motion = solve(problem, packing, kept, options, progress, response).motion;
+        try {
+            motion = solve(problem, packing, kept, options, progress, response).motion;
+        } catch (const std::runtime_error& error) {
+            throw springs.unstable
+                ? std::runtime_error(std::string("the bonded network is not stable under its prestress: ") + error.what())
+                : error;
+        }
         response.floppy_modes -= periodic && response.floppy_modes >= 3 ? 3 : 0;  // rigid translation
         response.elastic_tensor =
             scale * (periodic ? network.energy(motion) : network.virial(motion, bond_weights(network.bonds())));

@@ -16,8 +16,9 @@ constexpr double certainly_bent = 1e-3;
 /// Bonds of a network while some of them are being removed.
 class Pruner {
 public:
-    Pruner(const ContactNetwork& network, const std::vector<bool>& held)
+    Pruner(const ContactNetwork& network, const std::vector<bool>& held, bool moments)
         : network_(network),
+          moments_(moments),
           held_(held.empty() ? std::vector<bool>(static_cast<std::size_t>(network.particles), false) : held),
           groups_(group_by_particle(network)),
           alive_(static_cast<std::size_t>(network.size()), true),
@@ -34,7 +35,7 @@ public:
             if (is_held(particle)) {
                 continue;
             }
-            if (degree_[particle] == 1 || (degree_[particle] == 2 && begins_slack_chain(particle))) {
+            if (degree_[particle] == 1 || (!moments_ && degree_[particle] == 2 && begins_slack_chain(particle))) {
                 remove_bonds(particle);
             }
         }
@@ -118,6 +119,7 @@ private:
     }
 
     const ContactNetwork& network_;
+    bool moments_;
     std::vector<bool> held_;
     ContactsByParticle groups_;
     std::vector<bool> alive_;
@@ -127,8 +129,8 @@ private:
 
 }  // namespace
 
-LoadBearing find_load_bearing(const ContactNetwork& network, const std::vector<bool>& held) {
-    Pruner pruner(network, held);
+LoadBearing find_load_bearing(const ContactNetwork& network, const std::vector<bool>& held, bool moments) {
+    Pruner pruner(network, held, moments);
     pruner.run();
     return pruner.result();
 }

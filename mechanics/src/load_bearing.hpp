@@ -1,4 +1,4 @@
-// Which particles and bonds of a network can carry load when bonds transmit no moment.
+// Which particles and bonds of a network can carry load.
 #pragma once
 
 #include <coagula/common/contact_network.hpp>
@@ -14,10 +14,11 @@ struct LoadBearing {
     std::vector<Index> bond;      ///< original index of each load-bearing bond
 };
 
-/// Removes, again and again, what cannot carry load in linear elasticity because bonds carry no moment:
-/// a particle with fewer than two bonds, and a pair of bonded particles that have one more bond each and do not lie on one line
-/// (a chain of two links, whose joints would have to pass a force along two different lines).
+/// Removes, again and again, what cannot carry load in linear elasticity: a particle with fewer than two bonds, and, where bonds carry
+/// no moment, a pair of bonded particles that have one more bond each and do not lie on one line (a chain of two links, whose
+/// joints would have to pass a force along two different lines).
+/// @param moments whether bonds resist bending or twisting.
 /// @param held N flags, or empty: particles fixed to the boundary, which are never removed and get no number.
-LoadBearing find_load_bearing(const ContactNetwork& network, const std::vector<bool>& held = {});
+LoadBearing find_load_bearing(const ContactNetwork& network, const std::vector<bool>& held = {}, bool moments = false);
 
 }  // namespace coagula::mechanics

@@ -3,8 +3,6 @@
 #include "load_bearing.hpp"
 #include "stiffness.hpp"
 
-#include <coagula/common/contact_law.hpp>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -39,6 +37,7 @@ void check(const Packing& packing, const ContactNetwork& bonds, const LinearResp
             "the flags of the held particles must be one per particle");
     require(packing.cell.is_periodic() || !options.held.empty(),
             "the packing has a free surface: say which of its particles were held");
+    require(response.bond_tangents.size() == static_cast<std::size_t>(bonds.size()), "the response belongs to other bonds");
     require(response.displacement.size() == 6 && response.rotation.size() == 6, "the response has no displacements");
     for (std::size_t strain = first_shear; strain < 6; ++strain) {
         require(response.displacement[strain].cols() == packing.size() && response.rotation[strain].cols() == packing.size(),
@@ -127,6 +126,10 @@ NonAffinity non_affinity_of(const Eigen::VectorXd& length) {
     return result;
 }
 
+bool resists_moments(const std::vector<ContactTangent>& tangents) {
+    return std::any_of(tangents.begin(), tangents.end(), [](const auto& k) { return k.bending > 0 || k.twisting > 0; });
+}
+
 /// The network of one packing, for all three shears.
 class Analysis {
 public:
@@ -136,9 +139,8 @@ public:
           bonds_(bonds),
           response_(response),
           options_(options),
-          kept_(find_load_bearing(bonds, options.held)),
-          law_(response.contact_normal_stiffness, response.contact_shear_stiffness),
-          geometry_(LinearNetwork(packing, bonds, kept_, law_).bonds()),
+          kept_(find_load_bearing(bonds, options.held, resists_moments(response.bond_tangents))),
+          geometry_(LinearNetwork(packing, bonds, kept_, response.bond_tangents, response.contact_normal_stiffness).bonds()),
           clusters_(find_clusters(packing, bonds)),
           r0_(mean_radius(packing)) {
         for (std::size_t k = 0; k < geometry_.size(); ++k) {
@@ -191,16 +193,22 @@ private:
         return load;
     }
 
-    /// delta = u_j - u_i - (R_i theta_i + R_j theta_j) x n + strain * branch (Schenker et al. 2012, sec. 2.1).
-    Eigen::Vector3d relative_displacement(const LinearBond& bond, Index first, Index second, Index strain) const {
+    /// Over the mean radius.
+    Deformations<1> deformation(const LinearBond& bond, Index first, Index second, Index strain) const {
         const Eigen::Matrix3Xd& u = response_.displacement[static_cast<std::size_t>(strain)];
         const Eigen::Matrix3Xd& theta = response_.rotation[static_cast<std::size_t>(strain)];
         const Eigen::Vector3d rolling = bond.first_arm * theta.col(first) + bond.second_arm * theta.col(second);
-        return u.col(second) - u.col(first) + r0_ * (affine_displacements(bond.branch).col(strain) - rolling.cross(bond.normal));
+        const Eigen::Vector3d moved = (u.col(second) - u.col(first)) / r0_ + affine_displacements(bond.branch).col(strain);
+        Deformations<1> result;
+        result << moved - rolling.cross(bond.normal), theta.col(second) - theta.col(first), moved;
+        return result;
     }
 
     void find_forces(Index strain, ShearLoad& load) const {
         const auto count = static_cast<Index>(geometry_.size());
+        const double per_length = response_.contact_normal_stiffness * r0_;
+        Eigen::VectorXd normal_energy = Eigen::VectorXd::Zero(bonds_.size());
+        Eigen::VectorXd shear_energy = normal_energy;
 #pragma omp parallel for schedule(static)
         for (Index k = 0; k < count; ++k) {
             const LinearBond& bond = geometry_[static_cast<std::size_t>(k)];
@@ -208,18 +216,20 @@ private:
                 continue;
             }
             const Index which = kept_.bond[static_cast<std::size_t>(k)];
-            const Eigen::Vector3d delta = relative_displacement(bond, bonds_.ends(0, which), bonds_.ends(1, which), strain);
-            const Eigen::Vector3d force = law_.force(delta, bond.normal);
+            const Deformations<1> all = deformation(bond, bonds_.ends(0, which), bonds_.ends(1, which), strain);
+            const Deformations<1> stress = stresses(bond, all);
+            const Eigen::Vector3d force = per_length * (stress.head<3>() + stress.tail<3>());
             load.force.col(which) = force;
             load.normal_force[which] = force.dot(bond.normal);
             load.shear_force[which] = (force - load.normal_force[which] * bond.normal).norm();
-            load.energy_share[which] = law_.energy(delta, bond.normal);
+            load.energy_share[which] = 0.5 * per_length * r0_ * all.dot(stress);
+            normal_energy[which] = 0.5 * per_length * r0_ * all.head<3>().dot(bond.normal) * stress.head<3>().dot(bond.normal);
+            shear_energy[which] = 0.5 * per_length * r0_ * all.head<3>().dot(stress.head<3>()) - normal_energy[which];
         }
         load.energy = load.energy_share.sum();
         load.energy_share /= load.energy;
-        const double normal_share = load.normal_force.squaredNorm() / (2 * law_.normal_stiffness() * load.energy);
-        load.shear_spring_share = std::max(0.0, 1 - normal_share);
-        if (normal_share < rounding_energy) {
+        load.shear_spring_share = std::max(0.0, shear_energy.sum() / load.energy);
+        if (normal_energy.sum() < rounding_energy * load.energy) {
             load.normal_force.setZero();
         }
     }
@@ -294,7 +304,6 @@ private:
     const LinearResponse& response_;
     const LoadStructureOptions& options_;
     LoadBearing kept_;
-    BondedContact law_;
     std::vector<LinearBond> geometry_;  ///< of kept_.bond
     std::vector<Cluster> clusters_;
     double r0_;

@@ -15,14 +15,36 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
     return m;
 }
 
-using EndMatrix = Eigen::Matrix<double, 3, 6>;
+using EndMatrix = Deformations<6>;
 
-/// Relative displacement at the contact per unknown of one end.
+/// Deformation of the bond per unknown of one end.
 EndMatrix end_matrix(double sign, double arm, const Eigen::Vector3d& normal) {
-    EndMatrix b;
-    b.leftCols<3>() = sign * Eigen::Matrix3d::Identity();
-    b.rightCols<3>() = arm * cross_matrix(normal);
+    const Eigen::Matrix3d signs = sign * Eigen::Matrix3d::Identity();
+    EndMatrix b = EndMatrix::Zero();
+    b.topLeftCorner<3, 3>() = signs;
+    b.topRightCorner<3, 3>() = arm * cross_matrix(normal);
+    b.block<3, 3>(3, 3) = signs;
+    b.bottomLeftCorner<3, 3>() = signs;
     return b;
+}
+EndMatrix first_end(const LinearBond& bond) {
+    return end_matrix(-1, bond.first_arm, bond.normal);
+}
+EndMatrix second_end(const LinearBond& bond) {
+    return end_matrix(1, bond.second_arm, bond.normal);
+}
+
+/// Deformations under the six unit strains when all particles follow them.
+Deformations<6> affine_deformations(const LinearBond& bond) {
+    Deformations<6> e = Deformations<6>::Zero();
+    e.topRows<3>() = affine_displacements(bond.branch);
+    e.bottomRows<3>() = e.topRows<3>();
+    return e;
+}
+
+ContactTangent reduced(const ContactTangent& k, double reference, double length) {
+    const double moment = reference * length * length;
+    return {k.normal / reference, k.shear / reference, k.bending / moment, k.twisting / moment, k.tension / reference};
 }
 
 struct Entry {
@@ -64,6 +86,22 @@ BlockMatrix empty_pattern(Index rows, const std::vector<Entry>& entries) {
     return matrix;
 }
 
+/// A bond as one of its particles sees it.
+struct BondEnd {
+    const LinearBond* bond = nullptr;
+    Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< from the centre of the particle
+};
+
+/// Whether nothing resists the spin of a particle about the line through the contacts of its only two bonds.
+bool spins_freely(const LinearBond& one, const LinearBond& other) {
+    constexpr double certainly_straight = 1e-6;
+    const bool straight = one.normal.cross(other.normal).norm() < certainly_straight;
+    const auto resists = [&](const LinearBond& bond) {
+        return bond.tangent.twisting > 0 || (!straight && (bond.tangent.bending > 0 || bond.tangent.tension != 0));
+    };
+    return !resists(one) && !resists(other);
+}
+
 }  // namespace
 
 Eigen::Matrix<double, 3, 6> affine_displacements(const Eigen::Vector3d& b) {
@@ -75,8 +113,8 @@ Eigen::Matrix<double, 3, 6> affine_displacements(const Eigen::Vector3d& b) {
 }
 
 LinearNetwork::LinearNetwork(const Packing& packing, const ContactNetwork& network, const LoadBearing& kept,
-                             const BondedContact& law)
-    : particles_(static_cast<Index>(kept.particle.size())), law_(1.0, law.shear_stiffness() / law.normal_stiffness()) {
+                             std::span<const ContactTangent> tangents, double reference)
+    : particles_(static_cast<Index>(kept.particle.size())) {
     const double r0 = mean_radius(packing);
     bonds_.reserve(kept.bond.size());
     for (const Index bond : kept.bond) {
@@ -86,7 +124,8 @@ LinearNetwork::LinearNetwork(const Packing& packing, const ContactNetwork& netwo
         const double share = packing.radii[first] / (packing.radii[first] + packing.radii[second]);
         const double distance = branch.norm();
         bonds_.push_back({kept.number[static_cast<std::size_t>(first)], kept.number[static_cast<std::size_t>(second)],
-                          branch / distance, branch, share * distance, (1 - share) * distance});
+                          branch / distance, branch, share * distance, (1 - share) * distance,
+                          reduced(tangents[static_cast<std::size_t>(bond)], reference, r0)});
     }
 }
 
@@ -111,19 +150,17 @@ BlockMatrix LinearNetwork::stiffness() const {
 
 /// Block of the stiffness between the two ends of a bond.
 Block LinearNetwork::coupling(const LinearBond& bond) const {
-    return end_matrix(-1, bond.first_arm, bond.normal).transpose() * law_.tangent(bond.normal) *
-           end_matrix(1, bond.second_arm, bond.normal);
+    return first_end(bond).transpose() * stresses(bond, second_end(bond));
 }
 
 void LinearNetwork::add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond) const {
-    const Eigen::Matrix3d tangent = law_.tangent(bond.normal);
     if (bond.first >= 0) {
-        const EndMatrix end = end_matrix(-1, bond.first_arm, bond.normal);
-        matrix.diagonal(bond.first) += end.transpose() * tangent * end;
+        const EndMatrix end = first_end(bond);
+        matrix.diagonal(bond.first) += end.transpose() * stresses(bond, end);
     }
     if (bond.second >= 0) {
-        const EndMatrix end = end_matrix(1, bond.second_arm, bond.normal);
-        matrix.diagonal(bond.second) += end.transpose() * tangent * end;
+        const EndMatrix end = second_end(bond);
+        matrix.diagonal(bond.second) += end.transpose() * stresses(bond, end);
     }
     if (bond.first >= 0 && bond.first == bond.second) {  // bonded to its own periodic image
         const Block block = coupling(bond);
@@ -134,12 +171,12 @@ void LinearNetwork::add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond)
 Loads LinearNetwork::loads() const {
     Loads f = Loads::Zero(6 * particles_, 6);
     for (const LinearBond& bond : bonds_) {
-        const Eigen::Matrix<double, 3, 6> force = law_.tangent(bond.normal) * affine_displacements(bond.branch);
+        const Deformations<6> force = stresses(bond, affine_deformations(bond));
         if (bond.first >= 0) {
-            f.middleRows<6>(6 * bond.first) -= end_matrix(-1, bond.first_arm, bond.normal).transpose() * force;
+            f.middleRows<6>(6 * bond.first) -= first_end(bond).transpose() * force;
         }
         if (bond.second >= 0) {
-            f.middleRows<6>(6 * bond.second) -= end_matrix(1, bond.second_arm, bond.normal).transpose() * force;
+            f.middleRows<6>(6 * bond.second) -= second_end(bond).transpose() * force;
         }
     }
     return f;
@@ -148,28 +185,28 @@ Loads LinearNetwork::loads() const {
 Block LinearNetwork::affine_energy() const {
     Block energy = Block::Zero();
     for (const LinearBond& bond : bonds_) {
-        const auto e = affine_displacements(bond.branch);
-        energy += e.transpose() * law_.tangent(bond.normal) * e;
+        const Deformations<6> e = affine_deformations(bond);
+        energy += e.transpose() * stresses(bond, e);
     }
     return energy;
 }
 
-Eigen::Matrix<double, 3, 6> LinearNetwork::deformation(const LinearBond& bond, const Loads& motion) const {
-    Eigen::Matrix<double, 3, 6> delta = affine_displacements(bond.branch);
+Deformations<6> LinearNetwork::deformation(const LinearBond& bond, const Loads& motion) const {
+    Deformations<6> result = affine_deformations(bond);
     if (bond.first >= 0) {
-        delta += end_matrix(-1, bond.first_arm, bond.normal) * motion.middleRows<6>(6 * bond.first);
+        result += first_end(bond) * motion.middleRows<6>(6 * bond.first);
     }
     if (bond.second >= 0) {
-        delta += end_matrix(1, bond.second_arm, bond.normal) * motion.middleRows<6>(6 * bond.second);
+        result += second_end(bond) * motion.middleRows<6>(6 * bond.second);
     }
-    return delta;
+    return result;
 }
 
 Block LinearNetwork::energy(const Loads& motion) const {
     Block sum = Block::Zero();
     for (const LinearBond& bond : bonds_) {
-        const auto delta = deformation(bond, motion);
-        sum += delta.transpose() * law_.tangent(bond.normal) * delta;
+        const Deformations<6> all = deformation(bond, motion);
+        sum += all.transpose() * stresses(bond, all);
     }
     return sum;
 }
@@ -178,33 +215,34 @@ Block LinearNetwork::virial(const Loads& motion, const std::vector<double>& weig
     Block sum = Block::Zero();
     for (std::size_t k = 0; k < bonds_.size(); ++k) {
         const LinearBond& bond = bonds_[k];
-        sum += weight[k] * affine_displacements(bond.branch).transpose() * law_.tangent(bond.normal) * deformation(bond, motion);
+        sum += weight[k] * affine_deformations(bond).transpose() * stresses(bond, deformation(bond, motion));
     }
     return sum;
 }
 
 Index LinearNetwork::stiffen_spins(BlockMatrix& matrix) const {
     std::vector<int> degree(static_cast<std::size_t>(particles_), 0);
-    std::vector<std::array<Eigen::Vector3d, 2>> contact(static_cast<std::size_t>(particles_));
-    const auto note = [&](Index particle, const Eigen::Vector3d& point) {
+    std::vector<std::array<BondEnd, 2>> end(static_cast<std::size_t>(particles_));
+    const auto note = [&](Index particle, const BondEnd& now) {
         if (particle >= 0) {
             const auto place = static_cast<std::size_t>(particle);
-            contact[place][static_cast<std::size_t>(degree[place] % 2)] = point;
+            end[place][static_cast<std::size_t>(degree[place] % 2)] = now;
             ++degree[place];
         }
     };
     for (const LinearBond& bond : bonds_) {
-        note(bond.first, bond.first_arm * bond.normal);
-        note(bond.second, -bond.second_arm * bond.normal);
+        note(bond.first, {&bond, bond.first_arm * bond.normal});
+        note(bond.second, {&bond, -bond.second_arm * bond.normal});
     }
     Index spins = 0;
-    for (std::size_t particle = 0; particle < degree.size(); ++particle) {
-        if (degree[particle] == 2) {
-            const Eigen::Vector3d axis = (contact[particle][1] - contact[particle][0]).normalized();
+    for (Index particle = 0; particle < particles_; ++particle) {
+        const auto place = static_cast<std::size_t>(particle);
+        if (degree[place] == 2 && spins_freely(*end[place][0].bond, *end[place][1].bond)) {
+            const Eigen::Vector3d axis = (end[place][1].contact - end[place][0].contact).normalized();
             Eigen::Matrix<double, 6, 1> spin;
-            spin << contact[particle][0].cross(axis), axis;  // the contact points stay where they are
+            spin << end[place][0].contact.cross(axis), axis;  // the contact points stay where they are
             spin.normalize();
-            matrix.diagonal(static_cast<Index>(particle)) += spin * spin.transpose();
+            matrix.diagonal(particle) += spin * spin.transpose();
             ++spins;
         }
     }

@@ -4,12 +4,13 @@
 
 #include "load_bearing.hpp"
 
-#include <coagula/common/contact_law.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/general_contact.hpp>
 #include <coagula/common/packing.hpp>
 
 #include <Eigen/Core>
 
+#include <span>
 #include <vector>
 
 namespace coagula::mechanics {
@@ -17,8 +18,12 @@ namespace coagula::mechanics {
 using Block = Eigen::Matrix<double, 6, 6>;
 using Loads = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;  ///< one column per unit strain
 
-/// A bond with all that the linear kinematics needs:
-/// delta = u_j - u_i + [n]x (R_i theta_i + R_j theta_j) + strain * branch.
+/// A bond with all that the linear kinematics needs. It stores 1/2 [k_n (delta.n)^2 + k_s |delta_t|^2 + k_b |bend_t|^2 + k_t
+/// (bend.n)^2
+/// + tension |moved_t|^2], t the part across n, with
+///     moved = u_j - u_i + strain * branch,
+///     delta = moved + [n]x (R_i theta_i + R_j theta_j), the displacement at the contact,
+///     bend = theta_j - theta_i.
 struct LinearBond {
     Index first;  ///< numbered among the load-bearing particles; -1: held, follows the strain without rotating
     Index second;
@@ -26,7 +31,26 @@ struct LinearBond {
     Eigen::Vector3d branch;  ///< in mean radii
     double first_arm;        ///< distance from the centre to the contact point, in mean radii
     double second_arm;
+    ContactTangent tangent;  ///< reduced
 };
+
+/// Deformations of a bond, as columns: delta, bend and moved of LinearBond.
+template <int Columns>
+using Deformations = Eigen::Matrix<double, 9, Columns>;
+
+/// Derivative of the energy by the deformation: force at the contact, moment, and force of the tension that turns with the bond.
+template <int Columns>
+Deformations<Columns> stresses(const LinearBond& bond, const Deformations<Columns>& deformation) {
+    const ContactTangent& k = bond.tangent;
+    const Eigen::Vector3d& n = bond.normal;
+    const auto part = [&](Index first, double along, double across) -> Eigen::Matrix<double, 3, Columns> {
+        const auto rows = deformation.template middleRows<3>(first);
+        return across * rows + ((along - across) * n) * (n.transpose() * rows);
+    };
+    Deformations<Columns> result;
+    result << part(0, k.normal, k.shear), part(3, k.twisting, k.bending), part(6, 0, k.tension);
+    return result;
+}
 
 /// Symmetric matrix of 6 x 6 blocks, upper triangle by rows, the diagonal block first in each row.
 struct BlockMatrix {
@@ -41,7 +65,9 @@ struct BlockMatrix {
 /// The linear problem of one network.
 class LinearNetwork {
 public:
-    LinearNetwork(const Packing& packing, const ContactNetwork& network, const LoadBearing& kept, const BondedContact& law);
+    /// @param tangents of all bonds of `network`. @param reference the stiffness that counts as 1 [N/m].
+    LinearNetwork(const Packing& packing, const ContactNetwork& network, const LoadBearing& kept,
+                  std::span<const ContactTangent> tangents, double reference);
 
     Index particles() const { return particles_; }
     const std::vector<LinearBond>& bonds() const { return bonds_; }
@@ -52,30 +78,30 @@ public:
     /// Minus the force on every unknown when all particles follow unit strain k (Voigt xx yy zz yz xz xy) affinely; column k.
     Loads loads() const;
 
-    /// Twice the energy of affine motion, sum over bonds of e_a D e_b.
+    /// Twice the energy of affine motion, sum over bonds of e_a . stress_b.
     Block affine_energy() const;
 
-    /// Twice the energy at the unknowns `motion`, sum over bonds of delta_a D delta_b: the elastic tensor times the volume when the
-    /// motion is that of equilibrium, correct to second order in its error. Bond by bond, because the motion of soft modes is large
-    /// and would cancel in f u and u K u.
+    /// Twice the energy at the unknowns `motion`, sum over bonds of deformation_a . stress_b: the elastic tensor times the volume
+    /// when the motion is that of equilibrium, correct to second order in its error. Bond by bond, because the motion of soft modes
+    /// is large and would cancel in f u and u K u.
     Block energy(const Loads& motion) const;
 
-    /// Sum over bonds of weight * e_a . t_b, t the forces at the unknowns `motion`: the volume times the mean stress.
+    /// Sum over bonds of weight * e_a . t_b, e the affine deformations, t the stresses at the unknowns `motion`: the volume times
+    /// the mean stress.
     Block virial(const Loads& motion, const std::vector<double>& weight) const;
 
-    /// Adds stiffness to the spin of every particle with just two bonds about the line through its two contact points. Bonds
-    /// without moment leave that spin free and no load works on it, so a preconditioner made of the result acts on the loads as K
-    /// does. Returns how many such particles there are.
+    /// Adds stiffness to the spin of every particle with just two bonds about the line through its two contact points where nothing
+    /// resists it: bonds without moment, or without twisting stiffness and on one line. No load works on that spin, so a
+    /// preconditioner made of the result acts on the loads as K does. Returns how many such particles there are.
     Index stiffen_spins(BlockMatrix& matrix) const;
 
 private:
-    Eigen::Matrix<double, 3, 6> deformation(const LinearBond& bond, const Loads& motion) const;
+    Deformations<6> deformation(const LinearBond& bond, const Loads& motion) const;
     void add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond) const;
     Block coupling(const LinearBond& bond) const;
 
     Index particles_ = 0;
     std::vector<LinearBond> bonds_;
-    BondedContact law_;  ///< reduced: normal stiffness 1
 };
 
 /// Relative displacements e = strain * branch of the six unit strains, as columns (3 x 6).

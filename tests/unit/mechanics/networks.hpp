@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/general_contact.hpp>
 #include <coagula/common/random.hpp>
 
 namespace coagula::testing {
@@ -31,6 +32,11 @@ inline ContactNetwork bonds_between(const Packing& packing, const std::vector<st
         network.branch.col(static_cast<Index>(k)) = packing.cell.minimum_image(packing.positions.col(j) - packing.positions.col(i));
     }
     return network;
+}
+
+/// The same stiffness for every bond.
+inline std::vector<ContactTangent> alike(const ContactNetwork& bonds, const ContactTangent& tangent) {
+    return std::vector<ContactTangent>(static_cast<std::size_t>(bonds.size()), tangent);
 }
 
 }  // namespace coagula::testing

@@ -12,6 +12,7 @@
 namespace coagula::mechanics {
 namespace {
 
+using coagula::testing::alike;
 using coagula::testing::random_spheres;
 
 /// A random network with rattlers, spins and floppy modes, of which a dense solver knows everything.
@@ -28,7 +29,7 @@ struct DenseAnswer {
 /// The same modulus by the eigenvalues of the dense matrix: a pseudo-inverse, without any shift.
 DenseAnswer dense_answer(const Network& sample) {
     const LoadBearing kept = find_load_bearing(sample.bonds);
-    const LinearNetwork network(sample.packing, sample.bonds, kept, BondedContact(50, 5));
+    const LinearNetwork network(sample.packing, sample.bonds, kept, alike(sample.bonds, {.normal = 50, .shear = 5}), 50);
     const BlockMatrix full = both_triangles(network.stiffness());
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * full.rows(), 6 * full.rows());
     for (Index row = 0; row < full.rows(); ++row) {

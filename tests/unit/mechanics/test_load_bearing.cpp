@@ -47,6 +47,14 @@ TEST(LoadBearing, RemovesBentChainOfTwoLinksButKeepsAStraightOne) {
     EXPECT_EQ(find_load_bearing(bonds_between(packing, pairs)).particle.size(), 7U);
 }
 
+TEST(LoadBearing, WithMomentsOnlyDanglingEndsCarryNothing) {
+    auto pairs = core();
+    pairs.insert(pairs.end(), {{0, 5}, {5, 6}, {6, 1}, {4, 7}, {7, 8}});
+    const LoadBearing kept = find_load_bearing(bonds_between(scattered(), pairs), {}, true);
+    EXPECT_EQ(kept.particle, (std::vector<Index>{0, 1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(kept.bond.size(), core().size() + 3);
+}
+
 TEST(LoadBearing, HeldParticlesAnchorWhatHangsOnThem) {
     const auto network = bonds_between(scattered(), {{0, 1}, {1, 2}});
     EXPECT_TRUE(find_load_bearing(network).particle.empty());

@@ -8,6 +8,7 @@
 namespace coagula::mechanics {
 namespace {
 
+using coagula::testing::alike;
 using coagula::testing::bonds_between;
 using coagula::testing::random_spheres;
 
@@ -15,14 +16,26 @@ struct Sample {
     Packing packing = random_spheres(30, 6.5, 1.0, 7);
     ContactNetwork bonds;
     LoadBearing kept;
+    std::vector<ContactTangent> tangents;  ///< every term, unlike in every bond
     Sample() {
         for (Index i = 0; i < packing.size(); ++i) {  // unlike radii: unlike lever arms
             packing.radii[i] = 0.8 + 0.4 * random_uniform(3, RandomPurpose::test, 1, static_cast<std::uint64_t>(i))[0];
         }
         bonds = find_contacts(packing, 0.2);
         kept = find_load_bearing(bonds);
+        for (Index bond = 0; bond < bonds.size(); ++bond) {
+            const auto at_random = [&](std::uint64_t purpose) {
+                return random_uniform(9, RandomPurpose::test, purpose, static_cast<std::uint64_t>(bond))[0];
+            };
+            tangents.push_back({.normal = 40 + 20 * at_random(0),
+                                .shear = 10 * at_random(1),
+                                .bending = 8 * at_random(2),
+                                .twisting = 5 * at_random(3),
+                                .tension = at_random(4) - 0.2});
+        }
     }
-    LinearNetwork network() const { return {packing, bonds, kept, BondedContact(50, 5)}; }
+    LinearNetwork network() const { return {packing, bonds, kept, tangents, reference}; }
+    static constexpr double reference = 50;
 };
 
 Eigen::MatrixXd dense(const BlockMatrix& full) {
@@ -35,10 +48,9 @@ Eigen::MatrixXd dense(const BlockMatrix& full) {
     return matrix;
 }
 
-/// Energy of the network straight from the kinematics, bond by bond: lengths in mean radii, normal stiffness 1.
+/// Energy of the network straight from the kinematics, bond by bond: lengths in mean radii, stiffness in the reference.
 double energy(const Sample& sample, const Eigen::VectorXd& motion, const Eigen::Matrix3d& strain) {
     const double r0 = mean_radius(sample.packing);
-    const BondedContact law(1.0, 0.1);
     double sum = 0;
     for (const Index bond : sample.kept.bond) {
         const int i = sample.bonds.ends(0, bond);
@@ -50,10 +62,16 @@ double energy(const Sample& sample, const Eigen::VectorXd& motion, const Eigen::
         const Index a = 6 * sample.kept.number[static_cast<std::size_t>(i)];
         const Index b = 6 * sample.kept.number[static_cast<std::size_t>(j)];
         const Eigen::Vector3d turn = arm_i * motion.segment<3>(a + 3) + arm_j * motion.segment<3>(b + 3);
-        const Eigen::Vector3d delta = motion.segment<3>(b) - motion.segment<3>(a) - turn.cross(n) + strain * branch;
-        sum += law.energy(delta, n);
+        const Eigen::Vector3d moved = motion.segment<3>(b) - motion.segment<3>(a) + strain * branch;
+        const Eigen::Vector3d delta = moved - turn.cross(n);
+        const Eigen::Vector3d bend = motion.segment<3>(b + 3) - motion.segment<3>(a + 3);
+        const ContactTangent& k = sample.tangents[static_cast<std::size_t>(bond)];
+        const auto along = [&](const Eigen::Vector3d& v) { return v.dot(n) * v.dot(n); };
+        const auto across = [&](const Eigen::Vector3d& v) { return v.cross(n).squaredNorm(); };
+        sum += k.normal * along(delta) + k.shear * across(delta) + k.tension * across(moved);
+        sum += (k.twisting * along(bend) + k.bending * across(bend)) / (r0 * r0);
     }
-    return sum;
+    return 0.5 * sum / Sample::reference;
 }
 
 TEST(Stiffness, IsTheSecondDerivativeOfTheEnergy) {
@@ -121,7 +139,7 @@ TEST(Stiffness, RigidTranslationGivesNoForceAndRigidRotationOfAClusterNeither) {
     const auto bonds = find_contacts(cluster, 0.3);
     const LoadBearing kept = find_load_bearing(bonds);
     ASSERT_GE(kept.particle.size(), 4U);
-    const LinearNetwork network(cluster, bonds, kept, BondedContact(50, 5));
+    const LinearNetwork network(cluster, bonds, kept, alike(bonds, {.normal = 50, .shear = 5, .bending = 3, .twisting = 2}), 50);
     Loads rotation = Loads::Zero(6 * network.particles(), 6);
     const Eigen::Vector3d omega(0.3, -0.7, 0.5);
     for (std::size_t place = 0; place < kept.particle.size(); ++place) {
@@ -129,7 +147,7 @@ TEST(Stiffness, RigidTranslationGivesNoForceAndRigidRotationOfAClusterNeither) {
         rotation.block<3, 1>(6 * static_cast<Index>(place), 0) = omega.cross(position);
         rotation.block<3, 1>(6 * static_cast<Index>(place) + 3, 0) = omega;
     }
-    multiply(both_triangles(network.stiffness()), rotation, force);
+    multiply(both_triangles(network.stiffness()), rotation, force);  // bending and twisting do not notice it, either
     EXPECT_LT(force.cwiseAbs().maxCoeff(), 1e-12);
 }
 
@@ -142,7 +160,7 @@ TEST(Stiffness, SpinsOfTwoBondedParticlesAreFreeAndFeelNoLoad) {
         }
     }
     const auto bonds = bonds_between(packing, pairs);
-    const LinearNetwork network(packing, bonds, find_load_bearing(bonds), BondedContact(50, 5));
+    const LinearNetwork network(packing, bonds, find_load_bearing(bonds), alike(bonds, {.normal = 50, .shear = 5}), 50);
     const BlockMatrix plain = network.stiffness();
     BlockMatrix stiffened = plain;
     EXPECT_EQ(network.stiffen_spins(stiffened), 1);

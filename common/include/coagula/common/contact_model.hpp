@@ -62,6 +62,7 @@ struct ContactParameter {
     double high;  ///< largest value, included; infinite: any
     std::string meaning;
     std::string source;
+    bool is_loss = false;  ///< takes energy out of harmonic motion; plays no part without rate
 
     /// Whether the model has it.
     bool is_set(const ContactModel& model) const;

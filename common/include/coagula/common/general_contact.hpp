@@ -27,11 +27,11 @@ struct ContactForce {
 
 /// Stiffness of a contact for small further motion, the losses aside.
 struct ContactTangent {
-    double normal;    ///< [N/m]
-    double shear;     ///< [N/m]
-    double bending;   ///< [N m]
-    double twisting;  ///< [N m]
-    double tension;   ///< -(normal force) / distance, the geometric stiffness across the line of centres [N/m]
+    double normal = 0;    ///< [N/m]
+    double shear = 0;     ///< [N/m]
+    double bending = 0;   ///< [N m]
+    double twisting = 0;  ///< [N m]
+    double tension = 0;   ///< -(normal force) / distance, the geometric stiffness across the line of centres [N/m]
 };
 
 /// Law of one contact, bonded or not, for a contact model.

@@ -3,6 +3,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/general_contact.hpp>
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
 
@@ -19,8 +20,9 @@ enum class LinearSolver {
 };
 
 struct LinearOptions {
-    double normal_stiffness = 100;  ///< of a particle [N/m], > 0; two in series make a contact
-    double shear_stiffness = 10;    ///< of a particle [N/m], >= 0
+    double normal_stiffness = 100;              ///< of a particle [N/m], > 0; two in series make a contact
+    double shear_stiffness = 10;                ///< of a particle [N/m], >= 0
+    std::vector<ContactTangent> bond_tangents;  ///< M: stiffness of every bond instead of those two, see bond_tangents(); or empty
     LinearSolver solver = LinearSolver::automatic;
     double memory_limit = 4.0e9;      ///< for the factor [bytes]; decides under `automatic`
     double tolerance = 1e-10;         ///< direct solver: relative residual |f - K u| / |f| of every strain
@@ -39,7 +41,8 @@ struct LinearResponse {
     std::vector<Eigen::Matrix3Xd> displacement;  ///< six times 3 x N: beyond the affine one, per unit strain [m]; 0 for rattlers
     std::vector<Eigen::Matrix3Xd> rotation;      ///< six times 3 x N: rotation per unit strain [rad]
     Eigen::Matrix<double, 6, 1> non_affinity;    ///< rms displacement beyond the affine one per unit strain, over the mean radius
-    double contact_normal_stiffness = unset;     ///< of a contact [N/m]
+    std::vector<ContactTangent> bond_tangents;   ///< M: stiffness of every bond
+    double contact_normal_stiffness = unset;     ///< of a contact, mean over the bonds [N/m]
     double contact_shear_stiffness = unset;
     Index contacts = 0;  ///< all bonds
     Index rattlers = 0;  ///< particles that carry no load
@@ -62,15 +65,21 @@ struct LinearResponse {
     double mean_affine_modulus() const;
 };
 
+/// Stiffness of every bond for small motion from where it is found: fresh bonds of `model` that carry its prestress and nothing
+/// else. Strengths, friction, ageing and losses play no part. Throws std::invalid_argument for an impossible model.
+std::vector<ContactTangent> bond_tangents(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model);
+
 /// Solves for the response of `bonds` (branch vectors as found; springs unstretched there, lever arms d r_i / (r_i + r_j)):
-/// E = 1/2 sum [k_n (delta.n)^2 + k_s |delta - (delta.n) n|^2] is minimised over all displacements and rotations, and the
-/// elastic tensor is the second derivative of the minimum by the strain over the volume. Contact law: Schenker et al. 2012,
-/// sec. 2.1.
+/// E = 1/2 sum [k_n (delta.n)^2 + k_s |delta_t|^2 + k_b |bend_t|^2 + k_t (bend.n)^2 + tension |moved_t|^2] is minimised over all
+/// displacements and rotations, and the elastic tensor is the second derivative of the minimum by the strain over the volume.
+/// delta is the displacement at the contact, bend the relative rotation, moved the relative displacement of the centres, t the part
+/// across n. Contact law: Schenker et al. 2012, sec. 2.1; the last three terms with `bond_tangents` only.
 ///
 /// In a periodic cell the volume is the cell's. A sample with a free surface needs `held` (its outer particles): they follow the
 /// strain as a rigid frame would make them, and the stress is averaged over the others, whose volume is `volume`; that stiffens.
 ///
-/// Throws std::invalid_argument for impossible options or an open cell without `held`, std::runtime_error when the solver fails.
+/// Throws std::invalid_argument for impossible options, a bond without normal stiffness or an open cell without `held`,
+/// std::runtime_error when the solver fails, as it does where prestress makes the network unstable.
 /// A network that does not carry load in some direction has modulus zero there: no error.
 LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options = {},
                             const Progress& progress = {});
