@@ -19,6 +19,7 @@
 #include <coagula/mechanics/relaxation.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 
@@ -43,10 +44,31 @@ ContactModel contact_model(const Arguments& arguments) {
 /// Losses act at a frequency only.
 void check_elastic(const Arguments& arguments, const ContactModel& model) {
     for (const ContactParameter& parameter : contact_parameters()) {
-        if (parameter.is_loss && parameter.is_set(model)) {
+        if (parameter.role == ContactRole::loss && parameter.is_set(model)) {
             throw InputError(arguments.text("model") + " has " + parameter.name +
                              ", a loss that acts at a frequency only: give --frequency or --frequency-sweep");
         }
+    }
+}
+
+/// Parameters that the model has but that play no part at vanishing strain, by name.
+std::string without_effect(const ContactModel& model) {
+    std::string names;
+    for (const ContactParameter& parameter : contact_parameters()) {
+        if (parameter.role == ContactRole::limit && parameter.is_set(model)) {
+            names += (names.empty() ? "" : ", ") + parameter.name;
+        }
+    }
+    return names;
+}
+
+/// Says in the results what of the model did not act.
+void append_without_effect(Findings& found, const ContactModel& model) {
+    const std::string names = without_effect(model);
+    if (!names.empty()) {
+        found.results.push_back(
+            io::text(found.group + "/without_effect", names, "parameters of the model that play no part at vanishing strain"));
+        found.table.emplace_back("without effect", names + ": nothing breaks, slips or ages at vanishing strain");
     }
 }
 
@@ -83,6 +105,10 @@ std::optional<mechanics::RelaxedNetwork> relaxed(const Arguments& arguments, con
     if (scheme == "none") {
         return std::nullopt;
     }
+    if (!std::isnan(model.young_modulus) || !std::isnan(model.prestress)) {
+        throw InputError("--relax knows linear springs only; " + arguments.text("model") + " has " +
+                         (std::isnan(model.prestress) ? "young_modulus" : "prestress"));
+    }
     mechanics::RelaxationOptions options;
     options.normal_stiffness = model.normal_stiffness;
     options.shear_stiffness = model.shear_stiffness;
@@ -108,6 +134,7 @@ void append_load_structure(Findings& found, const mechanics::LoadStructure& stru
 Findings linear_response(const Arguments& arguments, const Packing& before, const Packing& packing, const ContactNetwork& bonds,
                          const ContactModel& model, const Progress& progress) {
     mechanics::LinearOptions options = linear_options(arguments, model);
+    options.bond_tangents = mechanics::bond_tangents(packing, bonds, model);
     if (!before.cell.is_periodic()) {
         hold_surface(before, options);
     }
@@ -150,6 +177,9 @@ void run(const Arguments& arguments) {
     Findings found = explicit_run          ? rheometer_response(arguments, sheared, network, model, frequencies, progress)
                      : frequencies.empty() ? linear_response(arguments, packing, sheared, network, model, progress)
                                            : frequency_response(arguments, sheared, network, model, frequencies, progress);
+    if (!explicit_run) {
+        append_without_effect(found, model);
+    }
     if (rest) {
         append_relaxation(found.group, found.results, found.fields, *rest);
     }
@@ -182,7 +212,7 @@ Verb shear_verb() {
                     quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
                     text("frequency", "LIST", "response to harmonic strain at these frequencies instead, such as 1Hz,10Hz"),
                     text("frequency-sweep", "FROM:TO:N", "the same at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
-                    text("model", "FILE.toml", "springs and losses of a contact and the solvent (docs/contact-model.md)"),
+                    text("model", "FILE.toml", "the contact in full and the solvent (docs/contact-model.md)"),
                     choice("relax", {"none", "minimise", "paper"},
                            "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero",
                            "none"),
@@ -196,6 +226,7 @@ Verb shear_verb() {
         .run = run,
         .notes = {"With --method dem one --frequency counts (default 1Hz); masses are scaled so that it can be stepped through.",
                   "With --frequency the springs may have losses (--model); of the solver's options the tolerance counts.",
+                  "Strengths, friction and ageing play no part at vanishing strain: linear and --frequency results name them.",
                   "--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
                   "The method quasistatic is not available in this version."}};
     const std::vector<Option> own = rheometer_options();

@@ -20,25 +20,26 @@ constexpr const char* fractional = "Koeller 1984, J. Appl. Mech. 51, 299";
 
 void append_maxwell(std::vector<ContactParameter>& list, const std::string& name, const Direction& d) {
     list.push_back({name + "_maxwell_stiffness", "N/m", d.maxwell_stiffness, 0, true, infinity,
-                    name + " spring in series with a dashpot, of a contact", polymers, true});
+                    name + " spring in series with a dashpot, of a contact", polymers, ContactRole::loss});
     list.push_back({name + "_maxwell_time", "s", d.maxwell_time, 0, false, infinity,
-                    name + " dashpot of that element over its spring: relaxation time", polymers, true});
+                    name + " dashpot of that element over its spring: relaxation time", polymers, ContactRole::loss});
 }
 
 void append_springpot(std::vector<ContactParameter>& list, const std::string& name, const Direction& d) {
     list.push_back({name + "_springpot_stiffness", "N/m", d.springpot_stiffness, 0, true, infinity,
-                    name + " springpot of a contact: |k*| where w times its time is 1", fractional, true});
-    list.push_back({name + "_springpot_time", "s", d.springpot_time, 0, false, infinity, name + " springpot: time", fractional, true});
+                    name + " springpot of a contact: |k*| where w times its time is 1", fractional, ContactRole::loss});
+    list.push_back({name + "_springpot_time", "s", d.springpot_time, 0, false, infinity, name + " springpot: time", fractional,
+                    ContactRole::loss});
     list.push_back({name + "_springpot_exponent", "1", d.springpot_exponent, 0, true, 1,
-                    name + " springpot: 0 is a spring, 1 a dashpot", fractional, true});
+                    name + " springpot: 0 is a spring, 1 a dashpot", fractional, ContactRole::loss});
 }
 
 void append_lubrication(std::vector<ContactParameter>& list) {
     const char* source = "Jeffrey and Onishi 1984, J. Fluid Mech. 139, 261 (leading term)";
     list.push_back({"lubrication_gap", "m", &ContactModel::lubrication_gap, 0, false, infinity,
-                    "smallest gap that counts for the squeezed film, the roughness of the surfaces", source, true});
+                    "smallest gap that counts for the squeezed film, the roughness of the surfaces", source, ContactRole::loss});
     list.push_back({"lubrication_cutoff", "m", &ContactModel::lubrication_cutoff, 0, false, infinity,
-                    "pairs with a smaller gap between their surfaces squeeze the solvent", source, true});
+                    "pairs with a smaller gap between their surfaces squeeze the solvent", source, ContactRole::loss});
 }
 
 void append_moments(std::vector<ContactParameter>& list) {
@@ -58,13 +59,15 @@ void append_solids(std::vector<ContactParameter>& list) {
 
 void append_strengths(std::vector<ContactParameter>& list) {
     using Model = ContactModel;
-    list.push_back({"normal_strength", "N", &Model::normal_strength, 0, false, infinity, "tension at which a bond breaks", paper});
-    list.push_back(
-        {"shear_strength", "N", &Model::shear_strength, 0, false, infinity, "shear force at which a bond breaks", paper});
+    list.push_back({"normal_strength", "N", &Model::normal_strength, 0, false, infinity, "tension at which a bond breaks", paper,
+                    ContactRole::limit});
+    list.push_back({"shear_strength", "N", &Model::shear_strength, 0, false, infinity, "shear force at which a bond breaks", paper,
+                    ContactRole::limit});
     list.push_back({"bending_strength", "N.m", &Model::bending_strength, 0, false, infinity,
-                    "moment, bending or twisting, at which a bond breaks", beams});
+                    "moment, bending or twisting, at which a bond breaks", beams, ContactRole::limit});
     list.push_back({"friction", "1", &Model::friction, 0, true, infinity,
-                    "coefficient of Coulomb friction of contacts without a bond", "Cundall and Strack 1979, Geotechnique 29, 47"});
+                    "coefficient of Coulomb friction of contacts without a bond", "Cundall and Strack 1979, Geotechnique 29, 47",
+                    ContactRole::limit});
 }
 
 void append_state(std::vector<ContactParameter>& list) {
@@ -73,8 +76,10 @@ void append_state(std::vector<ContactParameter>& list) {
                     "normal force in every bond as found, before the network comes to rest; compression is positive",
                     "Alexander 1998, Phys. Rep. 296, 65"});
     list.push_back({"ageing_rate", "1", &Model::ageing_rate, 0, true, infinity,
-                    "all springs of a contact grow by 1 + rate ln(1 + t / time)", "Bonacci et al. 2020, Nat. Mater. 19, 775"});
-    list.push_back({"ageing_time", "s", &Model::ageing_time, 0, false, infinity, "the time in that law", "the same"});
+                    "all springs of a contact grow by 1 + rate ln(1 + t / time)", "Bonacci et al. 2020, Nat. Mater. 19, 775",
+                    ContactRole::limit});
+    list.push_back(
+        {"ageing_time", "s", &Model::ageing_time, 0, false, infinity, "the time in that law", "the same", ContactRole::limit});
 }
 
 std::vector<ContactParameter> make_parameters() {
@@ -82,15 +87,17 @@ std::vector<ContactParameter> make_parameters() {
     std::vector<ContactParameter> list{
         {"normal_stiffness", "N/m", &Model::normal_stiffness, 0, false, infinity, "normal spring of a particle", paper},
         {"shear_stiffness", "N/m", &Model::shear_stiffness, 0, true, infinity, "shear spring of a particle", paper},
-        {"normal_viscosity", "N.s/m", &Model::normal_viscosity, 0, true, infinity, "normal dashpot of a contact", polymers, true},
-        {"shear_viscosity", "N.s/m", &Model::shear_viscosity, 0, true, infinity, "shear dashpot of a contact", polymers, true}};
+        {"normal_viscosity", "N.s/m", &Model::normal_viscosity, 0, true, infinity, "normal dashpot of a contact", polymers,
+         ContactRole::loss},
+        {"shear_viscosity", "N.s/m", &Model::shear_viscosity, 0, true, infinity, "shear dashpot of a contact", polymers,
+         ContactRole::loss}};
     append_maxwell(list, "normal", normal_direction);
     append_maxwell(list, "shear", shear_direction);
     append_springpot(list, "normal", normal_direction);
     append_springpot(list, "shear", shear_direction);
     list.push_back({"solvent_viscosity", "Pa.s", &Model::solvent_viscosity, 0, false, infinity,
                     "viscosity of the solvent, which drags on every particle that leaves its affine flow",
-                    "Stokes 1851; Happel and Brenner 1983, Low Reynolds Number Hydrodynamics, ch. 5", true});
+                    "Stokes 1851; Happel and Brenner 1983, Low Reynolds Number Hydrodynamics, ch. 5", ContactRole::loss});
     append_lubrication(list);
     append_moments(list);
     append_solids(list);

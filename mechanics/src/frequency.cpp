@@ -1,6 +1,7 @@
 #include <coagula/mechanics/frequency.hpp>
 
 #include "blas_threads.hpp"
+#include "bond_tangents.hpp"
 #include "cholesky_factor.hpp"
 #include "complex_gradients.hpp"
 #include "frequency_network.hpp"
@@ -37,19 +38,19 @@ void check(const Packing& packing, const ContactNetwork& bonds, std::span<const 
     require_between(options.shift, 0.0, largest_shift, "the shift of the preconditioner");
 }
 
-/// Every particle with a bond, for with drag a dangling one loads the network, too.
-LoadBearing everything_bonded(const ContactNetwork& bonds) {
-    const Eigen::VectorXi degree = contact_counts(bonds);
+/// Every particle of a pair, for with drag a dangling one loads the network, too.
+LoadBearing everything(const ContactNetwork& pairs) {
+    const Eigen::VectorXi degree = contact_counts(pairs);
     LoadBearing kept;
-    kept.number.assign(static_cast<std::size_t>(bonds.particles), -1);
-    for (Index particle = 0; particle < bonds.particles; ++particle) {
+    kept.number.assign(static_cast<std::size_t>(pairs.particles), -1);
+    for (Index particle = 0; particle < pairs.particles; ++particle) {
         if (degree[particle] > 0) {
             kept.number[static_cast<std::size_t>(particle)] = static_cast<Index>(kept.particle.size());
             kept.particle.push_back(particle);
         }
     }
-    for (Index bond = 0; bond < bonds.size(); ++bond) {
-        kept.bond.push_back(bond);
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        kept.bond.push_back(pair);
     }
     return kept;
 }
@@ -95,15 +96,11 @@ private:
     /// changed by factors between 1 and z, and conjugate gradients then gain tanh(|log z| / 4) per iteration. Not so without drag,
     /// where free motions slow them down: a new factor is cheaper there.
     bool serves(const Ratios& ratios) const {
-        const auto change = [](const Complex& now, const Complex& then) {
-            return now == then ? 0.0 : std::abs(std::log(now / then));
-        };
         const auto is_damped = [&](const Ratios& r) { return translation_drag(std::abs(r.drag)) >= options_.shift; };
         if (!factorised_ || !is_damped(ratios) || !is_damped(*factorised_)) {
             return false;
         }
-        const double most = std::max(change(ratios.shear, factorised_->shear), change(ratios.drag, factorised_->drag));
-        return std::pow(std::tanh(most / 4), most_borrowed_iterations) < options_.tolerance;
+        return std::pow(std::tanh(network_.change(ratios, *factorised_) / 4), most_borrowed_iterations) < options_.tolerance;
     }
 
     ComplexSolution iterate(const ComplexBlocks& matrix, const Ratios& ratios) const {
@@ -124,7 +121,9 @@ private:
             factor_->factorise(network_.scalar_values(matrix, 0));
         } else {
             const Complex phase = ratios.drag / std::abs(ratios.drag);
-            factor_->factorise(network_.scalar_values(network_.matrix({ratios.shear, phase * (shift / translation_drag(1))}), 0));
+            Ratios damped = ratios;
+            damped.drag = phase * (shift / translation_drag(1));
+            factor_->factorise(network_.scalar_values(network_.matrix(damped), 0));
         }
     }
 
@@ -134,42 +133,67 @@ private:
     std::optional<Ratios> factorised_;  ///< what the factor was made for
 };
 
-/// Volume, length and angular frequency that turn the reduced sums into moduli.
+/// What turns the reduced sums into moduli at one angular frequency w.
 struct Scales {
-    double per_volume;  ///< r0^2 / V [1/m]
-    Complex drag;       ///< i w eta r0 [N/m]; 0: no solvent
-    Complex drag_rate;  ///< its derivative by eta
+    double per_volume;        ///< r0^2 / V [1/m]
+    double springs;           ///< reference stiffness of the springs [N/m]
+    ContactStiffness losses;  ///< of a contact
+    Complex drag;             ///< i w eta r0 [N/m]; 0: no solvent
+    Complex drag_rate;        ///< its derivative by eta
+
+    Complex reference() const { return springs + losses.normal; }
+    Ratios ratios() const {
+        const Complex whole = reference();
+        return {springs / whole, losses.normal / whole, losses.shear / whole, drag / whole};
+    }
 };
 
-Scales scales_of(const Packing& packing, const ContactModel& model, double angular_frequency) {
+Scales scales_of(const Packing& packing, const ContactModel& model, double springs, double w) {
+    ContactModel without_springs = model;
+    without_springs.normal_stiffness = without_springs.shear_stiffness = 0;
     const double r0 = mean_radius(packing);
-    const Complex rate(0, angular_frequency * r0);
-    return {r0 * r0 / packing.cell.volume(), has_drag(model) ? rate * model.solvent_viscosity : Complex(0), rate};
+    const Complex rate(0, w * r0);
+    return {.per_volume = r0 * r0 / packing.cell.volume(),
+            .springs = springs,
+            .losses = complex_stiffness(without_springs, w),
+            .drag = has_drag(model) ? rate * model.solvent_viscosity : Complex(0),
+            .drag_rate = rate};
 }
 
-ComplexTensor combine(const Forms& forms, const ContactStiffness& k, const Complex& drag, double per_volume) {
-    return per_volume * (k.normal * forms.along + k.shear * forms.across + drag * forms.drag);
+/// Derivative of the modulus by a loss.
+ComplexTensor loss_derivative(const Forms& forms, const ContactModel& model, const Scales& scales, double w,
+                              const ContactParameter& parameter) {
+    if (parameter.value == &ContactModel::solvent_viscosity) {
+        return scales.per_volume * scales.drag_rate * forms.drag;
+    }
+    if (parameter.value == &ContactModel::lubrication_gap) {
+        return -scales.per_volume / model.lubrication_gap * scales.drag * forms.rough;
+    }
+    const ContactStiffness k = stiffness_derivative(model, w, parameter.value);
+    return scales.per_volume * (k.normal * forms.along + k.shear * forms.across);
 }
 
 void fill_point(FrequencyPoint& point, const Forms& forms, const ContactModel& model, const Scales& scales,
                 std::span<const ContactParameter> parameters) {
     const double w = 2 * std::numbers::pi * point.frequency;
-    const ContactStiffness& k = point.contact_stiffness;
-    point.modulus = combine(forms, k, scales.drag, scales.per_volume);
+    const ContactStiffness& losses = scales.losses;
+    point.modulus = scales.per_volume * (scales.springs * forms.springs + losses.normal * forms.along +
+                                         losses.shear * forms.across + scales.drag * forms.drag);
+    std::size_t change = 0;
     for (const ContactParameter& parameter : parameters) {
-        const bool is_solvent = parameter.value == &ContactModel::solvent_viscosity;
-        point.derivative.push_back(combine(forms, stiffness_derivative(model, w, parameter.value),
-                                           is_solvent ? scales.drag_rate : Complex(0), scales.per_volume));
+        const bool is_spring = parameter.role == ContactRole::spring;
+        point.derivative.push_back(is_spring ? ComplexTensor(scales.per_volume * scales.springs * forms.changes.at(change++))
+                                             : loss_derivative(forms, model, scales, w, parameter));
     }
-    point.dissipation =
-        std::numbers::pi * scales.per_volume *
-        (k.normal.imag() * forms.along_power + k.shear.imag() * forms.across_power + scales.drag.imag() * forms.drag_power);
+    point.dissipation = std::numbers::pi * scales.per_volume *
+                        (losses.normal.imag() * forms.along_power + losses.shear.imag() * forms.across_power +
+                         scales.drag.imag() * forms.drag_power);
 }
 
-FrequencyPoint start_point(double frequency, const ContactModel& model) {
+FrequencyPoint start_point(double frequency, const ContactStiffness& springs, const ContactStiffness& losses) {
     FrequencyPoint point;
     point.frequency = frequency;
-    point.contact_stiffness = complex_stiffness(model, 2 * std::numbers::pi * frequency);
+    point.contact_stiffness = {springs.normal + losses.normal, springs.shear + losses.shear};
     const ContactStiffness& k = point.contact_stiffness;
     require(std::isfinite(std::norm(k.normal)) && std::isfinite(std::norm(k.shear)),
             "the stiffness of a contact at " + to_text(frequency) + " Hz is too large a number: the frequency is out of range");
@@ -184,6 +208,62 @@ void check_finite(const FrequencyPoint& point) {
                         " Hz is not a finite number: the frequency or a parameter of the contact model is out of range");
 }
 
+/// Those that the model has and that act at vanishing strain.
+std::vector<ContactParameter> acting_parameters(const ContactModel& model) {
+    std::vector<ContactParameter> acting;
+    const auto all = contact_parameters();
+    std::copy_if(all.begin(), all.end(), std::back_inserter(acting),
+                 [&](const auto& p) { return p.is_set(model) && p.role != ContactRole::limit; });
+    return acting;
+}
+
+/// Mean stiffness of the springs of the bonds.
+ContactStiffness mean_springs(const FrequencyPairs& pairs, const ContactModel& model) {
+    if (pairs.bonds == 0) {
+        return {model.normal_stiffness / 2, model.shear_stiffness / 2};
+    }
+    // Relative to the first bond: equal ones have no rounding error.
+    const ContactTangent& first = pairs.tangents.front();
+    ContactStiffness mean{first.normal, first.shear};
+    for (Index bond = 0; bond < pairs.bonds; ++bond) {
+        const ContactTangent& k = pairs.tangents[static_cast<std::size_t>(bond)];
+        mean.normal += (k.normal - first.normal) / static_cast<double>(pairs.bonds);
+        mean.shear += (k.shear - first.shear) / static_cast<double>(pairs.bonds);
+    }
+    return mean;
+}
+
+/// Derivatives of the springs by each parameter of the role `spring`, reduced, by the bonds of the network.
+std::vector<std::vector<ContactTangent>> spring_changes(const Packing& packing, const ContactNetwork& bonds,
+                                                        const FrequencyPairs& pairs, const LoadBearing& kept,
+                                                        const ContactModel& model, std::span<const ContactParameter> parameters) {
+    std::vector<std::vector<ContactTangent>> changes;
+    for (const ContactParameter& parameter : parameters) {
+        if (parameter.role == ContactRole::spring) {
+            std::vector<ContactTangent> tangents = tangent_derivatives(packing, bonds, model, parameter);
+            tangents.resize(pairs.tangents.size());
+            const LinearNetwork network(packing, pairs.network, kept, tangents, mean_springs(pairs, model).normal.real());
+            changes.emplace_back();
+            for (const LinearBond& bond : network.bonds()) {
+                changes.back().push_back(bond.tangent);
+            }
+        }
+    }
+    return changes;
+}
+
+/// Harmonic motion about an unstable state means nothing. Prestress can make a state unstable: then the springs have no factor.
+void check_stability(const FrequencyNetwork& network, const FrequencyPairs& pairs, const FrequencyOptions& options) {
+    if (may_be_unstable(pairs.tangents)) {
+        try {
+            const CholeskyFactor factor(network.upper(), options.shift,
+                                        EliminationOrder(network.upper(), Ordering::nested_dissection));
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(std::string("the bonded network is not stable under its prestress: ") + error.what());
+        }
+    }
+}
+
 }  // namespace
 
 FrequencyResponse solve_frequency_sweep(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model,
@@ -192,30 +272,35 @@ FrequencyResponse solve_frequency_sweep(const Packing& packing, const ContactNet
     coagula::check(model);
     check(packing, bonds, frequencies, options);
     FrequencyResponse response;
-    const auto all = contact_parameters();
-    std::copy_if(all.begin(), all.end(), std::back_inserter(response.parameters), [&](const auto& p) { return p.is_set(model); });
-    const LoadBearing kept = has_drag(model) ? everything_bonded(bonds) : find_load_bearing(bonds);
+    response.parameters = acting_parameters(model);
+    const FrequencyPairs pairs = find_frequency_pairs(packing, bonds, model);
+    const ContactStiffness springs = mean_springs(pairs, model);
+    check_tangents(bonds, {pairs.tangents.begin(), pairs.tangents.begin() + bonds.size()});
+    const LoadBearing kept =
+        has_drag(model) ? everything(pairs.network) : find_load_bearing(bonds, {}, resist_moments(pairs.tangents));
     response.contacts = bonds.size();
     response.rattlers = packing.size() - static_cast<Index>(kept.particle.size());
 
     const BlasThreads threads(blas_threads);
-    const FrequencyNetwork network(packing, bonds, kept);
+    const FrequencyNetwork network(packing, pairs, kept, springs.normal.real());
+    const auto changes = spring_changes(packing, bonds, pairs, kept, model, response.parameters);
     std::unique_ptr<SweepSolver> solver;
     if (!kept.particle.empty()) {
+        check_stability(network, pairs, options);
         solver = std::make_unique<SweepSolver>(network, options);
     }
     for (const double frequency : frequencies) {
         progress.update("frequency sweep", static_cast<double>(response.points.size()) / static_cast<double>(frequencies.size()),
                         to_text(frequency) + " Hz");
-        FrequencyPoint point = start_point(frequency, model);
-        const Scales scales = scales_of(packing, model, 2 * std::numbers::pi * frequency);
+        const Scales scales = scales_of(packing, model, springs.normal.real(), 2 * std::numbers::pi * frequency);
+        FrequencyPoint point = start_point(frequency, springs, scales.losses);
         Forms forms;
+        forms.changes.assign(changes.size(), Forms::Tensor::Zero());
         if (solver) {
-            const ContactStiffness& k = point.contact_stiffness;
-            const ComplexSolution solution = solver->solve({k.shear / k.normal, scales.drag / k.normal});
+            const ComplexSolution solution = solver->solve(scales.ratios());
             point.iterations = solution.iterations;
             point.residual = solution.residual;
-            forms = network.forms(solution.motion);
+            forms = network.forms(solution.motion, changes);
         }
         fill_point(point, forms, model, scales, response.parameters);
         check_finite(point);

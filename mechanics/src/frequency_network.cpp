@@ -2,13 +2,25 @@
 
 #include <coagula/common/contact_model.hpp>
 
+#include <algorithm>
+
 namespace coagula::mechanics {
 
 namespace {
 
-/// The same stiffness for every bond: along (n n^T), or in all directions (I).
-std::vector<ContactTangent> alike(const ContactNetwork& bonds, const ContactTangent& tangent) {
-    return std::vector<ContactTangent>(static_cast<std::size_t>(bonds.size()), tangent);
+/// Unit stiffness along or across every bond.
+std::vector<ContactTangent> on_bonds(const FrequencyPairs& pairs, const ContactTangent& tangent) {
+    std::vector<ContactTangent> tangents(pairs.tangents.size());
+    std::fill_n(tangents.begin(), pairs.bonds, tangent);
+    return tangents;
+}
+
+std::vector<ContactTangent> films_of(const FrequencyPairs& pairs, double r0) {
+    std::vector<ContactTangent> tangents;
+    for (const double film : pairs.film) {
+        tangents.push_back({.normal = film / r0});
+    }
+    return tangents;
 }
 
 Eigen::VectorXd drag_of(const Packing& packing, const LoadBearing& kept) {
@@ -20,13 +32,6 @@ Eigen::VectorXd drag_of(const Packing& packing, const LoadBearing& kept) {
         drag.segment<3>(6 * static_cast<Index>(place) + 3).setConstant(rotation_drag(radius));
     }
     return drag;
-}
-
-/// v x, as a matrix; Eigen's own cross product conjugates complex vectors.
-Eigen::Matrix3cd cross_matrix(const Eigen::Vector3d& v) {
-    Eigen::Matrix3cd m;
-    m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-    return m;
 }
 
 std::vector<Block> free_spins(const LinearNetwork& network, BlockMatrix upper) {
@@ -43,36 +48,76 @@ std::vector<Block> free_spins(const LinearNetwork& network, BlockMatrix upper) {
 
 }  // namespace
 
-FrequencyNetwork::FrequencyNetwork(const Packing& packing, const ContactNetwork& bonds, const LoadBearing& kept)
-    : along_(packing, bonds, kept, alike(bonds, {.normal = 1}), 1),
-      isotropic_(packing, bonds, kept, alike(bonds, {.normal = 1, .shear = 1}), 1),
-      upper_(along_.stiffness()),
-      along_matrix_(both_triangles(upper_)),
-      isotropic_matrix_(both_triangles(isotropic_.stiffness())),
-      along_loads_(along_.loads()),
-      isotropic_loads_(isotropic_.loads()),
-      spin_(free_spins(along_, upper_)),
-      drag_(drag_of(packing, kept)),
-      load_scale_(along_.affine_energy().diagonal().transpose().array().sqrt()) {}
+FrequencyNetwork::FrequencyNetwork(const Packing& packing, const FrequencyPairs& pairs, const LoadBearing& kept, double reference)
+    : springs_(packing, pairs.network, kept, pairs.tangents, reference),
+      upper_(springs_.stiffness()),
+      spring_matrix_(both_triangles(upper_)),
+      spring_loads_(springs_.loads()),
+      spin_(free_spins(springs_, upper_)),
+      drag_(drag_of(packing, kept)) {
+    const double r0 = mean_radius(packing);
+    const LinearNetwork along(packing, pairs.network, kept, on_bonds(pairs, {.normal = 1}), 1);
+    const LinearNetwork across(packing, pairs.network, kept, on_bonds(pairs, {.shear = 1}), 1);
+    const LinearNetwork films(packing, pairs.network, kept, films_of(pairs, r0), 1);
+    along_matrix_ = both_triangles(along.stiffness());
+    across_matrix_ = both_triangles(across.stiffness());
+    drag_matrix_ = both_triangles(films.stiffness());
+    along_loads_ = along.loads();
+    across_loads_ = across.loads();
+    drag_loads_ = films.loads();
+    load_scale_ = springs_.affine_energy().diagonal().transpose().array().abs().sqrt();
+    for (Index row = 0; row < particles(); ++row) {
+        upper_.diagonal(row) += spin_[static_cast<std::size_t>(row)];
+    }
+    add_drag();
+    for (const Index pair : kept.bond) {
+        bonded_.push_back(pair < pairs.bonds);
+        film_.push_back(pairs.film[static_cast<std::size_t>(pair)] / r0);
+        rough_.push_back(pairs.rough[static_cast<std::size_t>(pair)]);
+    }
+}
+
+/// Stokes drag beside the films.
+void FrequencyNetwork::add_drag() {
+    for (Index row = 0; row < particles(); ++row) {
+        for (auto k = static_cast<std::size_t>(drag_matrix_.start[static_cast<std::size_t>(row)]);
+             k < static_cast<std::size_t>(drag_matrix_.start[static_cast<std::size_t>(row) + 1]); ++k) {
+            if (drag_matrix_.column[k] == row) {
+                drag_matrix_.block[k].diagonal() += drag_.segment<6>(6 * row);
+            }
+        }
+    }
+}
+
+double FrequencyNetwork::change(const Ratios& now, const Ratios& then) const {
+    const auto of = [](const Complex& a, const Complex& b) { return a == b ? 0.0 : std::abs(std::log(a / b)); };
+    double most = of(now.drag, then.drag);
+    for (std::size_t k = 0; k < bonded_.size(); ++k) {
+        const ContactTangent& t = springs_.bonds()[k].tangent;
+        if (bonded_[k]) {
+            most = std::max({most, of(now.springs * t.normal + now.normal, then.springs * t.normal + then.normal),
+                             of(now.springs * t.shear + now.shear, then.springs * t.shear + then.shear)});
+            const bool alone = t.bending > 0 || t.twisting > 0 || t.tension != 0;
+            most = alone ? std::max(most, of(now.springs, then.springs)) : most;
+        }
+    }
+    return most;
+}
 
 ComplexBlocks FrequencyNetwork::matrix(const Ratios& ratios) const {
     ComplexBlocks result;
-    result.block.resize(along_matrix_.block.size());
-    for (Index row = 0; row < particles(); ++row) {
-        for (auto k = static_cast<std::size_t>(along_matrix_.start[static_cast<std::size_t>(row)]);
-             k < static_cast<std::size_t>(along_matrix_.start[static_cast<std::size_t>(row) + 1]); ++k) {
-            result.block[k] = (1.0 - ratios.shear) * along_matrix_.block[k].cast<Complex>() +
-                              ratios.shear * isotropic_matrix_.block[k].cast<Complex>();
-            if (along_matrix_.column[k] == row) {
-                result.block[k].diagonal() += ratios.drag * drag_.segment<6>(6 * row).cast<Complex>();
-            }
-        }
+    result.block.resize(spring_matrix_.block.size());
+    for (std::size_t k = 0; k < result.block.size(); ++k) {
+        result.block[k] =
+            ratios.springs * spring_matrix_.block[k].cast<Complex>() + ratios.normal * along_matrix_.block[k].cast<Complex>() +
+            ratios.shear * across_matrix_.block[k].cast<Complex>() + ratios.drag * drag_matrix_.block[k].cast<Complex>();
     }
     return result;
 }
 
 ComplexLoads FrequencyNetwork::loads(const Ratios& ratios) const {
-    return (1.0 - ratios.shear) * along_loads_.cast<Complex>() + ratios.shear * isotropic_loads_.cast<Complex>();
+    return ratios.springs * spring_loads_.cast<Complex>() + ratios.normal * along_loads_.cast<Complex>() +
+           ratios.shear * across_loads_.cast<Complex>() + ratios.drag * drag_loads_.cast<Complex>();
 }
 
 void FrequencyNetwork::multiply(const ComplexBlocks& matrix, const ComplexLoads& x, ComplexLoads& y) const {
@@ -80,9 +125,9 @@ void FrequencyNetwork::multiply(const ComplexBlocks& matrix, const ComplexLoads&
 #pragma omp parallel for schedule(static)
     for (Index row = 0; row < particles(); ++row) {
         Eigen::Matrix<Complex, 6, 6, Eigen::RowMajor> sum = Eigen::Matrix<Complex, 6, 6, Eigen::RowMajor>::Zero();
-        for (auto k = static_cast<std::size_t>(along_matrix_.start[static_cast<std::size_t>(row)]);
-             k < static_cast<std::size_t>(along_matrix_.start[static_cast<std::size_t>(row) + 1]); ++k) {
-            sum.noalias() += matrix.block[k] * x.middleRows<6>(6 * along_matrix_.column[k]);
+        for (auto k = static_cast<std::size_t>(spring_matrix_.start[static_cast<std::size_t>(row)]);
+             k < static_cast<std::size_t>(spring_matrix_.start[static_cast<std::size_t>(row) + 1]); ++k) {
+            sum.noalias() += matrix.block[k] * x.middleRows<6>(6 * spring_matrix_.column[k]);
         }
         y.middleRows<6>(6 * row) = sum;
     }
@@ -91,10 +136,10 @@ void FrequencyNetwork::multiply(const ComplexBlocks& matrix, const ComplexLoads&
 template <class Visit>
 void FrequencyNetwork::for_each_upper(const Visit& visit) const {
     for (Index row = 0; row < particles(); ++row) {
-        for (auto k = static_cast<std::size_t>(along_matrix_.start[static_cast<std::size_t>(row)]);
-             k < static_cast<std::size_t>(along_matrix_.start[static_cast<std::size_t>(row) + 1]); ++k) {
-            const bool diagonal = along_matrix_.column[k] == row;
-            if (along_matrix_.column[k] < row) {
+        for (auto k = static_cast<std::size_t>(spring_matrix_.start[static_cast<std::size_t>(row)]);
+             k < static_cast<std::size_t>(spring_matrix_.start[static_cast<std::size_t>(row) + 1]); ++k) {
+            const bool diagonal = spring_matrix_.column[k] == row;
+            if (spring_matrix_.column[k] < row) {
                 continue;
             }
             for (int r = 0; r < 6; ++r) {
@@ -109,7 +154,7 @@ void FrequencyNetwork::for_each_upper(const Visit& visit) const {
 void FrequencyNetwork::scalar_pattern(std::vector<int>& row, std::vector<int>& column) const {
     for_each_upper([&](Index block_row, std::size_t k, int r, int c) {
         row.push_back(static_cast<int>(6 * block_row) + r);
-        column.push_back(static_cast<int>(6 * along_matrix_.column[k]) + c);
+        column.push_back(static_cast<int>(6 * spring_matrix_.column[k]) + c);
     });
 }
 
@@ -117,7 +162,7 @@ std::vector<Complex> FrequencyNetwork::scalar_values(const ComplexBlocks& matrix
     std::vector<Complex> values;
     for_each_upper([&](Index row, std::size_t k, int r, int c) {
         Complex value = matrix.block[k](r, c);
-        if (shift > 0 && along_matrix_.column[k] == row) {
+        if (shift > 0 && spring_matrix_.column[k] == row) {
             value += spin_[static_cast<std::size_t>(row)](r, c) + (r == c ? shift : 0.0);
         }
         values.push_back(value);
@@ -125,25 +170,41 @@ std::vector<Complex> FrequencyNetwork::scalar_values(const ComplexBlocks& matrix
     return values;
 }
 
-Forms FrequencyNetwork::forms(const ComplexLoads& motion) const {
-    using Three = Eigen::Matrix<Complex, 3, 6>;
+Forms FrequencyNetwork::forms(const ComplexLoads& motion, const std::vector<std::vector<ContactTangent>>& changes) const {
+    using Columns = Eigen::Matrix<Complex, 9, 6>;
+    const Loads real = motion.real();
+    const Loads imaginary = motion.imag();
     Forms sum;
-    for (const LinearBond& bond : along_.bonds()) {
-        const Eigen::RowVector3cd n = bond.normal.transpose().cast<Complex>();
-        const Three turn =
-            bond.first_arm * motion.middleRows<3>(6 * bond.first + 3) + bond.second_arm * motion.middleRows<3>(6 * bond.second + 3);
-        Three delta = affine_displacements(bond.branch).cast<Complex>() + motion.middleRows<3>(6 * bond.second) -
-                      motion.middleRows<3>(6 * bond.first);
-        delta += cross_matrix(bond.normal) * turn;
-        const Eigen::Matrix<Complex, 1, 6> along = n * delta;
-        const Three across = delta - n.transpose() * along;
-        sum.along += along.transpose() * along;
-        sum.across += across.transpose() * across;
-        sum.along_power += along.cwiseAbs2().transpose();
-        sum.across_power += across.colwise().squaredNorm().transpose();
+    sum.changes.assign(changes.size(), Forms::Tensor::Zero());
+    for (std::size_t k = 0; k < bonded_.size(); ++k) {
+        LinearBond bond = springs_.bonds()[k];
+        const Deformations<6> re = springs_.deformation(bond, real);
+        const Deformations<6> im = springs_.deformation(bond, imaginary) - springs_.affine_deformations(bond);
+        const Columns all = re.cast<Complex>() + Complex(0, 1) * im.cast<Complex>();
+        const auto form = [&](const ContactTangent& tangent) -> Forms::Tensor {
+            bond.tangent = tangent;
+            const Columns stress = stresses(bond, re).cast<Complex>() + Complex(0, 1) * stresses(bond, im).cast<Complex>();
+            return all.transpose() * stress;
+        };
+        const Eigen::Matrix<Complex, 1, 6> along = bond.normal.transpose().cast<Complex>() * all.topRows<3>();
+        const Forms::Tensor stretch = along.transpose() * along;
+        const Forms::Powers power = along.cwiseAbs2().transpose();
+        if (bonded_[k]) {
+            sum.springs += form(bond.tangent);
+            sum.along += stretch;
+            sum.across += all.topRows<3>().transpose() * all.topRows<3>() - stretch;
+            sum.along_power += power;
+            sum.across_power += all.topRows<3>().colwise().squaredNorm().transpose() - power;
+            for (std::size_t change = 0; change < changes.size(); ++change) {
+                sum.changes[change] += form(changes[change][k]);
+            }
+        }
+        sum.drag += film_[k] * stretch;
+        sum.rough += rough_[k] ? Forms::Tensor(film_[k] * stretch) : Forms::Tensor::Zero();
+        sum.drag_power += film_[k] * power;
     }
-    sum.drag = motion.transpose() * drag_.cast<Complex>().asDiagonal() * motion;
-    sum.drag_power = motion.cwiseAbs2().transpose() * drag_;
+    sum.drag += motion.transpose() * drag_.cast<Complex>().asDiagonal() * motion;
+    sum.drag_power += motion.cwiseAbs2().transpose() * drag_;
     return sum;
 }
 

@@ -1,6 +1,7 @@
 #include <coagula/mechanics/linear.hpp>
 
 #include "blas_threads.hpp"
+#include "bond_tangents.hpp"
 #include "cholesky_factor.hpp"
 #include "conjugate_gradients.hpp"
 #include "load_bearing.hpp"
@@ -47,9 +48,9 @@ struct Springs {
         for (const ContactTangent& k : tangents) {
             normal += k.normal / count;
             shear += k.shear / count;
-            moments = moments || k.bending > 0 || k.twisting > 0;
-            unstable = unstable || k.normal < 0 || k.tension < 0;
         }
+        moments = resist_moments(tangents);
+        unstable = may_be_unstable(tangents);
     }
 };
 
@@ -67,25 +68,15 @@ Springs springs_of(const ContactNetwork& bonds, const LinearOptions& options) {
     return springs;
 }
 
-void check_tangents(const ContactNetwork& bonds, const std::vector<ContactTangent>& tangents) {
-    require(tangents.empty() || tangents.size() == static_cast<std::size_t>(bonds.size()),
-            "the stiffnesses of the bonds must be one per bond");
-    for (std::size_t bond = 0; bond < tangents.size(); ++bond) {
-        const ContactTangent& k = tangents[bond];
-        const std::string name = "bond " + std::to_string(bond);
-        require(std::isfinite(k.normal) && std::isfinite(k.tension) && k.shear >= 0 && k.bending >= 0 && k.twisting >= 0,
-                name + " has an impossible stiffness");
-        require(k.normal != 0, name + " has no normal stiffness: a contact by Hertz's law needs prestress or adhesion");
-    }
-}
-
 void check(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options) {
     require(bonds.particles == packing.size(), "the bonds belong to a packing of " + std::to_string(bonds.particles) +
                                                    " particles, the packing has " + std::to_string(packing.size()));
     require_positive(options.tolerance, "the tolerance of the solver");
     require_positive(options.modulus_tolerance, "the tolerance of the moduli");
     require_between(options.shift, 0.0, 1e-3, "the shift of the preconditioner");
-    check_tangents(bonds, options.bond_tangents);
+    if (!options.bond_tangents.empty()) {
+        check_tangents(bonds, options.bond_tangents);
+    }
     if (options.held.empty()) {
         require(packing.cell.is_periodic(), "the packing has a free surface: its outer particles must be held to be sheared");
         return;
@@ -223,24 +214,6 @@ Block affine_energy_of_all(const Packing& packing, const ContactNetwork& bonds, 
 }
 
 }  // namespace
-
-std::vector<ContactTangent> bond_tangents(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model) {
-    ContactModel springs = model;  // without the losses, of which the time-domain law does not know all
-    springs.normal_springpot_stiffness = springs.shear_springpot_stiffness = unset;
-    springs.normal_springpot_time = springs.shear_springpot_time = unset;
-    springs.normal_springpot_exponent = springs.shear_springpot_exponent = unset;
-    coagula::check(model);
-    const GeneralContact law(springs);
-    std::vector<ContactTangent> tangents;
-    tangents.reserve(static_cast<std::size_t>(bonds.size()));
-    for (Index bond = 0; bond < bonds.size(); ++bond) {
-        const Eigen::Vector3d branch = bonds.branch.col(bond);
-        const double first = packing.radii[bonds.ends(0, bond)];
-        const double second = packing.radii[bonds.ends(1, bond)];
-        tangents.push_back(law.tangent(law.make_bond(branch, first, second, branch.norm()), first, second));
-    }
-    return tangents;
-}
 
 LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options,
                             const Progress& progress) {

@@ -1,5 +1,6 @@
 #include <coagula/mechanics/load_structure.hpp>
 
+#include "bond_tangents.hpp"
 #include "load_bearing.hpp"
 #include "stiffness.hpp"
 
@@ -126,10 +127,6 @@ NonAffinity non_affinity_of(const Eigen::VectorXd& length) {
     return result;
 }
 
-bool resists_moments(const std::vector<ContactTangent>& tangents) {
-    return std::any_of(tangents.begin(), tangents.end(), [](const auto& k) { return k.bending > 0 || k.twisting > 0; });
-}
-
 /// The network of one packing, for all three shears.
 class Analysis {
 public:
@@ -139,7 +136,7 @@ public:
           bonds_(bonds),
           response_(response),
           options_(options),
-          kept_(find_load_bearing(bonds, options.held, resists_moments(response.bond_tangents))),
+          kept_(find_load_bearing(bonds, options.held, resist_moments(response.bond_tangents))),
           geometry_(LinearNetwork(packing, bonds, kept_, response.bond_tangents, response.contact_normal_stiffness).bonds()),
           clusters_(find_clusters(packing, bonds)),
           r0_(mean_radius(packing)) {

@@ -34,14 +34,6 @@ EndMatrix second_end(const LinearBond& bond) {
     return end_matrix(1, bond.second_arm, bond.normal);
 }
 
-/// Deformations under the six unit strains when all particles follow them.
-Deformations<6> affine_deformations(const LinearBond& bond) {
-    Deformations<6> e = Deformations<6>::Zero();
-    e.topRows<3>() = affine_displacements(bond.branch);
-    e.bottomRows<3>() = e.topRows<3>();
-    return e;
-}
-
 ContactTangent reduced(const ContactTangent& k, double reference, double length) {
     const double moment = reference * length * length;
     return {k.normal / reference, k.shear / reference, k.bending / moment, k.twisting / moment, k.tension / reference};
@@ -191,7 +183,14 @@ Block LinearNetwork::affine_energy() const {
     return energy;
 }
 
-Deformations<6> LinearNetwork::deformation(const LinearBond& bond, const Loads& motion) const {
+Deformations<6> LinearNetwork::affine_deformations(const LinearBond& bond) {
+    Deformations<6> e = Deformations<6>::Zero();
+    e.topRows<3>() = affine_displacements(bond.branch);
+    e.bottomRows<3>() = e.topRows<3>();
+    return e;
+}
+
+Deformations<6> LinearNetwork::deformation(const LinearBond& bond, const Loads& motion) {
     Deformations<6> result = affine_deformations(bond);
     if (bond.first >= 0) {
         result += first_end(bond) * motion.middleRows<6>(6 * bond.first);

@@ -90,13 +90,17 @@ public:
     /// the mean stress.
     Block virial(const Loads& motion, const std::vector<double>& weight) const;
 
+    /// Deformation of a bond under the six unit strains at the unknowns `motion`.
+    static Deformations<6> deformation(const LinearBond& bond, const Loads& motion);
+    /// The same when all particles follow the strain and none turns.
+    static Deformations<6> affine_deformations(const LinearBond& bond);
+
     /// Adds stiffness to the spin of every particle with just two bonds about the line through its two contact points where nothing
     /// resists it: bonds without moment, or without twisting stiffness and on one line. No load works on that spin, so a
     /// preconditioner made of the result acts on the loads as K does. Returns how many such particles there are.
     Index stiffen_spins(BlockMatrix& matrix) const;
 
 private:
-    Deformations<6> deformation(const LinearBond& bond, const Loads& motion) const;
     void add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond) const;
     Block coupling(const LinearBond& bond) const;
 

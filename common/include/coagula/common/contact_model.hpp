@@ -52,6 +52,13 @@ struct ContactModel {
     double ageing_time = unset;
 };
 
+/// When a parameter plays a part.
+enum class ContactRole {
+    spring,  ///< always
+    loss,    ///< in motion that takes time
+    limit    ///< at finite strain or age: strengths, friction, ageing
+};
+
 /// One parameter of the model: name (the key in a file), SI unit, allowed values, meaning and source.
 struct ContactParameter {
     std::string name;
@@ -62,7 +69,7 @@ struct ContactParameter {
     double high;  ///< largest value, included; infinite: any
     std::string meaning;
     std::string source;
-    bool is_loss = false;  ///< takes energy out of harmonic motion; plays no part without rate
+    ContactRole role = ContactRole::spring;
 
     /// Whether the model has it.
     bool is_set(const ContactModel& model) const;

@@ -27,7 +27,7 @@ struct FrequencyOptions {
 /// Response at one frequency.
 struct FrequencyPoint {
     double frequency = unset;                 ///< [Hz]
-    ContactStiffness contact_stiffness;       ///< k* of a contact [N/m]
+    ContactStiffness contact_stiffness;       ///< k* of a contact, mean over the bonds [N/m]
     ComplexTensor modulus;                    ///< G' + i G'' for all strains [Pa]; symmetric
     std::vector<ComplexTensor> derivative;    ///< of `modulus` by each of FrequencyResponse::parameters [Pa per its unit]
     Eigen::Matrix<double, 6, 1> dissipation;  ///< energy lost in a cycle, summed over bonds and particles, over the volume and the
@@ -45,18 +45,21 @@ struct FrequencyPoint {
 
 struct FrequencyResponse {
     std::vector<FrequencyPoint> points;        ///< in the order of the frequencies asked for
-    std::vector<ContactParameter> parameters;  ///< those that the model has
+    std::vector<ContactParameter> parameters;  ///< those that the model has and that act at vanishing strain
     Index contacts = 0;                        ///< all bonds
     Index rattlers = 0;                        ///< particles that carry no load; with drag: that have no bond
 };
 
 /// Solves K*(w) u = f*(w) at each frequency for small harmonic strains e^{i w t} without inertia.
 ///
-/// A bond transmits k*(w) of `model` by the kinematics of solve_linear. The solvent moves affinely and drags on every particle that
-/// moves or turns otherwise, with -i w 6 pi eta r u and -i w 8 pi eta r^3 theta; what the solvent itself adds to the stress (i w
-/// eta of a pure fluid) is not in the modulus. G* is the stationary value of [sum over bonds e.k*e + i w (drag) u.u] / V, e the
-/// relative displacement at the contact, which is second-order accurate in the error of the solution, and dG* / dp = [sum
-/// e.(dk*/dp) e + ...] / V follows from the same solution, because the value is stationary.
+/// A bond has the springs of bond_tangents() with the losses of `model` beside them and the kinematics of solve_linear. The solvent
+/// moves affinely and drags on every particle that moves or turns otherwise, with -i w 6 pi eta r u and -i w 8 pi eta r^3 theta;
+/// what the solvent itself adds to the stress (i w eta of a pure fluid) is not in the modulus. With lubrication, pairs of
+/// particles, bonded or not, whose gap h is below the cutoff squeeze a film: a dashpot 6 pi eta R^2 / max(h, lubrication_gap) along
+/// the line of centres, R = r_i r_j / (r_i + r_j); the derivative by the cutoff is zero, because pairs come and go one by one. G*
+/// is the stationary value of [sum over bonds e.k*e + i w (drag) u.u] / V, e the relative displacement at the contact, which is
+/// second-order accurate in the error of the solution, and dG* / dp = [sum e.(dk*/dp) e + ...] / V follows from the same solution,
+/// because the value is stationary.
 ///
 /// K* is complex symmetric. Motions without any stiffness (none with drag) are found and treated as in solve_linear.
 ///
