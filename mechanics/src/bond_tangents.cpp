@@ -48,6 +48,20 @@ void check_tangents(const ContactNetwork& bonds, const Tangents& tangents) {
     }
 }
 
+ContactTangent mean_tangent(std::span<const ContactTangent> tangents) {
+    if (tangents.empty()) {
+        return {};
+    }
+    ContactTangent beyond_first;
+    for (const ContactTangent& k : tangents) {
+        beyond_first.normal += k.normal - tangents.front().normal;
+        beyond_first.shear += k.shear - tangents.front().shear;
+    }
+    const auto count = static_cast<double>(tangents.size());
+    return {.normal = tangents.front().normal + beyond_first.normal / count,
+            .shear = tangents.front().shear + beyond_first.shear / count};
+}
+
 bool resist_moments(const Tangents& tangents) {
     return std::any_of(tangents.begin(), tangents.end(), [](const auto& k) { return k.bending > 0 || k.twisting > 0; });
 }

@@ -5,12 +5,16 @@
 #include <coagula/common/general_contact.hpp>
 #include <coagula/common/packing.hpp>
 
+#include <span>
 #include <vector>
 
 namespace coagula::mechanics {
 
 /// Throws std::invalid_argument unless there is a possible stiffness for every bond.
 void check_tangents(const ContactNetwork& bonds, const std::vector<ContactTangent>& tangents);
+
+/// Mean normal and shear stiffness, exact where all bonds are alike; zero without bonds.
+ContactTangent mean_tangent(std::span<const ContactTangent> tangents);
 
 /// Whether some bond resists bending or twisting.
 bool resist_moments(const std::vector<ContactTangent>& tangents);

@@ -222,15 +222,8 @@ ContactStiffness mean_springs(const FrequencyPairs& pairs, const ContactModel& m
     if (pairs.bonds == 0) {
         return {model.normal_stiffness / 2, model.shear_stiffness / 2};
     }
-    // Relative to the first bond: equal ones have no rounding error.
-    const ContactTangent& first = pairs.tangents.front();
-    ContactStiffness mean{first.normal, first.shear};
-    for (Index bond = 0; bond < pairs.bonds; ++bond) {
-        const ContactTangent& k = pairs.tangents[static_cast<std::size_t>(bond)];
-        mean.normal += (k.normal - first.normal) / static_cast<double>(pairs.bonds);
-        mean.shear += (k.shear - first.shear) / static_cast<double>(pairs.bonds);
-    }
-    return mean;
+    const ContactTangent mean = mean_tangent(std::span(pairs.tangents).first(static_cast<std::size_t>(pairs.bonds)));
+    return {mean.normal, mean.shear};
 }
 
 /// Derivatives of the springs by each parameter of the role `spring`, reduced, by the bonds of the network.

@@ -187,14 +187,15 @@ Forms FrequencyNetwork::forms(const ComplexLoads& motion, const std::vector<std:
             return all.transpose() * stress;
         };
         const Eigen::Matrix<Complex, 1, 6> along = bond.normal.transpose().cast<Complex>() * all.topRows<3>();
+        const Eigen::Matrix<Complex, 3, 6> across = all.topRows<3>() - bond.normal.cast<Complex>() * along;
         const Forms::Tensor stretch = along.transpose() * along;
         const Forms::Powers power = along.cwiseAbs2().transpose();
         if (bonded_[k]) {
             sum.springs += form(bond.tangent);
             sum.along += stretch;
-            sum.across += all.topRows<3>().transpose() * all.topRows<3>() - stretch;
+            sum.across += across.transpose() * across;
             sum.along_power += power;
-            sum.across_power += all.topRows<3>().colwise().squaredNorm().transpose() - power;
+            sum.across_power += across.colwise().squaredNorm().transpose();
             for (std::size_t change = 0; change < changes.size(); ++change) {
                 sum.changes[change] += form(changes[change][k]);
             }

@@ -44,11 +44,9 @@ struct Springs {
     bool unstable = false;  ///< some bond has a negative stiffness
 
     explicit Springs(std::vector<ContactTangent> of_bonds) : tangents(std::move(of_bonds)) {
-        const auto count = static_cast<double>(tangents.size());
-        for (const ContactTangent& k : tangents) {
-            normal += k.normal / count;
-            shear += k.shear / count;
-        }
+        const ContactTangent mean = mean_tangent(tangents);
+        normal = mean.normal;
+        shear = mean.shear;
         moments = resist_moments(tangents);
         unstable = may_be_unstable(tangents);
     }
@@ -63,7 +61,7 @@ Springs springs_of(const ContactNetwork& bonds, const LinearOptions& options) {
     const ContactTangent contact{.normal = stiffness_in_series(options.normal_stiffness, options.normal_stiffness),
                                  .shear = stiffness_in_series(options.shear_stiffness, options.shear_stiffness)};
     Springs springs(std::vector<ContactTangent>(static_cast<std::size_t>(bonds.size()), contact));
-    springs.normal = contact.normal;  // not off by rounding, and also where nothing is bonded
+    springs.normal = contact.normal;  // also where nothing is bonded
     springs.shear = contact.shear;
     return springs;
 }
@@ -244,9 +242,10 @@ LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds,
         try {
             motion = solve(problem, packing, kept, options, progress, response).motion;
         } catch (const std::runtime_error& error) {
-            throw springs.unstable
-                ? std::runtime_error(std::string("the bonded network is not stable under its prestress: ") + error.what())
-                : error;
+            if (!springs.unstable) {
+                throw;
+            }
+            throw std::runtime_error(std::string("the bonded network is not stable under its prestress: ") + error.what());
         }
         response.floppy_modes -= periodic && response.floppy_modes >= 3 ? 3 : 0;  // rigid translation
         response.elastic_tensor =
