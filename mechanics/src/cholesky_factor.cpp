@@ -31,6 +31,9 @@ public:
         if (common_.status == CHOLMOD_OUT_OF_MEMORY || common_.status == CHOLMOD_TOO_LARGE) {
             throw std::runtime_error(std::string(what) + ": not enough memory for the direct solver; choose the iterative one");
         }
+        if (common_.status == CHOLMOD_NOT_POSDEF) {
+            throw NotPositiveDefinite(std::string(what) + ": it is not positive definite");
+        }
         if (common_.status != CHOLMOD_OK) {
             throw std::runtime_error(std::string(what) + " failed (CHOLMOD status " + std::to_string(common_.status) + ")");
         }
@@ -125,6 +128,20 @@ EliminationOrder::EliminationOrder(const BlockMatrix& upper, Ordering ordering) 
 struct CholeskyFactor::Implementation {
     mutable Common common;
     Factor factor{nullptr, {nullptr}};
+
+    Eigen::MatrixXd solve(Eigen::MatrixXd columns) const {
+        cholmod_dense view{};
+        view.nrow = static_cast<std::size_t>(columns.rows());
+        view.ncol = static_cast<std::size_t>(columns.cols());
+        view.nzmax = view.nrow * view.ncol;
+        view.d = view.nrow;
+        view.x = columns.data();
+        view.xtype = CHOLMOD_REAL;
+        view.dtype = CHOLMOD_DOUBLE;
+        const Dense solution(cholmod_solve(CHOLMOD_A, factor.get(), &view, common), {&common});
+        common.check("solving with the factor");
+        return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), columns.rows(), columns.cols());
+    }
 };
 
 CholeskyFactor::CholeskyFactor(const BlockMatrix& upper, double shift, const EliminationOrder& order)
@@ -144,19 +161,11 @@ CholeskyFactor::CholeskyFactor(const BlockMatrix& upper, double shift, const Eli
 CholeskyFactor::~CholeskyFactor() = default;
 
 void CholeskyFactor::solve(const Loads& b, Loads& x) const {
-    Common& common = implementation_->common;
-    Eigen::MatrixXd columns = b;
-    cholmod_dense view{};
-    view.nrow = static_cast<std::size_t>(columns.rows());
-    view.ncol = 6;
-    view.nzmax = view.nrow * view.ncol;
-    view.d = view.nrow;
-    view.x = columns.data();
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    const Dense solution(cholmod_solve(CHOLMOD_A, implementation_->factor.get(), &view, common), {&common});
-    common.check("solving with the factor");
-    x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), columns.rows(), 6);
+    x = implementation_->solve(b);
+}
+
+void CholeskyFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
+    x = implementation_->solve(b);
 }
 
 void CholeskyFactor::for_each_supernode(const std::function<void(const SupernodeView&)>& visit) const {

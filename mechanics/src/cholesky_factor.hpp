@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace coagula::mechanics {
@@ -30,10 +31,15 @@ private:
     double predicted_memory_ = 0;
 };
 
+/// Thrown for a matrix that has a direction of negative or no stiffness.
+struct NotPositiveDefinite : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Factor of K + shift I.
 class CholeskyFactor {
 public:
-    /// Throws std::runtime_error when the matrix is not positive definite or memory does not suffice.
+    /// Throws NotPositiveDefinite, or std::runtime_error when memory does not suffice.
     CholeskyFactor(const BlockMatrix& upper, double shift, const EliminationOrder& order);
     ~CholeskyFactor();
     CholeskyFactor(const CholeskyFactor&) = delete;
@@ -41,6 +47,8 @@ public:
 
     /// x = (K + shift I)^-1 b for six right-hand sides.
     void solve(const Loads& b, Loads& x) const;
+    /// The same for one right-hand side.
+    void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
     /// A dense block column of the factor L: `columns` columns from `first_column` on; value[c * rows + r] is its entry in row[r],
     /// column first_column + c. The first `columns` rows are the diagonal block.

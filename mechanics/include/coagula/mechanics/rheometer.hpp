@@ -8,6 +8,7 @@
 #include <coagula/common/dem/particle_system.hpp>
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
+#include <coagula/mechanics/orientation.hpp>
 
 #include <Eigen/Core>
 
@@ -15,15 +16,6 @@
 #include <vector>
 
 namespace coagula::mechanics {
-
-/// Plates lie across axis `normal`, the upper one moves along axis `direction`; different axes of 0, 1, 2.
-struct ShearOrientation {
-    int normal = 2;
-    int direction = 0;
-};
-
-/// The six orientations of the paper: xy, xz, yx, yz, zx, zy (normal, direction).
-std::vector<ShearOrientation> all_orientations();
 
 enum class RheometerBoundary {
     plates,   ///< layers of the periodic repetition below (fixed) and above (driven), periodic along the plates

@@ -1,0 +1,349 @@
+#include "sheared_network.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coagula::mechanics {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Neighbours are pairs nearer than (1 + skin) times the sum of their radii.
+constexpr double skin = 0.15;
+/// Steps of the difference quotients of the contact law, in mean radii and radians: small where the law has kinks.
+constexpr double largest_difference = 1e-5;
+constexpr double smallest_difference = 1e-8;
+
+/// Stiffness of a contact of two mean particles at a small overlap, the unit in which residuals are measured.
+double typical_stiffness(const GeneralContact& law, double radius) {
+    return law.normal(1e-3 * radius, 0.5 * radius, true).stiffness;
+}
+
+}  // namespace
+
+ShearedNetwork::ShearedNetwork(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model,
+                               const QuasistaticOptions& options)
+    : law_(model),
+      orientation_(options.orientation),
+      cell_(packing.cell),
+      volume_(packing.cell.volume()),
+      length_(mean_radius(packing)),
+      stiffness_(typical_stiffness(law_, length_)),
+      positions_(packing.positions),
+      radii_(packing.radii),
+      bonds_(bonds.size()) {
+    contacts_.reserve(static_cast<std::size_t>(bonds_));
+    for (Index bond = 0; bond < bonds_; ++bond) {
+        const Index first = bonds.ends(0, bond);
+        const Index second = bonds.ends(1, bond);
+        const Vector3d branch = bonds.branch.col(bond);
+        const double touching = radii_[first] + radii_[second];
+        const double unstressed = options.rest_length == RestLength::as_found ? branch.norm() : touching;
+        contacts_.push_back({first, second, bond, law_.make_bond(branch, radii_[first], radii_[second], unstressed)});
+    }
+    find_neighbours();
+}
+
+Vector3d ShearedNetwork::sheared(const Vector3d& branch, double strain) const {
+    Vector3d moved = branch;
+    moved[orientation_.direction] += strain * branch[orientation_.normal];
+    return moved;
+}
+
+Vector3d ShearedNetwork::strain_rate(const ContactMemory& memory) const {
+    return memory.branch[orientation_.normal] / length_ * Vector3d::Unit(orientation_.direction);
+}
+
+PairMotion ShearedNetwork::pair_motion(const ShearedContact& contact, double strain_increment, const Motion& motion) const {
+    const Index first = 6 * contact.first;
+    const Index second = 6 * contact.second;
+    return {sheared(contact.memory.branch, strain_increment) + length_ * (motion.segment<3>(second) - motion.segment<3>(first)),
+            motion.segment<3>(first + 3), motion.segment<3>(second + 3), radii_[contact.first], radii_[contact.second]};
+}
+
+/// The contact point divides the line of centres in the ratio of the radii.
+Wrench ShearedNetwork::wrench(const ContactMemory& memory, const ContactForce& force, const ShearedContact& contact) const {
+    const double share = radii_[contact.first] / (radii_[contact.first] + radii_[contact.second]);
+    const Vector3d moment = memory.branch.cross(force.force);
+    Wrench all;
+    all << force.force / (stiffness_ * length_), (share * moment + force.moment) / (stiffness_ * length_ * length_),
+        ((1 - share) * moment - force.moment) / (stiffness_ * length_ * length_);
+    return all;
+}
+
+void ShearedNetwork::evaluate(double strain_increment, const Motion& motion, Trial& trial) const {
+    const auto count = static_cast<Index>(contacts_.size());
+    trial.strain_increment = strain_increment;
+    trial.motion = motion;
+    trial.memory.resize(contacts_.size());
+    trial.wrench.resize(contacts_.size());
+    Eigen::VectorXd dissipated(count);
+#pragma omp parallel for schedule(static)
+    for (Index k = 0; k < count; ++k) {
+        const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
+        ContactMemory& memory = trial.memory[static_cast<std::size_t>(k)];
+        memory = contact.memory;
+        const ContactForce force = law_.update(memory, pair_motion(contact, strain_increment, motion), 0.0);
+        trial.wrench[static_cast<std::size_t>(k)] = wrench(memory, force, contact);
+        dissipated[k] = force.dissipated;
+    }
+    trial.dissipated = dissipated.sum();
+    gather(trial);
+}
+
+void ShearedNetwork::gather(Trial& trial) const {
+    trial.residual.resize(6 * particles());
+#pragma omp parallel for schedule(static)
+    for (Index particle = 0; particle < particles(); ++particle) {
+        Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+        const auto row = static_cast<std::size_t>(particle);
+        for (Index entry = groups_.start[row]; entry < groups_.start[row + 1]; ++entry) {
+            const auto k = static_cast<std::size_t>(groups_.contact[static_cast<std::size_t>(entry)]);
+            const Wrench& all = trial.wrench[k];
+            // A contact with the particle's own image comes twice in the group, which is right for the sum of both ends.
+            if (contacts_[k].first == contacts_[k].second) {
+                sum.tail<3>() += 0.5 * (all.segment<3>(3) + all.tail<3>());
+            } else if (contacts_[k].first == particle) {
+                sum += all.head<6>();
+            } else {
+                sum.head<3>() -= all.head<3>();
+                sum.tail<3>() += all.tail<3>();
+            }
+        }
+        trial.residual.segment<6>(6 * particle) = sum;
+    }
+    double force = 0;
+    Index loaded = 0;
+    for (const Wrench& all : trial.wrench) {
+        force += all.head<3>().squaredNorm();
+        loaded += all.head<3>().squaredNorm() > 0 ? 1 : 0;
+    }
+    trial.rms_force = std::sqrt(force / static_cast<double>(std::max<Index>(loaded, 1)));
+    trial.rms_residual = trial.residual.norm() / std::sqrt(static_cast<double>(particles()));
+}
+
+/// Bonds with linear springs are smooth; Hertz's law is over distances of the order of the overlap; contacts may slip or open.
+double ShearedNetwork::difference_step(const ContactMemory& memory) const {
+    if (!memory.bonded) {
+        return smallest_difference;
+    }
+    if (std::isnan(law_.model().young_modulus)) {
+        return largest_difference;
+    }
+    const double overlap = std::abs(memory.rest_length - memory.branch.norm()) / length_;
+    return std::clamp(0.01 * overlap, smallest_difference, largest_difference);
+}
+
+std::vector<Eigen::Matrix<double, 9, 9>> ShearedNetwork::linearise(const Trial& trial) const {
+    std::vector<Eigen::Matrix<double, 9, 9>> slopes(contacts_.size());
+    const auto count = static_cast<Index>(contacts_.size());
+#pragma omp parallel for schedule(static)
+    for (Index k = 0; k < count; ++k) {
+        const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
+        const PairMotion base = pair_motion(contact, trial.strain_increment, trial.motion);
+        Eigen::Matrix<double, 9, 9>& slope = slopes[static_cast<std::size_t>(k)];
+        if (!law_.touches(trial.memory[static_cast<std::size_t>(k)], base.first_radius, base.second_radius)) {
+            slope.setZero();
+            continue;
+        }
+        const double difference = difference_step(trial.memory[static_cast<std::size_t>(k)]);
+        const auto moved = [&](int column, double step) {
+            PairMotion motion = base;
+            Vector3d& part = column < 3 ? motion.branch : (column < 6 ? motion.first_turn : motion.second_turn);
+            part[column % 3] += step * (column < 3 ? length_ : 1.0);
+            ContactMemory memory = contact.memory;
+            const ContactForce force = law_.update(memory, motion, 0.0);
+            return wrench(memory, force, contact);
+        };
+        for (int column = 0; column < 9; ++column) {
+            slope.col(column) = (moved(column, difference) - moved(column, -difference)) / (2 * difference);
+        }
+        slope.bottomRows<6>() *= -1;
+    }
+    return slopes;
+}
+
+double ShearedNetwork::reach_used(double strain_increment, const Motion& motion) const {
+    double farthest = 0;
+    for (Index particle = 0; particle < particles(); ++particle) {
+        const Vector3d moved = moved_.col(particle) + motion.segment<3>(6 * particle);
+        farthest = std::max(farthest, moved.squaredNorm());
+    }
+    const double reach = 2 * radii_.minCoeff() / length_ * skin;
+    const double pair = 2 * radii_.maxCoeff() / length_ * (1 + skin);
+    return (2 * std::sqrt(farthest) + std::abs(strain_ + strain_increment - strain_at_search_) * pair) / reach;
+}
+
+bool ShearedNetwork::commit(const Trial& trial) {
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+        contacts_[k].memory = trial.memory[k];
+    }
+    Vector3d drift = Vector3d::Zero();
+    for (Index particle = 0; particle < particles(); ++particle) {
+        drift += trial.motion.segment<3>(6 * particle) / static_cast<double>(particles());
+    }
+    for (Index particle = 0; particle < particles(); ++particle) {
+        const Vector3d moved = trial.motion.segment<3>(6 * particle) - drift;
+        positions_.col(particle) = sheared(positions_.col(particle), trial.strain_increment) + length_ * moved;
+        moved_.col(particle) += moved;
+    }
+    strain_ += trial.strain_increment;
+    if (reach_used(0.0, Motion::Zero(6 * particles())) < 0.5) {
+        return false;
+    }
+    const Index before = touching_contacts();
+    find_neighbours();
+    return touching_contacts() > before;
+}
+
+/// Neighbours are looked for in the cell before the shear, whose points and pairs map one to one onto those of the sheared cell:
+/// a strain is the same lattice as one that differs by whole edges. Distances there are at most `stretch` times as large.
+void ShearedNetwork::find_neighbours() {
+    const double turn = cell_.lengths()[orientation_.direction] / cell_.lengths()[orientation_.normal];
+    const double strain = strain_ - turn * std::nearbyint(strain_ / turn);
+    const double stretch = 0.5 * std::abs(strain) + std::sqrt(1 + 0.25 * strain * strain);
+    Packing flat{cell_, positions_, radii_};
+    for (Index particle = 0; particle < particles(); ++particle) {
+        flat.positions.col(particle) = cell_.wrap(sheared(positions_.col(particle), -strain));
+    }
+    const ContactNetwork near = find_pairs(flat, 2 * radii_.maxCoeff() * (1 + skin) * stretch);
+    if (!contacts_.empty() && groups_.start.empty()) {
+        group_contacts();
+    }
+    std::vector<ShearedContact> found(contacts_.begin(), contacts_.begin() + bonds_);
+    for (Index pair = 0; pair < near.size(); ++pair) {
+        const Index first = near.ends(0, pair);
+        const Index second = near.ends(1, pair);
+        const Vector3d branch = sheared(near.branch.col(pair), strain);
+        const double touching = radii_[first] + radii_[second];
+        if (branch.norm() >= (1 + skin) * touching) {
+            continue;
+        }
+        const ShearedContact* known = nullptr;
+        const auto row = static_cast<std::size_t>(first);
+        for (Index entry = contacts_.empty() ? 0 : groups_.start[row]; !contacts_.empty() && entry < groups_.start[row + 1];
+             ++entry) {
+            const ShearedContact& old = contacts_[static_cast<std::size_t>(groups_.contact[static_cast<std::size_t>(entry)])];
+            const double sign = old.first == first && old.second == second ? 1 : -1;
+            const bool same_ends = sign > 0 || (old.first == second && old.second == first);
+            const bool either_way = first == second;
+            const double apart = std::min((old.memory.branch - sign * branch).norm(),
+                                          either_way ? (old.memory.branch + sign * branch).norm() : 1e300);
+            if (same_ends && apart < 1e-3 * touching) {
+                known = &old;
+            }
+        }
+        if (known == nullptr) {
+            found.push_back({first, second, -1, law_.make_contact(branch, radii_[first], radii_[second])});
+        } else if (known->bond < 0) {
+            found.push_back(*known);
+        }
+    }
+    contacts_ = std::move(found);
+    group_contacts();
+    moved_ = Eigen::Matrix3Xd::Zero(3, particles());
+    strain_at_search_ = strain_;
+}
+
+void ShearedNetwork::group_contacts() {
+    ContactNetwork network;
+    network.particles = particles();
+    network.ends.resize(2, static_cast<Index>(contacts_.size()));
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+        network.ends.col(static_cast<Index>(k)) << static_cast<std::int32_t>(contacts_[k].first),
+            static_cast<std::int32_t>(contacts_[k].second);
+    }
+    groups_ = group_by_particle(network);
+}
+
+std::vector<ContactMemory> ShearedNetwork::memories() const {
+    std::vector<ContactMemory> all;
+    all.reserve(contacts_.size());
+    std::transform(contacts_.begin(), contacts_.end(), std::back_inserter(all), [](const auto& contact) { return contact.memory; });
+    return all;
+}
+
+ShearedNetwork::Worst ShearedNetwork::most_loaded(const std::vector<ContactMemory>& memory) const {
+    Worst worst;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(bonds_); ++k) {
+        const double ratio = law_.load_ratio(memory[k], radii_[contacts_[k].first], radii_[contacts_[k].second]);
+        if (ratio > worst.ratio) {
+            worst = {ratio, static_cast<Index>(k)};
+        }
+    }
+    return worst;
+}
+
+BreakageCause ShearedNetwork::cause_of_breakage(Index contact) const {
+    const ShearedContact& bond = contacts_[static_cast<std::size_t>(contact)];
+    const std::array<double ContactModel::*, 3> strengths{&ContactModel::normal_strength, &ContactModel::shear_strength,
+                                                          &ContactModel::bending_strength};
+    const std::array<BreakageCause, 3> causes{BreakageCause::normal, BreakageCause::shear, BreakageCause::bending};
+    BreakageCause cause = BreakageCause::pull_off;
+    const double all = law_.load_ratio(bond.memory, radii_[bond.first], radii_[bond.second]);
+    for (std::size_t k = 0; k < strengths.size(); ++k) {
+        if (std::isnan(law_.model().*strengths[k])) {
+            continue;
+        }
+        ContactModel without = law_.model();
+        without.*strengths[k] = unset;
+        GeneralContact law(without);
+        law.set_age_factor(law_.age_factor());
+        if (law.load_ratio(bond.memory, radii_[bond.first], radii_[bond.second]) < all) {
+            cause = causes[k];
+        }
+    }
+    return cause;
+}
+
+void ShearedNetwork::break_bond(Index contact) {
+    ShearedContact& bond = contacts_[static_cast<std::size_t>(contact)];
+    law_.break_bond(bond.memory, radii_[bond.first], radii_[bond.second]);
+}
+
+double ShearedNetwork::energy(const std::vector<ContactMemory>& memory) const {
+    Eigen::VectorXd each(static_cast<Index>(memory.size()));
+#pragma omp parallel for schedule(static)
+    for (Index k = 0; k < each.size(); ++k) {
+        const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
+        each[k] = law_.energy(memory[static_cast<std::size_t>(k)], radii_[contact.first], radii_[contact.second]);
+    }
+    return each.sum();
+}
+
+double ShearedNetwork::reduced_energy(const Trial& trial) const {
+    return (energy(trial.memory) + trial.dissipated) / (stiffness_ * length_ * length_);
+}
+
+Eigen::Matrix3d ShearedNetwork::stress(const Trial& trial) const {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+        sum += trial.memory[k].branch * trial.wrench[k].head<3>().transpose();
+    }
+    return stiffness_ * length_ / volume_ * sum;
+}
+
+Index ShearedNetwork::intact_bonds() const {
+    return std::count_if(contacts_.begin(), contacts_.end(), [](const auto& contact) { return contact.memory.bonded; });
+}
+
+Index ShearedNetwork::touching_contacts() const {
+    return std::count_if(contacts_.begin(), contacts_.end(), [&](const auto& contact) {
+        return !contact.memory.bonded && law_.touches(contact.memory, radii_[contact.first], radii_[contact.second]);
+    });
+}
+
+double ShearedNetwork::age(double factor) {
+    const double before = law_.age_factor();
+    law_.set_age_factor(factor);
+    double lost = 0;
+    for (ShearedContact& contact : contacts_) {
+        lost += law_.reage(contact.memory, before, radii_[contact.first], radii_[contact.second]);
+    }
+    return lost;
+}
+
+}  // namespace coagula::mechanics

@@ -1,0 +1,65 @@
+// A path of equilibria under growing and falling strain, with the bonds that break on it and the balance of energy.
+#pragma once
+
+#include "equilibrium.hpp"
+#include "sheared_network.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace coagula::mechanics {
+
+class StrainPath {
+public:
+    /// Brings the packing to rest at strain 0.
+    /// @param largest_strain of the whole run: smallest step and the tolerance of events are relative to it.
+    StrainPath(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model, const QuasistaticOptions& options,
+               double largest_strain, const Progress& progress);
+
+    /// Follows the equilibria to a strain; `record` receives each of them, breakage of a bond giving one before and one after.
+    void go_to(double strain, const std::function<void(const StrainPoint&)>& record);
+
+    const StrainPoint& point() const { return point_; }
+    const std::vector<BrokenBond>& broken() const { return broken_; }
+    const SolverEffort& effort() const { return effort_; }
+
+    /// Numbers the sections of a sweep in what is recorded of broken bonds.
+    void begin_section(Index section) { section_ = section; }
+    /// See ShearedNetwork::age.
+    void age(double factor);
+
+private:
+    using Record = std::function<void(const StrainPoint&)>;
+
+    enum class Attempt { done, too_long, no_equilibrium };
+    Attempt step(double increment, const Record& record);
+    double smallest_resolved() const;
+    void commit(Trial& trial, const Record& record);
+    double work_between(const StrainPoint& from, const StrainPoint& to) const;
+    double defect(const Trial& trial) const;
+    bool is_smooth(const Trial& trial) const;
+    double excess(const Trial& trial) const;
+    bool locate_breakage(double increment, Trial& trial);
+    void break_overloaded(const Record& record);
+    void jump(double increment, const Record& record);
+    double settle();
+    Motion guess(double increment);
+    void remember(const Trial& trial);
+    void update_point();
+    [[noreturn]] void give_up(const std::string& what) const;
+
+    QuasistaticOptions options_;
+    double largest_strain_;
+    const Progress& progress_;
+    SolverEffort effort_;
+    ShearedNetwork network_;
+    EquilibriumSolver solver_;
+    Trial rest_;  ///< the forces of the committed state
+    StrainPoint point_;
+    std::vector<BrokenBond> broken_;
+    Index section_ = 0;
+    double step_;      ///< of strain that went well
+    Motion velocity_;  ///< motion per strain in the last step, empty: unknown
+};
+
+}  // namespace coagula::mechanics
