@@ -1,0 +1,51 @@
+// Shear modulus against the stiffness of the particles, and the stiffness that matches measured moduli.
+#pragma once
+
+#include <coagula/mechanics/linear.hpp>
+#include <coagula/mechanics/straight_line.hpp>
+
+#include <Eigen/Core>
+
+namespace coagula::mechanics {
+
+struct StiffnessSeriesOptions {
+    Eigen::VectorXd normal_stiffness;  ///< k_n of a particle [N/m], at least two values, rising, > 0
+    double stiffness_ratio = 10;       ///< k_n / k_s, the same for all, > 0
+    LinearOptions linear = {};         ///< how each modulus is computed; its two stiffnesses are those of the series
+};
+
+/// The moduli of one structure (Schenker et al. 2012, fig. 5).
+struct StiffnessSeries {
+    Eigen::VectorXd normal_stiffness;   ///< k_n [N/m]
+    Eigen::VectorXd shear_stiffness;    ///< k_s [N/m]
+    Eigen::VectorXd modulus;            ///< mean of the six orientations at each k_n [Pa]
+    Eigen::VectorXd modulus_deviation;  ///< standard deviation over the orientations [Pa]
+    StraightLine line;                  ///< of the modulus against k_n: slope [1/m], intercept [Pa]
+    StraightLine line_through_origin;
+    Index contacts = 0;
+    Index rattlers = 0;
+};
+
+/// Solves for the response at every stiffness by itself. For springs whose stiffnesses keep their ratio the displacements are the
+/// same at every k_n, so the modulus is proportional to k_n; a departure from the line through the origin is the error of the
+/// solution.
+///
+/// Throws std::invalid_argument for an impossible series and as solve_linear does.
+StiffnessSeries measure_stiffness_series(const Packing& packing, const ContactNetwork& bonds, const StiffnessSeriesOptions& options,
+                                         const Progress& progress = {});
+
+/// The particle stiffness at which the moduli are those measured.
+struct StiffnessCalibration {
+    Eigen::VectorXd matching;              ///< k_n that matches each structure by itself [N/m]
+    double common = unset;                 ///< k_n of least squared differences of the moduli, all structures together [N/m]
+    double common_stderr = unset;          ///< from the differences; unset for one structure
+    Eigen::VectorXd modulus_at_common;     ///< of each structure [Pa]
+    Eigen::VectorXd difference_at_common;  ///< that modulus less the measured one, relative to the measured one
+};
+
+/// @param slope modulus over k_n of each structure [1/m], > 0.
+/// @param measured modulus of each structure [Pa], > 0.
+/// Throws std::invalid_argument for sizes that differ and values out of range.
+StiffnessCalibration calibrate_stiffness(const Eigen::VectorXd& slope, const Eigen::VectorXd& measured);
+
+}  // namespace coagula::mechanics
