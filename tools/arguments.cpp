@@ -48,13 +48,15 @@ po::variables_map read_words(const Verb& verb, const std::vector<Option>& option
         const std::string names = option.letter != 0 ? option.name + "," + option.letter : option.name;
         if (option.kind == Option::Kind::flag) {
             description.add_options()(names.c_str(), "");
+        } else if (verb.many_inputs && option.name == "input") {
+            description.add_options()(names.c_str(), po::value<std::vector<std::string>>(), "");
         } else {
             description.add_options()(names.c_str(), po::value<std::string>(), "");
         }
     }
     po::positional_options_description positional;
     if (!verb.input.empty()) {
-        positional.add("input", 1);
+        positional.add("input", verb.many_inputs ? -1 : 1);
     }
     namespace style = po::command_line_style;
     po::variables_map map;
@@ -245,6 +247,10 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : 
             throw InputError("coagula " + verb.name + " needs " + name + hint(verb.name));
         }
         if (!given && option.fallback.empty()) {
+            continue;
+        }
+        if (verb.many_inputs && option.name == "input") {
+            values_["input"] = map["input"].as<std::vector<std::string>>();
             continue;
         }
         const bool is_flag = option.kind == Option::Kind::flag;

@@ -66,6 +66,7 @@ struct Verb {
     std::vector<Option> options;          ///< without those that every verb has
     void (*run)(const Arguments&);        ///< parse -> validate -> call -> write
     std::vector<std::string> notes = {};  ///< lines below the options in the help text
+    bool many_inputs = false;             ///< whether several arguments without a name may be given
 };
 
 /// The values of all options of one call: parsed, in SI units and within their ranges.
@@ -86,6 +87,8 @@ public:
     /// The text of an option, or `otherwise` when it was not given.
     std::string text(const std::string& name, const std::string& otherwise) const;
     const std::string& input() const { return text("input"); }
+    /// Of a verb that takes many, in the order given.
+    const std::vector<std::string>& inputs() const { return std::get<std::vector<std::string>>(values_.at("input")); }
 
     const std::string& verb() const { return verb_; }
     /// As it could be typed again.
@@ -94,7 +97,7 @@ public:
     nlohmann::ordered_json to_json() const;
 
 private:
-    using Value = std::variant<bool, std::int64_t, double, std::string>;
+    using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
 
     void store(const Option& option, const std::string& word);
 

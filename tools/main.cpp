@@ -25,7 +25,8 @@ constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
 std::vector<Verb> all_verbs() {
-    return {generate_vem_verb(), characterize_verb(), shear_verb(), info_verb(), import_verb(), export_verb()};
+    return {generate_vem_verb(),  characterize_verb(), shear_verb(),  calibrate_verb(),
+            fit_power_law_verb(), info_verb(),         import_verb(), export_verb()};
 }
 
 void print_program_help() {
@@ -52,6 +53,9 @@ Verb take_verb(std::vector<std::string>& words) {
             return verb;
         }
     }
+    if (words.front() == "fit") {
+        throw InputError("'fit' needs the name of a law, and the one law is 'fit power-law'");
+    }
     if (words.front() == "generate") {
         throw InputError(words.size() > 1 ? "'generate " + words[1] + "' is not a verb: the one generator is 'generate vem'"
                                           : "'generate' needs the name of a generator: 'generate vem'");
@@ -63,8 +67,9 @@ void run(std::vector<std::string> words) {
     if (words.empty()) {
         throw InputError("a verb is missing (see 'coagula --help')");
     }
-    const bool lists_generators = words.size() == 2 && words[0] == "generate" && (words[1] == "--help" || words[1] == "-h");
-    if (words.front() == "--help" || words.front() == "-h" || words.front() == "help" || lists_generators) {
+    const bool lists_names =
+        words.size() == 2 && (words[0] == "generate" || words[0] == "fit") && (words[1] == "--help" || words[1] == "-h");
+    if (words.front() == "--help" || words.front() == "-h" || words.front() == "help" || lists_names) {
         print_program_help();
         return;
     }

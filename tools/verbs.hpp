@@ -11,5 +11,7 @@ Verb shear_verb();
 Verb info_verb();
 Verb import_verb();
 Verb export_verb();
+Verb calibrate_verb();
+Verb fit_power_law_verb();
 
 }  // namespace coagula::tools

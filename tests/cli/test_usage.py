@@ -4,7 +4,7 @@ import unittest
 
 from support import ProgramTest
 
-VERBS = ["generate vem", "characterize", "shear", "info", "import", "export"]
+VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "info", "import", "export"]
 
 
 class Help(ProgramTest):
@@ -38,6 +38,11 @@ class WrongUsage(ProgramTest):
             (["fly"], "'fly'"),
             (["generate"], "generate vem"),
             (["generate", "snow"], "snow"),
+            (["fit"], "fit power-law"),
+            (["fit", "parabola", "a.csv"], "fit power-law"),
+            (["fit", "power-law"], "TABLE.csv"),
+            (["fit", "power-law", "a.csv", "b.csv"], "one TABLE.csv"),
+            (["calibrate"], "FILE.h5"),
             (["shear", "a.h5", "--colour", "red"], "--colour"),
             (["shear", "a.h5", "--norm", "1"], "--norm"),  # no abbreviations
             (["shear", "a.h5", "b.h5"], "one FILE.h5"),

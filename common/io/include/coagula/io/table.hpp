@@ -1,0 +1,31 @@
+// Tables of numbers as CSV: columns with their units in the header.
+#pragma once
+
+#include <coagula/common/checks.hpp>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coagula::io {
+
+/// A column to read.
+struct TableColumn {
+    std::string name;                         ///< in any case; without the unit
+    std::string unit;                         ///< the values are converted to it; "1" for pure numbers
+    std::optional<double> default_unit = {};  ///< worth of the values, in `unit`, where the header names no unit
+    bool required = true;                     ///< otherwise the values are empty when there is no such column
+};
+
+/// Reads columns of a CSV file whose header names them with their units in brackets ("modulus [MPa]"; pure numbers need none);
+/// lines before the header that begin with # and other columns are ignored. One vector for each of `columns`, one number per line.
+/// Throws InputError that names file, line and rule.
+std::vector<Eigen::VectorXd> read_table(const std::string& path, const std::vector<TableColumn>& columns);
+
+/// Writes rows of fields as CSV through a temporary file and a rename; fields with separators or quotes are quoted. Throws as
+/// write_structure does.
+void write_rows(const std::string& path, const std::vector<std::vector<std::string>>& rows, bool overwrite);
+
+}  // namespace coagula::io

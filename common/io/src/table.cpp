@@ -1,0 +1,82 @@
+#include <coagula/io/table.hpp>
+
+#include <coagula/io/structure_file.hpp>
+#include <coagula/io/units.hpp>
+
+#include <cmath>
+
+#include "atomic_file.hpp"
+#include "csv_reader.hpp"
+
+namespace coagula::io {
+
+namespace {
+
+/// What one unit of the column is worth.
+double unit_of(const CsvReader& table, const CsvReader::Column& found, const TableColumn& wanted) {
+    if (!found.unit.empty()) {
+        try {
+            return unit_factor(found.unit, wanted.unit);
+        } catch (const InputError& error) {
+            table.file().fail("column " + found.name + ": " + error.what());
+        }
+    }
+    if (!wanted.default_unit && wanted.unit != "1") {
+        table.file().fail("column " + found.name + " names no unit: write " + found.name + " [" + wanted.unit + "]");
+    }
+    return wanted.default_unit.value_or(1.0);
+}
+
+std::string quoted(const std::string& field) {
+    if (field.find_first_of(",;\t\"\n") == std::string::npos) {
+        return field;
+    }
+    std::string text = "\"";
+    for (const char c : field) {
+        text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    }
+    return text + '"';
+}
+
+}  // namespace
+
+std::vector<Eigen::VectorXd> read_table(const std::string& path, const std::vector<TableColumn>& columns) {
+    LineReader file(path);
+    CsvReader table(file);
+    std::vector<std::optional<CsvReader::Column>> found;
+    std::vector<double> units;
+    for (const TableColumn& column : columns) {
+        found.push_back(table.find(lower_case(column.name)));
+        if (!found.back() && column.required) {
+            file.fail("there is no column " + column.name + "; the first line must be a header that names it");
+        }
+        units.push_back(found.back() ? unit_of(table, *found.back(), column) : 1.0);
+    }
+    std::vector<std::vector<double>> values(columns.size());
+    while (table.next()) {
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            if (found[k]) {
+                values[k].push_back(table.number(*found[k]) * units[k]);
+            }
+        }
+    }
+    std::vector<Eigen::VectorXd> result;
+    for (const std::vector<double>& column : values) {
+        result.emplace_back(Eigen::VectorXd::Map(column.data(), static_cast<Index>(column.size())));
+    }
+    return result;
+}
+
+void write_rows(const std::string& path, const std::vector<std::vector<std::string>>& rows, bool overwrite) {
+    check_output(path, overwrite);
+    std::string out;
+    for (const std::vector<std::string>& row : rows) {
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            out += (k > 0 ? "," : "") + quoted(row[k]);
+        }
+        out += '\n';
+    }
+    write_file(path, out, overwrite);
+}
+
+}  // namespace coagula::io
