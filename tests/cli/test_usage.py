@@ -66,7 +66,7 @@ class WrongUsage(ProgramTest):
 
     def test_methods_to_come(self):
         self.copy_of_packing()
-        for method in ("quasistatic", "dem"):
+        for method in ("quasistatic",):
             self.fail_with(2, "shear", "packing.h5", "--method", method, says="not available in this version")
 
     def test_errors_with_json_are_sentences_on_standard_error(self):

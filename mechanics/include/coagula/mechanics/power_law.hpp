@@ -82,7 +82,7 @@ PowerLaw fit_power_law_at(const PowerLawData& data, double a0);
 /// The confidence interval of a0 holds the values whose sum of squares S exceeds the least, S_min, by a factor of at most
 /// 1 + F / m, with F the quantile of the F distribution with 1 and m degrees of freedom; with standard errors by at most the
 /// quantile of chi^2 with one degree of freedom (likelihood ratio). Where this set has gaps, the interval covers them.
-/// Law: Schenker et al. 2012, sec. 4.2; intervals: Bates & Watts, Nonlinear Regression Analysis (1988), sec. 6.1.
+/// Law: Schenker et al. 2012, sec. 3.2; intervals: Bates & Watts, Nonlinear Regression Analysis (1988), ch. 6.
 ///
 /// Throws std::invalid_argument for fewer than three structures or values of a, values that are not finite and positive (a may be
 /// negative), or moduli that are all the same.
