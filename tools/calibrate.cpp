@@ -33,8 +33,8 @@ struct Structures {
     const Eigen::VectorXd& shear_stiffness() const { return series.front().shear_stiffness; }
     /// Modulus over that of the first structure; nothing when that carries no load.
     Moduli ratio(std::size_t k) const {
-        const Eigen::VectorXd& first = series.front().modulus;
-        return first.minCoeff() > 0 ? Moduli(series[k].modulus.cwiseQuotient(first)) : std::nullopt;
+        const StiffnessSeries& first = series.front();
+        return first.carries_shear ? Moduli(series[k].modulus.cwiseQuotient(first.modulus)) : std::nullopt;
     }
 };
 
@@ -99,7 +99,7 @@ std::optional<StiffnessCalibration> calibrate(const Structures& structures, cons
     }
     Eigen::VectorXd slope(measured->size());
     for (std::size_t k = 0; k < structures.size(); ++k) {
-        if (structures.series[k].modulus.minCoeff() <= 0) {
+        if (!structures.series[k].carries_shear) {
             throw InputError(structures.files[k] +
                              " carries no shear: its modulus is zero at every stiffness, none matches --measured");
         }

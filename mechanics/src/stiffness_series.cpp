@@ -40,6 +40,7 @@ StiffnessSeries measure_stiffness_series(const Packing& packing, const ContactNe
         const LinearResponse response = solve_linear(packing, bonds, linear, part);
         series.modulus[k] = response.mean_shear_modulus();
         series.modulus_deviation[k] = response.shear_modulus_deviation();
+        series.carries_shear = response.mean_shear_modulus() > 1e-8 * response.mean_affine_modulus();
         series.contacts = response.contacts;
         series.rattlers = response.rattlers;
     }

@@ -46,6 +46,7 @@ TEST(StiffnessSeries, ModulusIsProportionalToStiffness) {
     const ContactNetwork bonds = find_contacts(packing, 0.2);
     const StiffnessSeries series = measure_stiffness_series(packing, bonds, five_stiffnesses());
     ASSERT_GT(series.modulus[0], 1e3);
+    EXPECT_TRUE(series.carries_shear);
     EXPECT_TRUE(series.shear_stiffness.isApprox(series.normal_stiffness / 10, 1e-15));
     for (Index k = 0; k < 5; ++k) {
         const double scale = series.normal_stiffness[k] / series.normal_stiffness[0];
@@ -71,6 +72,18 @@ TEST(StiffnessSeries, ValuesAreThoseOfTheLinearResponse) {
     EXPECT_EQ(series.rattlers, response.rattlers);
     const StiffnessSeries softer = measure_stiffness_series(packing, bonds, five_stiffnesses(40));
     EXPECT_LT(softer.modulus[3], 0.95 * series.modulus[3]);
+}
+
+/// A straight row of spheres around the box resists a pull, but no shear.
+TEST(StiffnessSeries, RowOfSpheresCarriesNoShear) {
+    Packing packing;
+    packing.cell = Cell::periodic(Eigen::Vector3d::Constant(4e-6));
+    packing.positions = Eigen::Matrix3Xd::Constant(3, 4, 1e-6);
+    packing.positions.row(0) << 0, 1e-6, 2e-6, 3e-6;
+    packing.radii = Eigen::VectorXd::Constant(4, 0.5e-6);
+    const StiffnessSeries series = measure_stiffness_series(packing, find_contacts(packing, 0.01), five_stiffnesses());
+    EXPECT_EQ(series.contacts, 4);
+    EXPECT_FALSE(series.carries_shear);
 }
 
 TEST(StiffnessSeries, RefusesImpossibleSeries) {

@@ -22,6 +22,7 @@ struct StiffnessSeries {
     Eigen::VectorXd modulus_deviation;  ///< standard deviation over the orientations [Pa]
     StraightLine line;                  ///< of the modulus against k_n: slope [1/m], intercept [Pa]
     StraightLine line_through_origin;
+    bool carries_shear = false;  ///< the modulus exceeds 1e-8 of the affine one; what is less is rounding
     Index contacts = 0;
     Index rattlers = 0;
 };
