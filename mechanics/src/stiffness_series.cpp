@@ -16,6 +16,8 @@ void check_series(const StiffnessSeriesOptions& options) {
                                                                " N/m follows " + to_text(stiffness[k > 0 ? k - 1 : 0]) + " N/m");
     }
     require_positive(options.stiffness_ratio, "the ratio of normal to shear stiffness");
+    require(options.linear.bond_tangents.empty(),
+            "a stiffness series varies the stiffness of all particles alike: the bonds must have no tangents of their own");
 }
 
 }  // namespace

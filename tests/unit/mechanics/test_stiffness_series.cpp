@@ -98,6 +98,9 @@ TEST(StiffnessSeries, RefusesImpossibleSeries) {
     refused(Eigen::Vector2d(0, 1), 10);
     refused(Eigen::Vector2d(1, 2), 0);
     refused(Eigen::Vector2d(1, unset), 10);
+    StiffnessSeriesOptions own_stiffness = five_stiffnesses();
+    own_stiffness.linear.bond_tangents.resize(1);
+    EXPECT_THROW(measure_stiffness_series(packing, bonds, own_stiffness), std::invalid_argument);
 }
 
 TEST(StiffnessSeries, CanBeCancelled) {

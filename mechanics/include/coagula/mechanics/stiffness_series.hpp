@@ -11,7 +11,8 @@ namespace coagula::mechanics {
 struct StiffnessSeriesOptions {
     Eigen::VectorXd normal_stiffness;  ///< k_n of a particle [N/m], at least two values, rising, > 0
     double stiffness_ratio = 10;       ///< k_n / k_s, the same for all, > 0
-    LinearOptions linear = {};         ///< how each modulus is computed; its two stiffnesses are those of the series
+    LinearOptions linear = {};         ///< how each modulus is computed; its two stiffnesses are those of the series, and
+                                       ///< bond_tangents must be empty
 };
 
 /// The moduli of one structure (Schenker et al. 2012, fig. 5).
