@@ -5,6 +5,7 @@
 #include "output_file.hpp"
 #include "progress_bar.hpp"
 #include "provenance.hpp"
+#include "quasistatic_run.hpp"
 #include "report.hpp"
 #include "rheometer_run.hpp"
 #include "shear_findings.hpp"
@@ -83,12 +84,6 @@ mechanics::LinearOptions linear_options(const Arguments& arguments, const Contac
     return options;
 }
 
-void check_method(const std::string& method) {
-    if (method == "quasistatic") {
-        throw InputError("--method " + method + " is not available in this version; use --method linear or dem");
-    }
-}
-
 /// A sample with a free surface is strained by its outer particles, those whose Voronoi cells the surroundings could change; the
 /// stress is averaged over the cells of the others.
 void hold_surface(const Packing& packing, mechanics::LinearOptions& options) {
@@ -160,11 +155,11 @@ Findings frequency_response(const Arguments& arguments, const Packing& packing, 
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
-    check_method(arguments.text("method"));
     const std::vector<double> frequencies = frequencies_of(arguments);
     const ContactModel model = contact_model(arguments);
     const bool explicit_run = arguments.text("method") == "dem";
-    if (frequencies.empty() && !explicit_run) {
+    const bool quasistatic = arguments.text("method") == "quasistatic";
+    if (frequencies.empty() && !explicit_run && !quasistatic) {
         check_elastic(arguments, model);
     }
     const Packing packing = io::read_structure(arguments.input()).packing;
@@ -175,9 +170,10 @@ void run(const Arguments& arguments) {
     const Packing& sheared = rest ? rest->packing : packing;
     const ContactNetwork& network = rest ? rest->bonds : bonds;
     Findings found = explicit_run          ? rheometer_response(arguments, sheared, network, model, frequencies, progress)
+                     : quasistatic         ? quasistatic_response(arguments, sheared, network, model, frequencies, progress)
                      : frequencies.empty() ? linear_response(arguments, packing, sheared, network, model, progress)
                                            : frequency_response(arguments, sheared, network, model, frequencies, progress);
-    if (!explicit_run) {
+    if (!explicit_run && !quasistatic) {
         append_without_effect(found, model);
     }
     if (rest) {
@@ -228,9 +224,10 @@ Verb shear_verb() {
                   "With --frequency the springs may have losses (--model); of the solver's options the tolerance counts.",
                   "Strengths, friction and ageing play no part at vanishing strain: linear and --frequency results name them.",
                   "--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
-                  "The method quasistatic is not available in this version."}};
-    const std::vector<Option> own = rheometer_options();
-    verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
+                  "With --method quasistatic and neither --amplitudes nor --ramp: secant moduli at a strain of 1e-6."}};
+    for (const std::vector<Option>& own : {rheometer_options(), quasistatic_options()}) {
+        verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
+    }
     return verb;
 }
 

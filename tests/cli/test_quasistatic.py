@@ -1,0 +1,53 @@
+"""Quasi-static shear: keys, agreement with the linear response, options and models that are refused."""
+
+import math
+import unittest
+
+from support import ProgramTest
+
+MODEL = """normal_strength = "12 nN"
+bending_stiffness = "3e-14 N.m"
+twisting_stiffness = "3e-14 N.m"
+friction = 0.3
+"""
+
+
+class Quasistatic(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.copy_of_packing()
+
+    def shear(self, *words):
+        return self.succeed_json("shear", "packing.h5", "--method", "quasistatic", "-o", "out.h5", "--force", *words)
+
+    def test_small_strain_is_the_linear_response(self):
+        linear = self.succeed_json("shear", "packing.h5", "-o", "linear.h5")
+        found = self.shear()
+        self.assertEqual(found["method"], "quasistatic")
+        for name in ("xy", "xz", "yx", "yz", "zx", "zy", "mean"):
+            self.assertAlmostEqual(found["storage_modulus"][name] / linear["storage_modulus"][name], 1, delta=1e-3)
+
+    def test_sweep_with_breakage(self):
+        self.write("model.toml", MODEL)
+        found = self.shear("--amplitudes", "1e-4,1e-3", "--down", "--orientation", "zx", "--model", "model.toml",
+                           "--steps-per-cycle", "16")
+        self.assertEqual(found["amplitude"], [1e-4, 1e-3, 1e-3, 1e-4])
+        for k, amplitude in enumerate(found["amplitude"]):
+            storage, loss = found["storage_modulus"]["zx"][k], found["loss_modulus"]["zx"][k]
+            self.assertGreater(storage, 0)
+            self.assertAlmostEqual(found["sweep"]["zx"]["loop_area"][k] / (math.pi * amplitude ** 2), loss, delta=1e-6 * storage)
+            self.assertLess(found["sweep"]["zx"]["balance_error"][k], 1e-5)
+
+    def test_refused(self):
+        def refuse(says, *words):
+            self.fail_with(2, "shear", "packing.h5", "--method", "quasistatic", *words, says=says)
+
+        refuse("exclude", "--amplitudes", "1e-3", "--ramp", "1e-3")
+        refuse("--amplitudes", "--amplitudes", "1e-3:1e-2")
+        refuse("--amplitudes", "--amplitudes", "-1")
+        self.write("model.toml", 'normal_viscosity = "1 mN.s/m"\n')
+        refuse("dashpot", "--model", "model.toml")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,262 @@
+#include "quasistatic_run.hpp"
+
+#include "orientation_list.hpp"
+
+#include <coagula/io/contact_model_file.hpp>
+#include <coagula/io/units.hpp>
+#include <coagula/mechanics/quasistatic.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace coagula::tools {
+
+namespace {
+
+using mechanics::ShearOrientation;
+
+const std::string group = "/mechanics/quasistatic/";
+constexpr double small_strain = 1e-6;
+constexpr double yield_fraction = 0.9;
+
+struct Test {
+    ShearOrientation orientation;
+    mechanics::RampResponse ramp;
+    mechanics::SweepResponse sweep;
+};
+
+double parse_strain(const std::string& word) {
+    const double value = io::parse_quantity(word, "1");
+    if (!(value > 0)) {
+        throw InputError("--amplitudes: '" + word + "' is out of range: an amplitude of strain must be > 0");
+    }
+    return value;
+}
+
+mechanics::QuasistaticOptions solver_options(const Arguments& arguments, const ShearOrientation& orientation) {
+    return {.orientation = orientation,
+            .rest_length =
+                arguments.text("rest-length") == "found" ? mechanics::RestLength::as_found : mechanics::RestLength::touching};
+}
+
+/// Mean, standard deviation and one array per orientation.
+void append_modulus(Results& results, const std::string& name, const std::vector<Test>& tests, const Eigen::MatrixXd& values,
+                    const std::string& description) {
+    const Eigen::VectorXd mean = values.colwise().mean();
+    const Eigen::VectorXd deviation = (values.rowwise() - mean.transpose()).array().square().colwise().mean().sqrt();
+    const auto add = [&](const std::string& key, const Eigen::VectorXd& value, const std::string& of) {
+        results.push_back(value.size() == 1 ? io::scalar(group + name + "/" + key, value[0], "Pa", description + ", " + of)
+                                            : io::vector(group + name + "/" + key, value, "Pa", description + ", " + of));
+    };
+    add("mean", mean, "mean of the orientations");
+    add("std", deviation, "standard deviation over the orientations");
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+        const std::string of = name_of(tests[k].orientation);
+        add(of, values.row(static_cast<Index>(k)), "plate normal and shear direction " + of);
+    }
+}
+
+template <class Entries, class Value>
+Eigen::VectorXd collect(const Entries& entries, const Value& value) {
+    Eigen::VectorXd values(static_cast<Index>(entries.size()));
+    std::transform(entries.begin(), entries.end(), values.begin(), value);
+    return values;
+}
+
+void append_broken(Results& results, const std::string& path, const std::vector<mechanics::BrokenBond>& broken) {
+    Eigen::VectorXi bond(static_cast<Index>(broken.size()));
+    std::transform(broken.begin(), broken.end(), bond.begin(), [](const auto& entry) { return static_cast<int>(entry.bond); });
+    if (!broken.empty()) {
+        results.push_back(io::integers(path + "broken/bond", bond, "column in the list of bonds, in the order of breakage"));
+        results.push_back(io::vector(path + "broken/strain", collect(broken, [](const auto& entry) { return entry.strain; }), "1",
+                                     "strain at which it broke"));
+    }
+    results.push_back(io::integer(path + "broken_bonds", static_cast<Index>(broken.size()), "number of bonds that broke"));
+}
+
+void append_points(Results& results, const std::string& path, const mechanics::RampResponse& ramp,
+                   const ShearOrientation& orientation) {
+    const auto add = [&](const std::string& name, const auto& value, const std::string& unit, const std::string& description) {
+        results.push_back(io::vector(path + name, collect(ramp.points, value), unit, description));
+    };
+    using Point = mechanics::StrainPoint;
+    add(
+        "strain", [](const Point& p) { return p.strain; }, "1", "of each equilibrium");
+    add(
+        "stress", [&](const Point& p) { return p.stress(orientation.normal, orientation.direction); }, "Pa", "shear stress");
+    add(
+        "work", [](const Point& p) { return p.work; }, "J", "done by the boundary");
+    add(
+        "stored", [](const Point& p) { return p.stored; }, "J", "energy in the contacts");
+    add(
+        "dissipated", [](const Point& p) { return p.dissipated; }, "J", "by friction and micro-slip");
+    add(
+        "breakage", [](const Point& p) { return p.breakage; }, "J", "set free by breaking bonds");
+    add(
+        "released", [](const Point& p) { return p.released; }, "J", "set free by falls to another equilibrium");
+    add(
+        "bonds", [](const Point& p) { return static_cast<double>(p.bonds); }, "1", "intact bonds");
+}
+
+void append_ramps(Results& results, const std::vector<Test>& tests) {
+    Eigen::MatrixXd first(static_cast<Index>(tests.size()), 1);
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+        const ShearOrientation& orientation = tests[k].orientation;
+        const mechanics::RampResponse& ramp = tests[k].ramp;
+        first(static_cast<Index>(k), 0) = ramp.secant_modulus(1, orientation);
+        const std::string path = group + "ramp/" + name_of(orientation) + "/";
+        append_points(results, path, ramp, orientation);
+        append_broken(results, path, ramp.broken);
+        std::vector<double> strain;
+        std::vector<double> secant;
+        const auto stress = [&](const mechanics::StrainPoint& point) {
+            return std::abs(point.stress(orientation.normal, orientation.direction));
+        };
+        const auto peak = std::max_element(ramp.points.begin(), ramp.points.end(),
+                                           [&](const auto& a, const auto& b) { return stress(a) < stress(b); });
+        for (std::size_t point = 1; point < ramp.points.size(); ++point) {
+            strain.push_back(ramp.points[point].strain);
+            secant.push_back(ramp.secant_modulus(point, orientation));
+        }
+        results.push_back(io::scalar(path + "yield_strain", mechanics::yield_strain(strain, secant, yield_fraction), "1",
+                                     "strain where the secant modulus has fallen to 0.9 of the first one; NaN: nowhere"));
+        results.push_back(io::scalar(path + "peak_strain", peak->strain, "1", "strain of the largest stress"));
+        results.push_back(io::scalar(path + "peak_stress", stress(*peak), "Pa", "largest stress"));
+    }
+    append_modulus(results, "storage_modulus", tests, first, "secant modulus of the first step");
+}
+
+void append_sweeps(Results& results, const std::vector<Test>& tests) {
+    const auto& amplitudes = tests.front().sweep.amplitudes;
+    results.push_back(io::vector(group + "amplitude", collect(amplitudes, [](const auto& a) { return a.amplitude; }), "1",
+                                 "of the strain, in the order of the run"));
+    Eigen::MatrixXd storage(static_cast<Index>(tests.size()), static_cast<Index>(amplitudes.size()));
+    Eigen::MatrixXd loss = storage;
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+        const auto& run = tests[k].sweep.amplitudes;
+        storage.row(static_cast<Index>(k)) = collect(run, [](const auto& a) { return a.storage_modulus; });
+        loss.row(static_cast<Index>(k)) = collect(run, [](const auto& a) { return a.loss_modulus; });
+        const std::string path = group + "sweep/" + name_of(tests[k].orientation) + "/";
+        const auto add = [&](const std::string& name, const auto& value, const std::string& unit, const std::string& description) {
+            results.push_back(io::vector(path + name, collect(run, value), unit, description));
+        };
+        using Entry = mechanics::AmplitudeResponse;
+        add(
+            "third_harmonic", [](const Entry& a) { return a.third_harmonic; }, "1", "of the stress over its fundamental");
+        add(
+            "loop_area", [](const Entry& a) { return a.loop_area; }, "J/m3", "of stress against strain");
+        add(
+            "peak_stress", [](const Entry& a) { return a.peak_stress; }, "Pa", "largest");
+        add(
+            "bonds", [](const Entry& a) { return static_cast<double>(a.bonds); }, "1", "intact at the end");
+        add(
+            "balance_error", [](const Entry& a) { return a.balance_error; }, "1", "work against energy, over the gross work");
+        append_broken(results, path, tests[k].sweep.broken);
+    }
+    append_modulus(results, "storage_modulus", tests, storage, "fundamental in phase, per amplitude");
+    append_modulus(results, "loss_modulus", tests, loss, "fundamental ahead of the strain, per amplitude");
+    const Eigen::VectorXd phase = loss.colwise().mean().binaryExpr(
+        storage.colwise().mean(), [](double lost, double stored) { return std::atan2(lost, stored); });
+    results.push_back(io::vector(group + "phase", phase, "rad", "of the mean moduli"));
+}
+
+Table table_of(const std::vector<Test>& tests, bool sweep) {
+    Table table;
+    for (const Test& test : tests) {
+        const std::string name = name_of(test.orientation);
+        if (sweep) {
+            for (const auto& entry : test.sweep.amplitudes) {
+                table.emplace_back(name + ", amplitude " + with_unit(entry.amplitude, "1"),
+                                   "G' " + with_unit(entry.storage_modulus, "Pa") + ", G'' " + with_unit(entry.loss_modulus, "Pa") +
+                                       ", " + std::to_string(entry.broken) + " bonds broken");
+            }
+        } else {
+            const auto& points = test.ramp.points;
+            table.emplace_back(name + ", strain " + with_unit(points.back().strain, "1"),
+                               "secant modulus " + with_unit(test.ramp.secant_modulus(points.size() - 1, test.orientation), "Pa") +
+                                   ", " + std::to_string(test.ramp.broken.size()) + " bonds broken");
+        }
+    }
+    return table;
+}
+
+}  // namespace
+
+std::vector<Option> quasistatic_options() {
+    return {text("amplitudes", "LIST", "quasistatic: amplitudes of strain such as 1e-4,1e-3 or FROM:TO:N in logarithmic steps"),
+            flag("down", "quasistatic: the amplitudes once more, downwards"),
+            count("cycles", "quasistatic: cycles per amplitude, the last is measured", "1", within(1, 1000)),
+            count("steps-per-cycle", "quasistatic: equilibria in a cycle, a multiple of 4", "32", within(4, 100000)),
+            quantity("ramp", "1", "quasistatic: shear to this strain instead of cycles", "", Range{}),
+            count("ramp-steps", "quasistatic: equally spaced equilibria on the ramp", "50", within(1, 100000))};
+}
+
+std::vector<double> parse_amplitudes(const std::string& text) {
+    const std::vector<std::string> parts = split(text, ':');
+    std::vector<double> amplitudes;
+    if (parts.size() == 1) {
+        for (const std::string& word : split(text)) {
+            amplitudes.push_back(parse_strain(word));
+        }
+        return amplitudes;
+    }
+    int number = 0;
+    const bool three = parts.size() == 3;
+    const auto read = three ? std::from_chars(parts[2].data(), parts[2].data() + parts[2].size(), number).ec : std::errc{};
+    if (!three || read != std::errc{} || number < 2 || number > 10000) {
+        throw InputError("--amplitudes: '" + text + "' is no range FROM:TO:NUMBER, such as 1e-4:1e-2:10");
+    }
+    const double from = parse_strain(parts[0]);
+    const double to = parse_strain(parts[1]);
+    for (int k = 0; k < number; ++k) {
+        amplitudes.push_back(from * std::pow(to / from, static_cast<double>(k) / (number - 1)));
+    }
+    return amplitudes;
+}
+
+Findings quasistatic_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
+                              const ContactModel& model, const std::vector<double>& frequencies, const Progress& progress) {
+    const bool sweep = arguments.has("amplitudes");
+    if (sweep && arguments.has("ramp")) {
+        throw InputError("--amplitudes and --ramp exclude each other");
+    }
+    std::vector<double> amplitudes = sweep ? parse_amplitudes(arguments.text("amplitudes")) : std::vector<double>{};
+    if (arguments.flag("down")) {
+        const std::vector<double> up = amplitudes;
+        amplitudes.insert(amplitudes.end(), up.rbegin(), up.rend());
+    }
+    std::vector<Test> tests;
+    for (const ShearOrientation& orientation : parse_orientations(arguments.text("orientation"))) {
+        Test test{orientation, {}, {}};
+        const mechanics::QuasistaticOptions solver = solver_options(arguments, orientation);
+        if (sweep) {
+            test.sweep = mechanics::sweep_amplitudes(packing, bonds, model,
+                                                     {.amplitudes = amplitudes,
+                                                      .cycles = arguments.count("cycles"),
+                                                      .steps_per_cycle = arguments.count("steps-per-cycle"),
+                                                      .frequency = frequencies.empty() ? unset : frequencies.front(),
+                                                      .solver = solver},
+                                                     progress);
+        } else {
+            const double strain = arguments.optional_quantity("ramp").value_or(small_strain);
+            const Index steps = arguments.has("ramp") ? arguments.count("ramp-steps") : 1;
+            test.ramp = mechanics::shear_to(packing, bonds, model, {.strain = strain, .steps = steps, .solver = solver}, progress);
+        }
+        tests.push_back(std::move(test));
+    }
+    Findings found{.group = "/mechanics/quasistatic", .results = {}, .table = table_of(tests, sweep)};
+    found.results.push_back(io::text(group + "method", "quasistatic", "equilibria of the network in a deforming periodic cell"));
+    found.results.push_back(io::integer(group + "contacts", bonds.size(), "number of bonds at the start"));
+    found.results.push_back(io::scalar(group + "bond_tolerance", arguments.quantity("bond-tolerance"), "1",
+                                       "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
+    found.results.push_back(io::text(group + "model", io::contact_model_text(model), "the contact as a TOML file"));
+    if (sweep) {
+        append_sweeps(found.results, tests);
+    } else {
+        append_ramps(found.results, tests);
+    }
+    return found;
+}
+
+}  // namespace coagula::tools
