@@ -25,8 +25,8 @@ constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
 std::vector<Verb> all_verbs() {
-    return {generate_vem_verb(),  characterize_verb(), shear_verb(),  calibrate_verb(),
-            fit_power_law_verb(), info_verb(),         import_verb(), export_verb()};
+    return {generate_vem_verb(), characterize_verb(), shear_verb(),  calibrate_verb(), fit_power_law_verb(),
+            diagnose_verb(),     info_verb(),         import_verb(), export_verb()};
 }
 
 void print_program_help() {

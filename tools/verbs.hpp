@@ -8,6 +8,7 @@ namespace coagula::tools {
 Verb generate_vem_verb();
 Verb characterize_verb();
 Verb shear_verb();
+Verb diagnose_verb();
 Verb info_verb();
 Verb import_verb();
 Verb export_verb();

@@ -2,6 +2,7 @@
 
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -150,6 +151,13 @@ double unit_factor(const std::string& from, const std::string& to) {
         throw InputError(what + ": its zero lies elsewhere");
     }
     return apply(found, 1.0);
+}
+
+std::vector<double> convert(const std::vector<double>& values, const std::string& from, const std::string& to) {
+    const Conversion found = conversion(std::string(trim(from)), to, "'" + from + "' is not a unit of the dimension of " + to);
+    std::vector<double> converted(values.size());
+    std::transform(values.begin(), values.end(), converted.begin(), [&](double value) { return apply(found, value); });
+    return converted;
 }
 
 }  // namespace coagula::io

@@ -4,6 +4,7 @@
 #include <coagula/common/checks.hpp>
 
 #include <string>
+#include <vector>
 
 namespace coagula::io {
 
@@ -16,5 +17,8 @@ double parse_quantity(const std::string& text, const std::string& unit);
 /// How many `to` are in one `from`: unit_factor("um", "m") is 1e-6. Throws InputError as parse_quantity does, and for a scale with
 /// another zero, such as degrees Celsius.
 double unit_factor(const std::string& from, const std::string& to);
+
+/// Numbers in `from` as numbers in `to`; scales with another zero are converted too (degC to K). NaN stays NaN. Throws InputError.
+std::vector<double> convert(const std::vector<double>& values, const std::string& from, const std::string& to);
 
 }  // namespace coagula::io

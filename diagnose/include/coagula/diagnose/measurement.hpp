@@ -1,0 +1,135 @@
+// Measured data as plain values: columns in SI units, what was left out and why, and the experiment they belong to.
+#pragma once
+
+#include <coagula/common/checks.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// What was measured against what.
+enum class MeasurementKind {
+    frequency_sweep,   ///< moduli against angular frequency at one strain amplitude
+    amplitude_sweep,   ///< moduli against strain amplitude at one frequency
+    time_sweep,        ///< moduli against time at one strain amplitude and frequency
+    waveform,          ///< strain and stress against time within an oscillation
+    gap_series,        ///< moduli against the gap between the plates
+    structure_series,  ///< moduli against what characterises the structure: heterogeneity, coordination, volume fraction
+    coordinates,       ///< centres of particles
+    pore_curve,        ///< exclusion probability against distance from the particle surfaces
+};
+
+/// "frequency-sweep", ...
+std::string_view name_of(MeasurementKind kind);
+std::optional<MeasurementKind> measurement_kind(std::string_view name);
+std::span<const MeasurementKind> all_measurement_kinds();
+
+/// A column that a table may have.
+struct Quantity {
+    std::string_view name;  ///< "storage_modulus"
+    std::string_view unit;  ///< SI, UDUNITS text
+    double low;             ///< values below are impossible; `low` itself too where `low_excluded`
+    bool low_excluded;
+    double high;
+    std::string_view meaning;
+};
+
+std::span<const Quantity> all_quantities();
+/// Null when there is none of this name.
+const Quantity* find_quantity(std::string_view name);
+
+/// What a table of this kind must have.
+struct TableRule {
+    std::vector<std::string_view> axes;      ///< the axis is the first of these that the table has; empty: none
+    std::vector<std::string_view> required;  ///< besides the axis
+    std::size_t fewest_rows;                 ///< with a readable axis and all required columns
+    bool ordered;                            ///< the axis runs in one direction
+};
+TableRule rule_of(MeasurementKind kind);
+
+struct Column {
+    std::string name;                          ///< of a quantity
+    std::string unit;                          ///< SI
+    std::vector<double> values;                ///< one per row; NaN where the cell is empty or left out
+    std::vector<double> standard_errors = {};  ///< one per row in the same unit, or none
+};
+
+/// A cell that is not used.
+struct LeftOutCell {
+    std::string column;
+    std::size_t row;    ///< from 0
+    std::string value;  ///< as it was read
+    std::string reason;
+};
+
+/// One table: one sweep on one sample.
+struct Measurement {
+    MeasurementKind kind = MeasurementKind::frequency_sweep;
+    std::string label;   ///< names the table in messages: file, section, point
+    std::string sample;  ///< tables of one sample share its random effect
+    int run_order = 0;   ///< position in the sequence of runs on this sample
+    std::vector<Column> columns;
+    std::vector<LeftOutCell> left_out;
+
+    std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
+};
+
+/// Null when the table has no such column.
+const Column* find_column(const Measurement& measurement, std::string_view name);
+/// The column that is the axis of its kind; null when there is none.
+const Column* axis_of(const Measurement& measurement);
+
+/// What the particles and the solvent are; unset (NaN) where nobody said.
+struct Sample {
+    std::string name;
+    double particle_radius = unset;    ///< m
+    double density = unset;            ///< of the particles, kg/m3
+    double volume_fraction = unset;    ///< 0 .. 1
+    double solvent_viscosity = unset;  ///< Pa.s
+    double temperature = unset;        ///< K
+};
+
+enum class Geometry { plate_plate, cone_plate, concentric_cylinders };
+std::string_view name_of(Geometry geometry);
+std::optional<Geometry> geometry(std::string_view name);
+
+/// The rheometer; unset (NaN) where nobody said.
+struct Instrument {
+    std::optional<Geometry> geometry;
+    double plate_radius = unset;     ///< m; of the cone or plate
+    double gap = unset;              ///< m
+    double cone_angle = unset;       ///< rad
+    double inner_radius = unset;     ///< m; concentric cylinders
+    double outer_radius = unset;     ///< m
+    double tool_inertia = unset;     ///< kg.m2
+    double tool_compliance = unset;  ///< rad/(N.m)
+};
+
+/// How to make structures of the sample where none are given as files.
+struct StructureRecipe {
+    std::string generator;  ///< "vem" or "brownian"
+    int particles = 0;
+    int voids = 0;                        ///< vem
+    double surface_potential = unset;     ///< V, brownian
+    double target_coordination = unset;   ///< 1
+    std::vector<std::size_t> seeds = {};  ///< one structure each
+};
+
+struct Experiment {
+    std::string title;
+    Sample sample;
+    Instrument instrument;
+    std::vector<std::string> structures;    ///< paths of HDF5 files
+    std::optional<StructureRecipe> recipe;  ///< otherwise
+    std::vector<Measurement> measurements;
+};
+
+/// Throws InputError when sample, instrument and recipe contradict themselves or each other (gap 0, outer radius below inner ...).
+void check(const Experiment& experiment);
+
+}  // namespace coagula::diagnose

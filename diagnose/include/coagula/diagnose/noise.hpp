@@ -1,0 +1,88 @@
+// Noise of measured data: a floor, a relative part and a random effect of each sample, estimated from replicates.
+//
+//     y = mu (1 + b) + e,     b ~ N(0, sample^2) once per sample,     e ~ N(0, (w floor)^2 + (relative mu)^2) in each row
+//
+// The floor of a modulus is one of the stress where the strain amplitude is known, w = 1/strain: a rheometer resolves a torque.
+// Otherwise w = 1.
+#pragma once
+
+#include <coagula/diagnose/measurement.hpp>
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// One observable under the same conditions, several times.
+struct Replicates {
+    MeasurementKind kind = MeasurementKind::amplitude_sweep;
+    std::string observable;  ///< name of a quantity
+    std::string unit;
+    Eigen::VectorXd axis;              ///< one per condition
+    std::vector<std::string> samples;  ///< one per table; tables of one sample share its effect
+    Eigen::MatrixXd values;            ///< conditions x tables; NaN where there is none
+    Eigen::VectorXd floor_weights;     ///< w, one per condition
+    bool floor_of_stress = false;      ///< w is 1/strain
+};
+
+/// Tables of one kind whose axes share at least three values, to 2 %, and that were measured at the same frequency and strain as
+/// far as these are not the axis; moduli of sweeps and gap series only. Tables without a partner make a group of their own. The
+/// measurements must have passed check_data.
+std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurements);
+
+/// A standard deviation with its 95 % profile-likelihood interval; low = high where it was not estimated.
+struct Estimate {
+    double value = 0;
+    double low = 0;
+    double high = 0;
+};
+
+struct SampleEffect {
+    std::string sample;
+    double effect;  ///< best linear unbiased prediction of b
+};
+
+struct NoiseOptions {
+    /// What is assumed where there are no replicates to tell.
+    double stated_relative = 0.05;
+    double stated_sample = 0.1;
+    double stated_floor = 0;  ///< unit of the observable; of the stress where the strain is known
+    /// Largest over smallest ratio of level to w below which floor and relative part cannot be told apart, and the floor is left
+    /// out.
+    double least_range = 3;
+};
+
+struct NoiseModel {
+    MeasurementKind kind = MeasurementKind::amplitude_sweep;
+    std::string observable;
+    std::string unit;
+    Estimate floor;     ///< `unit`; of the stress in Pa where `floor_of_stress`
+    Estimate relative;  ///< 1
+    Estimate sample;    ///< 1
+    bool floor_of_stress = false;
+    bool rows_estimated = false;    ///< floor and relative part come from the data, else they are stated
+    bool sample_estimated = false;  ///< likewise the sample effect
+    std::size_t tables = 0;
+    std::size_t samples = 0;
+    std::size_t values = 0;
+    std::vector<SampleEffect> sample_effects;  ///< where estimated
+    /// Correlation of neighbouring residuals within a table; where it is high, rows are not independent and `relative` describes
+    /// the drift of whole stretches.
+    double autocorrelation = 0;
+    std::string statement;  ///< one sentence: where the numbers come from
+};
+
+/// Restricted maximum likelihood (Patterson, Thompson, Biometrika 58 (1971) 545): one free level per condition, the three variances
+/// by the likelihood of the contrasts between replicates; the levels in the variances are those of the previous of three passes.
+/// Throws std::invalid_argument when sizes do not fit together.
+NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options = {});
+
+/// Standard deviation of e at this level. @param floor_weight w, see above.
+double standard_deviation(const NoiseModel& noise, double level, double floor_weight);
+
+/// Covariance of the values of one sample at these levels, the sample effect included. @param floor_weights w, one per level.
+Eigen::MatrixXd covariance(const NoiseModel& noise, const Eigen::VectorXd& levels, const Eigen::VectorXd& floor_weights);
+
+}  // namespace coagula::diagnose

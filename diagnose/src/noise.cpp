@@ -1,0 +1,294 @@
+#include <coagula/diagnose/noise.hpp>
+
+#include "restricted_likelihood.hpp"
+#include "simplex.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr int passes = 3;
+/// 95 % point of chi-square with one degree of freedom.
+constexpr double chi_square_95 = 3.841458820694124;
+
+/// Conditions with at least two values; the others say nothing about noise.
+ReplicatedValues replicated_values(const Replicates& replicates, std::vector<std::string>& sample_names) {
+    ReplicatedValues data;
+    std::vector<double> values;
+    std::vector<double> weights;
+    for (Eigen::Index row = 0; row < replicates.values.rows(); ++row) {
+        if (replicates.values.row(row).array().isFinite().count() < 2) {
+            continue;
+        }
+        for (Eigen::Index table = 0; table < replicates.values.cols(); ++table) {
+            if (!std::isfinite(replicates.values(row, table))) {
+                continue;
+            }
+            const std::string& name = replicates.samples[static_cast<std::size_t>(table)];
+            auto place = std::find(sample_names.begin(), sample_names.end(), name);
+            place = place == sample_names.end() ? sample_names.insert(place, name) : place;
+            values.push_back(replicates.values(row, table));
+            data.condition.push_back(data.conditions);
+            data.sample.push_back(place - sample_names.begin());
+        }
+        weights.push_back(replicates.floor_weights[row]);
+        ++data.conditions;
+    }
+    data.floor_weights = Eigen::VectorXd::Map(weights.data(), static_cast<Eigen::Index>(weights.size()));
+    data.values = Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+    data.samples = static_cast<Eigen::Index>(sample_names.size());
+    return data;
+}
+
+Eigen::VectorXd mean_levels(const ReplicatedValues& data) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(data.conditions);
+    Eigen::VectorXd count = Eigen::VectorXd::Zero(data.conditions);
+    for (std::size_t i = 0; i < data.condition.size(); ++i) {
+        sum[data.condition[i]] += data.values[static_cast<Eigen::Index>(i)];
+        count[data.condition[i]] += 1;
+    }
+    return sum.cwiseQuotient(count);
+}
+
+/// The likelihood as a function of those deviations that are estimated. They are taken in units of `scale`, and their sign does not
+/// matter, so that zero is an inner point.
+class NoiseLikelihood {
+public:
+    NoiseLikelihood(const ReplicatedValues& data, Eigen::VectorXd levels, bool with_floor, bool with_sample)
+        : data_(data),
+          levels_(std::move(levels)),
+          scale_{std::exp((levels_.array() / data.floor_weights.array()).abs().log().mean()), 1, 1},
+          free_{with_floor, true, with_sample} {}
+
+    /// Minus the log likelihood.
+    double at(const Deviations& scaled) const { return restricted_fit(data_, levels_, in_units(scaled)).minus_log_likelihood; }
+
+    /// The maximum with one deviation held (`held` = 0, 1, 2) or none (-1).
+    Deviations best(Deviations start, int held) const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            start[i] = free_[i] || static_cast<int>(i) == held ? start[i] : 0;
+        }
+        const auto function = [&](const Deviations& trial) {
+            Deviations used = start;
+            for (std::size_t i = 0; i < 3; ++i) {
+                used[i] = moves(i, held) ? trial[i] : start[i];
+            }
+            return at(used);
+        };
+        Deviations steps{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            steps[i] = 0.3 * std::abs(start[i]) + 1e-3;
+        }
+        Deviations found = minimise_by_simplex<3>(function, start, steps);
+        for (std::size_t i = 0; i < 3; ++i) {
+            found[i] = moves(i, held) ? std::abs(found[i]) : start[i];
+        }
+        return found;
+    }
+
+    Deviations in_units(Deviations scaled) const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            scaled[i] *= scale_[i];
+        }
+        return scaled;
+    }
+
+    bool is_free(std::size_t i) const { return free_[i]; }
+    RestrictedFit fit(const Deviations& scaled) const { return restricted_fit(data_, levels_, in_units(scaled)); }
+
+private:
+    bool moves(std::size_t i, int held) const { return free_[i] && static_cast<int>(i) != held; }
+
+    const ReplicatedValues& data_;
+    Eigen::VectorXd levels_;
+    Deviations scale_;
+    std::array<bool, 3> free_;
+};
+
+/// Twice the loss of log likelihood when one deviation is held at `value`.
+double deviance(const NoiseLikelihood& likelihood, const Deviations& best, std::size_t which, double value) {
+    Deviations start = best;
+    start[which] = value;
+    return 2 * (likelihood.at(likelihood.best(start, static_cast<int>(which))) - likelihood.at(best));
+}
+
+/// Where the deviance reaches the 95 % point between `inside` and `outside`.
+double crossing(const NoiseLikelihood& likelihood, const Deviations& best, std::size_t which, double inside, double outside) {
+    constexpr int halvings = 14;  // to 1e-4 of the interval
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (inside + outside);
+        (deviance(likelihood, best, which, middle) < chi_square_95 ? inside : outside) = middle;
+    }
+    return 0.5 * (inside + outside);
+}
+
+Estimate profile(const NoiseLikelihood& likelihood, const Deviations& best, std::size_t which) {
+    const double unit = likelihood.in_units({1, 1, 1})[which];
+    Estimate estimate{best[which] * unit, 0, 0};
+    constexpr double indistinct = 1e-4;  // loss of likelihood below which a deviation is as good as zero
+    const double at_zero = deviance(likelihood, best, which, 0);
+    if (at_zero < indistinct) {
+        estimate.value = 0;
+    }
+    if (at_zero > chi_square_95) {
+        estimate.low = crossing(likelihood, best, which, best[which], 0) * unit;
+    }
+    double outside = 1.5 * best[which] + 1e-3;
+    constexpr double far = 1e4;
+    while (outside < far && deviance(likelihood, best, which, outside) < chi_square_95) {
+        outside *= 2;
+    }
+    estimate.high = crossing(likelihood, best, which, best[which], outside) * unit;
+    return estimate;
+}
+
+/// A first guess: scatter of the sample means, and what is left of the values without them.
+Deviations first_guess(const ReplicatedValues& data, const Eigen::VectorXd& levels) {
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(data.samples);
+    Eigen::VectorXd count = Eigen::VectorXd::Zero(data.samples);
+    const auto relative = [&](std::size_t i) { return data.values[static_cast<Eigen::Index>(i)] / levels[data.condition[i]] - 1; };
+    for (std::size_t i = 0; i < data.condition.size(); ++i) {
+        mean[data.sample[i]] += relative(i);
+        count[data.sample[i]] += 1;
+    }
+    mean = mean.cwiseQuotient(count);
+    double rest = 0;
+    for (std::size_t i = 0; i < data.condition.size(); ++i) {
+        rest += std::pow(relative(i) - mean[data.sample[i]], 2);
+    }
+    const double row = std::sqrt(rest / static_cast<double>(data.condition.size())) + 1e-6;
+    const double sample = std::sqrt(mean.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, data.samples - 1)));
+    return {0.5 * row, row, sample + 1e-6};
+}
+
+Deviations best_of_starts(const NoiseLikelihood& likelihood, const Deviations& guess) {
+    Deviations best = likelihood.best(guess, -1);
+    for (const Deviations& factors : {Deviations{0.05, 1, 1}, Deviations{2, 0.05, 1}, Deviations{0.2, 0.5, 0.1}}) {
+        const Deviations found = likelihood.best({guess[0] * factors[0], guess[1] * factors[1], guess[2] * factors[2]}, -1);
+        best = likelihood.at(found) < likelihood.at(best) ? found : best;
+    }
+    return best;
+}
+
+/// Of residuals that follow each other within a table.
+double lag_one(const Replicates& replicates, const ReplicatedValues& data, const RestrictedFit& fit, const NoiseModel& noise) {
+    std::vector<Eigen::VectorXd> rows;
+    std::size_t i = 0;
+    for (Eigen::Index row = 0; row < replicates.values.rows(); ++row) {
+        if (replicates.values.row(row).array().isFinite().count() < 2) {
+            continue;
+        }
+        rows.push_back(Eigen::VectorXd::Constant(replicates.values.cols(), std::nan("")));
+        for (Eigen::Index table = 0; table < replicates.values.cols(); ++table) {
+            if (std::isfinite(replicates.values(row, table))) {
+                const double level = fit.levels[data.condition[i]];
+                const double expected = level * (1 + fit.effects[data.sample[i]]);
+                rows.back()[table] =
+                    (replicates.values(row, table) - expected) / standard_deviation(noise, level, replicates.floor_weights[row]);
+                ++i;
+            }
+        }
+    }
+    double product = 0;
+    double square = 0;
+    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+        for (Eigen::Index table = 0; table < replicates.values.cols(); ++table) {
+            const double here = rows[k][table];
+            const double next = rows[k + 1][table];
+            if (std::isfinite(here) && std::isfinite(next)) {
+                product += here * next;
+                square += 0.5 * (here * here + next * next);
+            }
+        }
+    }
+    return square > 0 ? product / square : 0;
+}
+
+Estimate stated(double value) {
+    return {value, value, value};
+}
+
+std::string count_text(std::size_t count, const std::string& noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void fit_replicates(NoiseModel& noise, const Replicates& replicates, const ReplicatedValues& data,
+                    const std::vector<std::string>& names, const NoiseOptions& options) {
+    Eigen::VectorXd levels = mean_levels(data);
+    const Eigen::VectorXd sizes = levels.cwiseQuotient(data.floor_weights).cwiseAbs();
+    const bool with_floor = sizes.maxCoeff() >= options.least_range * sizes.minCoeff();
+    const bool with_sample = data.samples > 1;
+    Deviations best = first_guess(data, levels);
+    for (int pass = 0; pass < passes; ++pass) {
+        const NoiseLikelihood likelihood(data, levels, with_floor, with_sample);
+        best = best_of_starts(likelihood, best);
+        if (pass + 1 < passes) {
+            levels = likelihood.fit(best).levels;
+            continue;
+        }
+        noise.floor = with_floor ? profile(likelihood, best, 0) : Estimate{};
+        noise.relative = profile(likelihood, best, 1);
+        noise.sample = with_sample ? profile(likelihood, best, 2) : stated(options.stated_sample);
+        const RestrictedFit fit = likelihood.fit(best);
+        for (std::size_t s = 0; with_sample && s < names.size(); ++s) {
+            noise.sample_effects.push_back({names[s], fit.effects[static_cast<Eigen::Index>(s)]});
+        }
+        noise.autocorrelation = lag_one(replicates, data, fit, noise);
+    }
+    noise.rows_estimated = true;
+    noise.sample_estimated = with_sample;
+    noise.statement = "restricted maximum likelihood from " + count_text(noise.tables, "table") + " on " +
+                      count_text(noise.samples, "sample") + ", " + std::to_string(noise.values) + " values" +
+                      (with_floor ? "" : "; the levels are too alike to tell a floor from the relative part") +
+                      (with_sample ? "" : "; one sample tells nothing about differences between samples: stated, not measured");
+}
+
+}  // namespace
+
+NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) {
+    require(replicates.samples.size() == static_cast<std::size_t>(replicates.values.cols()),
+            "replicates: one sample name per table is needed");
+    require(replicates.axis.size() == replicates.values.rows(), "replicates: one axis value per row is needed");
+    require(replicates.floor_weights.size() == replicates.values.rows(), "replicates: one floor weight per row is needed");
+    NoiseModel noise;
+    noise.floor_of_stress = replicates.floor_of_stress;
+    noise.kind = replicates.kind;
+    noise.observable = replicates.observable;
+    noise.unit = replicates.unit;
+    std::vector<std::string> names;
+    const ReplicatedValues data = replicated_values(replicates, names);
+    noise.tables = replicates.samples.size();
+    noise.samples = std::max<std::size_t>(1, names.size());
+    noise.values = static_cast<std::size_t>(data.values.size());
+    constexpr Eigen::Index fewest_conditions = 3;
+    const bool usable = data.conditions >= fewest_conditions && (mean_levels(data).array() > 0).all();
+    if (usable) {
+        fit_replicates(noise, replicates, data, names, options);
+        return noise;
+    }
+    noise.floor = stated(options.stated_floor);
+    noise.relative = stated(options.stated_relative);
+    noise.sample = stated(options.stated_sample);
+    noise.statement = data.conditions >= fewest_conditions ? "stated, not measured: replicates average to zero or below"
+                                                           : "stated, not measured: there are no replicates";
+    return noise;
+}
+
+double standard_deviation(const NoiseModel& noise, double level, double floor_weight) {
+    return std::hypot(noise.floor.value * floor_weight, noise.relative.value * level);
+}
+
+Eigen::MatrixXd covariance(const NoiseModel& noise, const Eigen::VectorXd& levels, const Eigen::VectorXd& floor_weights) {
+    require(levels.size() == floor_weights.size(), "covariance: one floor weight per level is needed");
+    Eigen::MatrixXd matrix = noise.sample.value * noise.sample.value * levels * levels.transpose();
+    for (Eigen::Index i = 0; i < levels.size(); ++i) {
+        matrix(i, i) += std::pow(standard_deviation(noise, levels[i], floor_weights[i]), 2);
+    }
+    return matrix;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,140 @@
+#include <coagula/diagnose/noise.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coagula::diagnose {
+
+namespace {
+
+/// Set values that agree to this are the same.
+constexpr double same = 0.02;
+constexpr std::size_t fewest_shared = 3;
+
+bool alike(double a, double b) {
+    return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
+}
+
+bool has_moduli(MeasurementKind kind) {
+    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series;
+}
+
+/// Median of a column; NaN without one.
+double typical(const Measurement& table, std::string_view name) {
+    const Column* column = find_column(table, name);
+    std::vector<double> values;
+    if (column != nullptr) {
+        std::copy_if(column->values.begin(), column->values.end(), std::back_inserter(values),
+                     [](double value) { return std::isfinite(value); });
+    }
+    if (values.empty()) {
+        return unset;
+    }
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+/// The row of `table` at this axis value.
+std::optional<std::size_t> row_at(const Measurement& table, double position) {
+    const std::vector<double>& axis = axis_of(table)->values;
+    std::optional<std::size_t> nearest;
+    for (std::size_t row = 0; row < axis.size(); ++row) {
+        if (std::isfinite(axis[row]) && alike(axis[row], position) &&
+            (!nearest || std::abs(axis[row] - position) < std::abs(axis[*nearest] - position))) {
+            nearest = row;
+        }
+    }
+    return nearest;
+}
+
+bool are_replicates(const Measurement& a, const Measurement& b) {
+    if (a.kind != b.kind || axis_of(a)->name != axis_of(b)->name) {
+        return false;
+    }
+    for (const char* name : {"angular_frequency", "strain"}) {
+        const double one = typical(a, name);
+        const double other = typical(b, name);
+        if (name != axis_of(a)->name && !std::isnan(one) && !std::isnan(other) && !alike(one, other)) {
+            return false;
+        }
+    }
+    const std::vector<double>& axis = axis_of(a)->values;
+    const auto shared =
+        std::count_if(axis.begin(), axis.end(), [&](double position) { return std::isfinite(position) && row_at(b, position); });
+    return static_cast<std::size_t>(shared) >= fewest_shared;
+}
+
+using Group = std::vector<const Measurement*>;
+
+std::vector<Group> group(const std::vector<Measurement>& measurements) {
+    std::vector<Group> groups;
+    for (const Measurement& table : measurements) {
+        if (!has_moduli(table.kind) || axis_of(table) == nullptr) {
+            continue;
+        }
+        const auto found =
+            std::find_if(groups.begin(), groups.end(), [&](const Group& other) { return are_replicates(*other.front(), table); });
+        if (found == groups.end()) {
+            groups.push_back({&table});
+        } else {
+            found->push_back(&table);
+        }
+    }
+    return groups;
+}
+
+/// One over the strain amplitude of each row, a cell without a value taken as the typical one; empty where the strain is not known.
+std::vector<double> floor_weights(const Measurement& table) {
+    const Column* strain = find_column(table, "strain");
+    const double usual = typical(table, "strain");
+    if (!(usual > 0)) {
+        return {};
+    }
+    std::vector<double> weights;
+    for (const double value : strain->values) {
+        weights.push_back(1 / (value > 0 ? value : usual));
+    }
+    return weights;
+}
+
+/// Conditions are the axis values of the first table.
+Replicates replicates_in(const Group& tables, const Column& observable) {
+    const std::vector<double>& axis = axis_of(*tables.front())->values;
+    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}};
+    replicates.axis = Eigen::VectorXd::Map(axis.data(), static_cast<Eigen::Index>(axis.size()));
+    const std::vector<double> weights = floor_weights(*tables.front());
+    replicates.floor_of_stress = !weights.empty();
+    replicates.floor_weights = Eigen::VectorXd::Ones(replicates.axis.size());
+    if (replicates.floor_of_stress) {
+        replicates.floor_weights = Eigen::VectorXd::Map(weights.data(), replicates.axis.size());
+    }
+    replicates.values.setConstant(replicates.axis.size(), static_cast<Eigen::Index>(tables.size()), unset);
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        replicates.samples.push_back(tables[k]->sample);
+        const Column* column = find_column(*tables[k], observable.name);
+        for (std::size_t row = 0; column != nullptr && row < axis.size(); ++row) {
+            const auto there = std::isfinite(axis[row]) ? row_at(*tables[k], axis[row]) : std::nullopt;
+            if (there) {
+                replicates.values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(k)) = column->values[*there];
+            }
+        }
+    }
+    return replicates;
+}
+
+}  // namespace
+
+std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurements) {
+    std::vector<Replicates> all;
+    for (const Group& tables : group(measurements)) {
+        for (const char* name : {"storage_modulus", "loss_modulus"}) {
+            if (const Column* observable = find_column(*tables.front(), name)) {
+                all.push_back(replicates_in(tables, *observable));
+            }
+        }
+    }
+    return all;
+}
+
+}  // namespace coagula::diagnose

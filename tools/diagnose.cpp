@@ -1,0 +1,194 @@
+// coagula diagnose --check: reads an experiment file, checks the data and says what is there.
+#include "experiment_file.hpp"
+#include "report.hpp"
+#include "verbs.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/check_data.hpp>
+#include <coagula/diagnose/noise.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace coagula::tools {
+
+namespace {
+
+using diagnose::CheckedMeasurement;
+using diagnose::NoiseModel;
+
+Json number_or_null(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json column_json(const diagnose::Column& column) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    std::size_t readable = 0;
+    for (const double value : column.values) {
+        if (std::isfinite(value)) {
+            low = std::min(low, value);
+            high = std::max(high, value);
+            ++readable;
+        }
+    }
+    return {{"name", column.name},        {"unit", column.unit},         {"readable", readable},
+            {"min", number_or_null(low)}, {"max", number_or_null(high)}, {"standard_errors", !column.standard_errors.empty()}};
+}
+
+Json measurement_json(const CheckedMeasurement& checked) {
+    const diagnose::Measurement& table = checked.measurement;
+    Json json = {{"label", table.label},      {"kind", diagnose::name_of(table.kind)},
+                 {"sample", table.sample},    {"run_order", table.run_order},
+                 {"rows", table.rows()},      {"columns", Json::array()},
+                 {"left_out", Json::array()}, {"relations", Json::array()}};
+    for (const diagnose::Column& column : table.columns) {
+        json["columns"].push_back(column_json(column));
+    }
+    for (const diagnose::LeftOutCell& cell : table.left_out) {
+        json["left_out"].push_back(
+            {{"column", cell.column}, {"row", cell.row + 1}, {"value", cell.value}, {"reason", cell.reason}});
+    }
+    for (const diagnose::RelationResult& relation : checked.relations) {
+        json["relations"].push_back({{"name", relation.name}, {"rows", relation.rows}, {"failed", relation.failed}});
+    }
+    return json;
+}
+
+Json estimate_json(const diagnose::Estimate& estimate, const std::string& unit) {
+    return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}, {"unit", unit}};
+}
+
+Json noise_json(const NoiseModel& noise) {
+    Json json = {{"kind", diagnose::name_of(noise.kind)},
+                 {"observable", noise.observable},
+                 {"tables", noise.tables},
+                 {"samples", noise.samples},
+                 {"values", noise.values},
+                 {"rows_estimated", noise.rows_estimated},
+                 {"sample_estimated", noise.sample_estimated},
+                 {"floor", estimate_json(noise.floor, noise.unit)},
+                 {"floor_of_stress", noise.floor_of_stress},
+                 {"relative", estimate_json(noise.relative, "1")},
+                 {"sample", estimate_json(noise.sample, "1")},
+                 {"autocorrelation", noise.autocorrelation},
+                 {"sample_effects", Json::object()},
+                 {"statement", noise.statement}};
+    for (const diagnose::SampleEffect& effect : noise.sample_effects) {
+        json["sample_effects"][effect.sample] = effect.effect;
+    }
+    return json;
+}
+
+/// "1-3, 7".
+std::string row_list(const std::vector<std::size_t>& rows) {
+    std::string text;
+    for (std::size_t i = 0; i < rows.size();) {
+        std::size_t end = i;
+        while (end + 1 < rows.size() && rows[end + 1] == rows[end] + 1) {
+            ++end;
+        }
+        text += (text.empty() ? "" : ", ") + std::to_string(rows[i] + 1) + (end > i ? "-" + std::to_string(rows[end] + 1) : "");
+        i = end + 1;
+    }
+    return text;
+}
+
+std::string percent(double value) {
+    return with_unit(100 * value, "%");
+}
+
+void add_measurement_lines(Table& lines, const CheckedMeasurement& checked) {
+    const diagnose::Measurement& table = checked.measurement;
+    lines.emplace_back(std::string(diagnose::name_of(table.kind)),
+                       table.label + ", sample '" + table.sample + "', " + std::to_string(table.rows()) + " rows");
+    std::string names;
+    for (const diagnose::Column& column : table.columns) {
+        names += (names.empty() ? "" : ", ") + column.name + (column.unit == "1" ? "" : " [" + column.unit + "]");
+    }
+    lines.emplace_back("  columns", names);
+    std::map<std::string, std::vector<std::size_t>> rows;
+    std::map<std::string, std::string> reasons;
+    for (const diagnose::LeftOutCell& cell : table.left_out) {
+        rows[cell.column].push_back(cell.row);
+        reasons.emplace(cell.column, "'" + cell.value + "' " + cell.reason);
+    }
+    for (auto& [column, list] : rows) {
+        std::sort(list.begin(), list.end());
+        lines.emplace_back("  left out", column + ": " + std::to_string(list.size()) + (list.size() == 1 ? " cell" : " cells") +
+                                             ", rows " + row_list(list) + " (first: " + reasons[column] + ")");
+    }
+}
+
+void add_noise_lines(Table& lines, const NoiseModel& noise) {
+    const auto interval = [](const diagnose::Estimate& estimate, auto text) {
+        return text(estimate.value) +
+               (estimate.low < estimate.high ? " (" + text(estimate.low) + " to " + text(estimate.high) + ")" : "");
+    };
+    const auto in_unit = [&](double value) { return with_unit(value, noise.unit); };
+    const std::string floor = noise.floor_of_stress ? " and a floor of the stress of " : " and a floor of ";
+    lines.emplace_back("noise", noise.observable + " of " + std::string(diagnose::name_of(noise.kind)) + ": " + noise.statement);
+    lines.emplace_back("  per row",
+                       interval(noise.relative, percent) + (noise.floor.high > 0 ? floor + interval(noise.floor, in_unit) : ""));
+    std::string effects;
+    for (const diagnose::SampleEffect& effect : noise.sample_effects) {
+        effects += (effects.empty() ? ": " : ", ") + effect.sample + " " + percent(effect.effect);
+    }
+    lines.emplace_back("  per sample", interval(noise.sample, percent) + effects);
+    if (noise.rows_estimated) {
+        lines.emplace_back("  neighbours", "residuals in neighbouring rows correlate by " + with_unit(noise.autocorrelation, "1"));
+    }
+}
+
+std::vector<CheckedMeasurement> check_all(const diagnose::Experiment& experiment) {
+    std::vector<CheckedMeasurement> checked;
+    for (const diagnose::Measurement& measurement : experiment.measurements) {
+        checked.push_back(diagnose::check_data(measurement));
+        if (!checked.back().problems.empty()) {
+            throw InputError(checked.back().problems.front());
+        }
+    }
+    return checked;
+}
+
+void run(const Arguments& arguments) {
+    if (!arguments.flag("check")) {
+        throw InputError("only 'diagnose --check' is there so far: it reads an experiment file and checks its data");
+    }
+    const ExperimentFile file = read_experiment(arguments.input());
+    const std::vector<CheckedMeasurement> checked = check_all(file.experiment);
+    std::vector<diagnose::Measurement> tables;
+    for (const CheckedMeasurement& entry : checked) {
+        tables.push_back(entry.measurement);
+    }
+    Json json = {
+        {"title", file.experiment.title}, {"measurements", Json::array()}, {"noise", Json::array()}, {"notes", file.notes}};
+    Table lines;
+    for (const CheckedMeasurement& entry : checked) {
+        json["measurements"].push_back(measurement_json(entry));
+        add_measurement_lines(lines, entry);
+    }
+    for (const diagnose::Replicates& replicates : diagnose::find_replicates(tables)) {
+        const NoiseModel noise = diagnose::fit_noise(replicates, file.noise);
+        json["noise"].push_back(noise_json(noise));
+        add_noise_lines(lines, noise);
+    }
+    for (const std::string& note : file.notes) {
+        lines.emplace_back("note", note);
+    }
+    report(arguments, json, lines);
+}
+
+}  // namespace
+
+Verb diagnose_verb() {
+    return {.name = "diagnose",
+            .summary = "read an experiment file, check the measured data, estimate their noise",
+            .input = "EXPERIMENT.toml",
+            .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise")},
+            .run = run};
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,290 @@
+#include "experiment_file.hpp"
+
+#include "measured_tables.hpp"
+#include "toml_keys.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/io/measured_file.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+namespace coagula::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads an experiment file part by part.
+class ExperimentReader {
+public:
+    explicit ExperimentReader(const std::string& path) : path_(path), root_(parse_toml(path)) {}
+
+    ExperimentFile run() {
+        TomlKeys keys(root_, path_);
+        result_.experiment.title = keys.text("title").value_or("");
+        read_sample();
+        read_instrument();
+        read_structures();
+        read_noise();
+        read_measurements();
+        for (const char* table : {"sample", "instrument", "structures", "noise", "measurement"}) {
+            keys.ignore(table);
+        }
+        keys.refuse_other_keys();
+        try {
+            diagnose::check(result_.experiment);
+        } catch (const InputError& error) {
+            throw InputError(path_ + ": " + error.what());
+        }
+        return std::move(result_);
+    }
+
+private:
+    /// The table of this name, empty where there is none.
+    const toml::table& part(const std::string& name) const {
+        static const toml::table none;
+        const toml::node* node = root_.get(name);
+        if (node != nullptr && !node->is_table()) {
+            throw InputError(path_ + ", key '" + name + "': must be a table, [" + name + "]");
+        }
+        return node == nullptr ? none : *node->as_table();
+    }
+
+    std::string where(const std::string& name) const { return path_ + ", [" + name + "]"; }
+    std::string resolved(const std::string& file) const { return (fs::path(path_).parent_path() / file).string(); }
+
+    void read_sample();
+    void read_instrument();
+    void read_structures();
+    void read_noise();
+    void read_measurements();
+    void read_measurement(const toml::table& table, std::size_t number);
+    ColumnRules column_rules(TomlKeys& keys) const;
+    std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file,
+                                                     diagnose::MeasurementKind kind) const;
+    const io::PlainTable& chosen_section(TomlKeys& keys, const io::MeasuredFile& file) const;
+
+    std::string path_;
+    toml::table root_;
+    ExperimentFile result_;
+};
+
+void ExperimentReader::read_sample() {
+    TomlKeys keys(part("sample"), where("sample"));
+    diagnose::Sample& sample = result_.experiment.sample;
+    sample.name = keys.text("name").value_or("");
+    sample.particle_radius = keys.quantity("particle_radius", "m").value_or(unset);
+    sample.density = keys.quantity("density", "kg/m3").value_or(unset);
+    sample.volume_fraction = keys.quantity("volume_fraction", "1").value_or(unset);
+    sample.solvent_viscosity = keys.quantity("solvent_viscosity", "Pa.s").value_or(unset);
+    sample.temperature = keys.quantity("temperature", "K").value_or(unset);
+    keys.refuse_other_keys();
+}
+
+void ExperimentReader::read_instrument() {
+    TomlKeys keys(part("instrument"), where("instrument"));
+    diagnose::Instrument& instrument = result_.experiment.instrument;
+    if (const auto name = keys.text("geometry")) {
+        instrument.geometry = diagnose::geometry(*name);
+        if (!instrument.geometry) {
+            keys.fail("geometry", "'" + *name + "' is none of plate-plate, cone-plate, concentric-cylinders");
+        }
+    }
+    instrument.plate_radius = keys.quantity("plate_radius", "m").value_or(unset);
+    instrument.gap = keys.quantity("gap", "m").value_or(unset);
+    instrument.cone_angle = keys.quantity("cone_angle", "rad").value_or(unset);
+    instrument.inner_radius = keys.quantity("inner_radius", "m").value_or(unset);
+    instrument.outer_radius = keys.quantity("outer_radius", "m").value_or(unset);
+    instrument.tool_inertia = keys.quantity("tool_inertia", "kg.m2").value_or(unset);
+    instrument.tool_compliance = keys.quantity("tool_compliance", "rad/(N.m)").value_or(unset);
+    keys.refuse_other_keys();
+}
+
+int small_count(TomlKeys& keys, const std::string& key, std::int64_t low) {
+    const std::int64_t value = keys.whole(key).value_or(low);
+    if (value < low || value > std::numeric_limits<int>::max()) {
+        keys.fail(key, "is " + std::to_string(value) + ", but must be a whole number >= " + std::to_string(low));
+    }
+    return static_cast<int>(value);
+}
+
+void ExperimentReader::read_structures() {
+    TomlKeys keys(part("structures"), where("structures"));
+    for (const std::string& file : keys.texts("files")) {
+        const std::string path = resolved(file);
+        if (!fs::is_regular_file(path)) {
+            keys.fail("files", path + " does not exist");
+        }
+        result_.experiment.structures.push_back(path);
+    }
+    if (const auto generator = keys.text("generator")) {
+        if (*generator != "vem" && *generator != "brownian") {
+            keys.fail("generator", "'" + *generator + "' is neither vem nor brownian");
+        }
+        diagnose::StructureRecipe recipe{*generator, small_count(keys, "particles", 1), 0, unset, unset, {}};
+        recipe.voids = *generator == "vem" ? small_count(keys, "voids", 0) : 0;
+        if (*generator == "brownian") {
+            recipe.surface_potential = keys.quantity("surface_potential", "V").value_or(unset);
+        }
+        recipe.target_coordination = keys.quantity("target_coordination", "1").value_or(unset);
+        for (const std::int64_t seed : keys.wholes("seeds")) {
+            if (seed < 0) {
+                keys.fail("seeds", "must not be negative");
+            }
+            recipe.seeds.push_back(static_cast<std::size_t>(seed));
+        }
+        result_.experiment.recipe = recipe;
+    }
+    keys.refuse_other_keys();
+}
+
+void ExperimentReader::read_noise() {
+    TomlKeys keys(part("noise"), where("noise"));
+    const auto positive = [&](const std::string& key, double& target) {
+        if (const auto value = keys.quantity(key, "1")) {
+            if (!(*value > 0 && *value < 1)) {
+                keys.fail(key, "must lie between 0 and 1");
+            }
+            target = *value;
+        }
+    };
+    positive("stated_relative", result_.noise.stated_relative);
+    positive("stated_sample", result_.noise.stated_sample);
+    if (const auto value = keys.quantity("stated_floor", "Pa")) {
+        if (!(*value >= 0)) {
+            keys.fail("stated_floor", "must be >= 0 Pa");
+        }
+        result_.noise.stated_floor = *value;
+    }
+    keys.refuse_other_keys();
+}
+
+void ExperimentReader::read_measurements() {
+    const toml::node* list = root_.get("measurement");
+    if (list == nullptr || !list->is_array_of_tables()) {
+        throw InputError(path_ + ": there is no measurement; each needs a table [[measurement]]");
+    }
+    std::size_t number = 0;
+    for (const toml::node& table : *list->as_array()) {
+        read_measurement(*table.as_table(), ++number);
+    }
+}
+
+/// Quantity names on the left.
+std::map<std::string, std::string> headings_by_quantity(TomlKeys& keys, const std::string& key) {
+    std::map<std::string, std::string> headings;
+    for (const auto& [name, node] : keys.entries(key)) {
+        if (diagnose::find_quantity(name) == nullptr) {
+            keys.fail(key, "'" + name + "' is no quantity (see docs/experiment-file.md)");
+        }
+        headings[name] = keys.text_of(*node, key);
+    }
+    return headings;
+}
+
+ColumnRules ExperimentReader::column_rules(TomlKeys& keys) const {
+    ColumnRules rules;
+    rules.headings = headings_by_quantity(keys, "columns");
+    rules.standard_errors = headings_by_quantity(keys, "standard_errors");
+    for (const auto& [name, node] : keys.entries("values")) {
+        const diagnose::Quantity* quantity = diagnose::find_quantity(name);
+        if (quantity == nullptr) {
+            keys.fail("values", "'" + name + "' is no quantity (see docs/experiment-file.md)");
+        }
+        const double value = keys.quantity_of(*node, "values." + name, std::string(quantity->unit));
+        if (value < quantity->low || value > quantity->high || (quantity->low_excluded && value == quantity->low)) {
+            keys.fail("values." + name, "is " + to_text(value) + " " + std::string(quantity->unit) + ", but must be " +
+                                            (quantity->low_excluded ? "> " : ">= ") + to_text(quantity->low));
+        }
+        rules.constants[name] = value;
+    }
+    return rules;
+}
+
+const io::PlainTable& ExperimentReader::chosen_section(TomlKeys& keys, const io::MeasuredFile& file) const {
+    const auto section = keys.whole("section");
+    const auto result = keys.text("result");
+    std::vector<const io::PlainTable*> fitting;
+    std::string all;
+    for (const io::PlainTable& table : file.tables) {
+        if (table.point != 0) {
+            continue;
+        }
+        all += (all.empty() ? "" : ", ") + std::to_string(table.section) +
+               (table.title.empty() ? "" : " of '" + table.title + "'") + " (" + std::to_string(table.rows()) + " rows)";
+        if ((!section || table.section == *section) && (!result || table.title == *result)) {
+            fitting.push_back(&table);
+        }
+    }
+    if (fitting.size() != 1) {
+        const std::string what = fitting.empty() ? "no section fits" : "several sections fit";
+        throw InputError(file.path + ": " + what + " the keys 'section' and 'result' of the measurement; the sections are " + all);
+    }
+    return *fitting.front();
+}
+
+std::vector<const io::PlainTable*> ExperimentReader::chosen_tables(TomlKeys& keys, const io::MeasuredFile& file,
+                                                                   diagnose::MeasurementKind kind) const {
+    const io::PlainTable& section = chosen_section(keys, file);
+    const std::vector<std::int64_t> points = keys.wholes("points");
+    if (kind != diagnose::MeasurementKind::waveform) {
+        if (!points.empty()) {
+            keys.fail("points", "only a waveform has points");
+        }
+        return {&section};
+    }
+    std::vector<const io::PlainTable*> waveforms;
+    for (const io::PlainTable& table : file.tables) {
+        const bool here = table.point > 0 && table.section == section.section && table.title == section.title;
+        if (here && (points.empty() || std::find(points.begin(), points.end(), table.point) != points.end())) {
+            waveforms.push_back(&table);
+        }
+    }
+    if (!points.empty() && waveforms.size() != points.size()) {
+        keys.fail("points", file.path + " has no waveform for some of these points");
+    }
+    return waveforms.empty() ? std::vector{&section} : waveforms;
+}
+
+void ExperimentReader::read_measurement(const toml::table& table, std::size_t number) {
+    TomlKeys keys(table, path_ + ", measurement " + std::to_string(number));
+    const std::string kind_name = keys.required_text("kind");
+    const auto kind = diagnose::measurement_kind(kind_name);
+    if (!kind) {
+        std::string names;
+        for (const diagnose::MeasurementKind known : diagnose::all_measurement_kinds()) {
+            names += (names.empty() ? "" : ", ") + std::string(diagnose::name_of(known));
+        }
+        keys.fail("kind", "'" + kind_name + "' is none of " + names);
+    }
+    const std::string name = keys.required_text("file");
+    const io::MeasuredFile file = io::read_measured_file(resolved(name));
+    const std::string sample = keys.text("sample").value_or("measurement " + std::to_string(number));
+    const int run_order = small_count(keys, "run_order", 0);
+    const std::vector<const io::PlainTable*> tables = chosen_tables(keys, file, *kind);
+    const ColumnRules rules = column_rules(keys);
+    keys.refuse_other_keys();
+    const bool several = file.tables.size() > 1;
+    for (const io::PlainTable* chosen : tables) {
+        const std::string label = name + (several ? ", section " + std::to_string(chosen->section) : "") +
+                                  (chosen->point > 0 ? ", point " + std::to_string(chosen->point) : "");
+        diagnose::Measurement measurement = to_measurement(file, *chosen, *kind, label, rules);
+        measurement.sample = sample;
+        measurement.run_order = run_order;
+        if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
+            result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +
+                                    " points, but has " + std::to_string(chosen->rows()));
+        }
+        result_.experiment.measurements.push_back(std::move(measurement));
+    }
+}
+
+}  // namespace
+
+ExperimentFile read_experiment(const std::string& path) {
+    return ExperimentReader(path).run();
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,22 @@
+// The experiment file: TOML that names a sample, an instrument and tables of measured data (docs/experiment-file.md).
+#pragma once
+
+#include <coagula/diagnose/measurement.hpp>
+#include <coagula/diagnose/noise.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+struct ExperimentFile {
+    diagnose::Experiment experiment;
+    diagnose::NoiseOptions noise;
+    std::vector<std::string> notes;  ///< what is worth knowing but no error, such as fewer points than announced
+};
+
+/// Reads the file and the tables it names, in SI units; unreadable cells are listed in `left_out`. Paths are relative to the folder
+/// of the file. Throws InputError with a sentence that names the file, the key or column and the rule.
+ExperimentFile read_experiment(const std::string& path);
+
+}  // namespace coagula::tools
