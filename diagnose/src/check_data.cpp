@@ -172,7 +172,7 @@ void Checker::check_order() {
 /// Columns that are set, not measured, and whose steps are even throughout (constant, arithmetic or geometric): every cell lies
 /// where its neighbours say.
 std::set<const Column*> Checker::evenly_stepped_columns() {
-    constexpr double slack = 0.1;
+    constexpr double slack = 0.05;
     std::set<const Column*> even;
     for (const char* name : {"strain", "angular_frequency", "frequency", "time", "gap"}) {
         const Column* column = find_column(table(), name);
@@ -184,9 +184,9 @@ std::set<const Column*> Checker::evenly_stepped_columns() {
             const double before = column->values[row - 1];
             const double value = column->values[row];
             const double after = column->values[row + 1];
-            const double low = std::sqrt(before * after);  // geometric mean
-            const double high = 0.5 * (before + after);    // arithmetic mean
-            fits = fits && value > low * (1 - slack) && value < high * (1 + slack);
+            const double geometric = std::sqrt(before * after);
+            const double arithmetic = 0.5 * (before + after);
+            fits = fits && (std::abs(value - geometric) < slack * geometric || std::abs(value - arithmetic) < slack * arithmetic);
         }
         if (fits) {
             even.insert(column);
@@ -211,7 +211,7 @@ bool Checker::all_rows_disagree(const Relation& relation, const RelationResult& 
     std::vector<double> ratios;
     for (std::size_t row = 0; row < table().rows(); ++row) {
         if (relation.readable(row)) {
-            ratios.push_back(relation.ratio(row));
+            ratios.push_back(relation.ratio(relation.cells(row)));
         }
     }
     std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
@@ -230,7 +230,7 @@ void Checker::check_relations() {
             RelationResult result{relation.name, 0, 0};
             for (std::size_t row = 0; row < table().rows(); ++row) {
                 result.rows += relation.readable(row) ? 1 : 0;
-                result.failed += relation.readable(row) && !relation.holds(row) ? 1 : 0;
+                result.failed += relation.readable(row) && !relation.holds(relation.cells(row)) ? 1 : 0;
             }
             checked_.relations.push_back(result);
             if (all_rows_disagree(relation, result)) {
@@ -244,34 +244,48 @@ void Checker::check_relations() {
     }
 }
 
+/// The cells that alone explain every failing relation of the row; where no cell does, all that nothing vouches for.
+std::set<const Column*> suspects_in(const std::vector<const Relation*>& failing, const std::set<const Column*>& vouched) {
+    std::set<const Column*> all;
+    for (const Relation* relation : failing) {
+        std::copy_if(relation->columns.begin(), relation->columns.end(), std::inserter(all, all.end()),
+                     [&](const Column* column) { return !vouched.contains(column); });
+    }
+    std::set<const Column*> sufficient;
+    std::copy_if(all.begin(), all.end(), std::inserter(sufficient, sufficient.end()), [&](const Column* column) {
+        return std::all_of(failing.begin(), failing.end(), [&](const Relation* relation) {
+            return std::find(relation->columns.begin(), relation->columns.end(), column) != relation->columns.end();
+        });
+    });
+    return sufficient.empty() ? all : sufficient;
+}
+
 void Checker::leave_out_suspects(const std::vector<Relation>& relations) {
     const std::set<const Column*> even = evenly_stepped_columns();
     for (std::size_t row = 0; row < table().rows(); ++row) {
         std::set<const Column*> vouched = even;
         std::vector<const Relation*> failing;
         for (const Relation& relation : relations) {
-            if (relation.readable(row) && relation.holds(row)) {
-                vouched.insert(relation.columns.begin(), relation.columns.end());
-            } else if (relation.readable(row)) {
+            for (std::size_t i = 0; relation.readable(row) && i < relation.columns.size(); ++i) {
+                if (relation.vouches_for(i, row)) {
+                    vouched.insert(relation.columns[i]);
+                }
+            }
+            if (relation.readable(row) && !relation.holds(relation.cells(row))) {
                 failing.push_back(&relation);
             }
         }
-        std::map<const Column*, std::string> suspects;
-        for (const Relation* relation : failing) {
-            std::vector<const Column*> cells;
-            std::copy_if(relation->columns.begin(), relation->columns.end(), std::back_inserter(cells),
-                         [&](const Column* column) { return !vouched.contains(column); });
-            // All vouched for and yet contradicting: nothing but the axis can be trusted.
-            const bool hopeless = cells.empty();
-            for (const Column* cell : hopeless ? relation->columns : cells) {
-                if (!(hopeless && even.contains(cell))) {
-                    suspects.emplace(
-                        cell, relation->name + " fails by a factor of " + to_text(std::round(relation->ratio(row) * 1e4) / 1e4));
-                }
-            }
+        std::set<const Column*> suspects = suspects_in(failing, vouched);
+        if (suspects.empty() && !failing.empty()) {  // all vouched for and yet contradicting: only what is set can be trusted
+            suspects = suspects_in(failing, even);
         }
-        for (const auto& [suspect, reason] : suspects) {
-            leave_out(column(suspect->name), row, reason);
+        for (const Column* suspect : suspects) {
+            const auto relation = std::find_if(failing.begin(), failing.end(), [&](const Relation* each) {
+                return std::find(each->columns.begin(), each->columns.end(), suspect) != each->columns.end();
+            });
+            const double ratio = (*relation)->ratio((*relation)->cells(row));
+            leave_out(column(suspect->name), row,
+                      (*relation)->name + " fails by a factor of " + to_text(std::round(ratio * 1e4) / 1e4));
         }
     }
 }

@@ -11,7 +11,7 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr int passes = 3;
+constexpr int passes = 4;
 /// 95 % point of chi-square with one degree of freedom.
 constexpr double chi_square_95 = 3.841458820694124;
 
@@ -58,14 +58,18 @@ Eigen::VectorXd mean_levels(const ReplicatedValues& data) {
 /// matter, so that zero is an inner point.
 class NoiseLikelihood {
 public:
-    NoiseLikelihood(const ReplicatedValues& data, Eigen::VectorXd levels, bool with_floor, bool with_sample)
+    NoiseLikelihood(const ReplicatedValues& data, Eigen::VectorXd levels, Eigen::VectorXd effects, bool with_floor,
+                    bool with_sample)
         : data_(data),
           levels_(std::move(levels)),
+          effects_(std::move(effects)),
           scale_{std::exp((levels_.array() / data.floor_weights.array()).abs().log().mean()), 1, 1},
           free_{with_floor, true, with_sample} {}
 
     /// Minus the log likelihood.
-    double at(const Deviations& scaled) const { return restricted_fit(data_, levels_, in_units(scaled)).minus_log_likelihood; }
+    double at(const Deviations& scaled) const {
+        return restricted_fit(data_, levels_, effects_, in_units(scaled)).minus_log_likelihood;
+    }
 
     /// The maximum with one deviation held (`held` = 0, 1, 2) or none (-1).
     Deviations best(Deviations start, int held) const {
@@ -98,13 +102,14 @@ public:
     }
 
     bool is_free(std::size_t i) const { return free_[i]; }
-    RestrictedFit fit(const Deviations& scaled) const { return restricted_fit(data_, levels_, in_units(scaled)); }
+    RestrictedFit fit(const Deviations& scaled) const { return restricted_fit(data_, levels_, effects_, in_units(scaled)); }
 
 private:
     bool moves(std::size_t i, int held) const { return free_[i] && static_cast<int>(i) != held; }
 
     const ReplicatedValues& data_;
     Eigen::VectorXd levels_;
+    Eigen::VectorXd effects_;
     Deviations scale_;
     std::array<bool, 3> free_;
 };
@@ -188,7 +193,7 @@ double lag_one(const Replicates& replicates, const ReplicatedValues& data, const
                 const double level = fit.levels[data.condition[i]];
                 const double expected = level * (1 + fit.effects[data.sample[i]]);
                 rows.back()[table] =
-                    (replicates.values(row, table) - expected) / standard_deviation(noise, level, replicates.floor_weights[row]);
+                    (replicates.values(row, table) - expected) / standard_deviation(noise, expected, replicates.floor_weights[row]);
                 ++i;
             }
         }
@@ -222,12 +227,15 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
     const Eigen::VectorXd sizes = levels.cwiseQuotient(data.floor_weights).cwiseAbs();
     const bool with_floor = sizes.maxCoeff() >= options.least_range * sizes.minCoeff();
     const bool with_sample = data.samples > 1;
+    Eigen::VectorXd effects = Eigen::VectorXd::Zero(data.samples);
     Deviations best = first_guess(data, levels);
     for (int pass = 0; pass < passes; ++pass) {
-        const NoiseLikelihood likelihood(data, levels, with_floor, with_sample);
-        best = best_of_starts(likelihood, best);
+        const NoiseLikelihood likelihood(data, levels, effects, with_floor, with_sample);
+        best = pass == 0 ? best_of_starts(likelihood, best) : likelihood.best(best, -1);
         if (pass + 1 < passes) {
-            levels = likelihood.fit(best).levels;
+            const RestrictedFit fit = likelihood.fit(best);
+            levels = fit.levels;
+            effects = fit.effects;
             continue;
         }
         noise.floor = with_floor ? profile(likelihood, best, 0) : Estimate{};
@@ -286,7 +294,8 @@ Eigen::MatrixXd covariance(const NoiseModel& noise, const Eigen::VectorXd& level
     require(levels.size() == floor_weights.size(), "covariance: one floor weight per level is needed");
     Eigen::MatrixXd matrix = noise.sample.value * noise.sample.value * levels * levels.transpose();
     for (Eigen::Index i = 0; i < levels.size(); ++i) {
-        matrix(i, i) += std::pow(standard_deviation(noise, levels[i], floor_weights[i]), 2);
+        const double level = levels[i] * std::hypot(1, noise.sample.value);  // root mean square of mu (1 + b)
+        matrix(i, i) += std::pow(standard_deviation(noise, level, floor_weights[i]), 2);
     }
     return matrix;
 }

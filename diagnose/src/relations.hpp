@@ -11,17 +11,24 @@ namespace coagula::diagnose {
 
 /// A quantity that two ways to compute it must give alike.
 struct Relation {
+    /// The values of `columns` in a row, in their order.
+    using Cells = std::vector<double>;
+
     std::string name;
     std::vector<const Column*> columns;
     /// The column that only repeats the others; null where all of them are measured.
     const Column* redundant;
-    /// One way divided by the other in a row.
-    std::function<double(std::size_t row)> ratio;
-    /// Largest |ln ratio| in a row.
-    std::function<double(std::size_t row)> tolerance;
+    /// One way divided by the other.
+    std::function<double(const Cells&)> ratio;
+    /// Largest |ln ratio|.
+    std::function<double(const Cells&)> tolerance;
 
+    Cells cells(std::size_t row) const;
     bool readable(std::size_t row) const;
-    bool holds(std::size_t row) const;
+    bool holds(const Cells& cells) const;
+    /// Whether the relation holds in this row and would not if the cell of that column were off by a factor of two: then the cell
+    /// is right unless others are wrong in just the way that hides it.
+    bool vouches_for(std::size_t column, std::size_t row) const;
 };
 
 /// The relations between the columns that this table has. They hold pointers into it.

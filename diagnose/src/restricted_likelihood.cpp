@@ -12,7 +12,7 @@ namespace {
 /// The covariance of one sample is D + t^2 m m^T (D diagonal, m the levels), inverted by Sherman and Morrison; the normal matrix of
 /// the levels is then diagonal minus one rank per sample.
 struct Sums {
-    Sums(const ReplicatedValues& data, const Eigen::VectorXd& levels, const Deviations& deviations)
+    Sums(const ReplicatedValues& data, const Eigen::VectorXd& levels, const Eigen::VectorXd& effects, const Deviations& deviations)
         : weights(Eigen::VectorXd::Zero(data.conditions)),
           weighted(Eigen::VectorXd::Zero(data.conditions)),
           coupling(Eigen::MatrixXd::Zero(data.conditions, data.samples)),
@@ -23,7 +23,8 @@ struct Sums {
             const Eigen::Index s = data.sample[static_cast<std::size_t>(i)];
             const double level = levels[c];
             const double floor = deviations[0] * data.floor_weights[c];
-            const double variance = floor * floor + deviations[1] * deviations[1] * level * level;
+            const double relative = deviations[1] * level * (1 + effects[s]);
+            const double variance = floor * floor + relative * relative;
             const double residual = data.values[i] - level;
             log_determinant += std::log(variance);
             square += residual * residual / variance;
@@ -46,8 +47,9 @@ struct Sums {
 
 }  // namespace
 
-RestrictedFit restricted_fit(const ReplicatedValues& data, const Eigen::VectorXd& levels, const Deviations& deviations) {
-    const Sums sums(data, levels, deviations);
+RestrictedFit restricted_fit(const ReplicatedValues& data, const Eigen::VectorXd& levels, const Eigen::VectorXd& effects,
+                             const Deviations& deviations) {
+    const Sums sums(data, levels, effects, deviations);
     const double variance = deviations[2] * deviations[2];
     const Eigen::ArrayXd shrink = 1 + variance * sums.information.array();
     const Eigen::VectorXd kappa = (variance / shrink).matrix();

@@ -28,7 +28,8 @@ struct RestrictedFit {
     Eigen::VectorXd effects;          ///< best linear unbiased prediction, one per sample
 };
 
-/// @param levels those that enter the variances, one per condition, > 0.
-RestrictedFit restricted_fit(const ReplicatedValues& data, const Eigen::VectorXd& levels, const Deviations& deviations);
+/// @param levels, effects those that enter the variances, one per condition and one per sample.
+RestrictedFit restricted_fit(const ReplicatedValues& data, const Eigen::VectorXd& levels, const Eigen::VectorXd& effects,
+                             const Deviations& deviations);
 
 }  // namespace coagula::diagnose

@@ -1,6 +1,6 @@
 // Noise of measured data: a floor, a relative part and a random effect of each sample, estimated from replicates.
 //
-//     y = mu (1 + b) + e,     b ~ N(0, sample^2) once per sample,     e ~ N(0, (w floor)^2 + (relative mu)^2) in each row
+//     y = mu (1 + b) + e,     b ~ N(0, sample^2) once per sample,     e ~ N(0, (w floor)^2 + (relative mu (1 + b))^2) in each row
 //
 // The floor of a modulus is one of the stress where the strain amplitude is known, w = 1/strain: a rheometer resolves a torque.
 // Otherwise w = 1.
@@ -75,14 +75,14 @@ struct NoiseModel {
 };
 
 /// Restricted maximum likelihood (Patterson, Thompson, Biometrika 58 (1971) 545): one free level per condition, the three variances
-/// by the likelihood of the contrasts between replicates; the levels in the variances are those of the previous of three passes.
-/// Throws std::invalid_argument when sizes do not fit together.
+/// by the likelihood of the contrasts between replicates; the levels and effects in the variances are those of the previous of four
+/// passes. Throws std::invalid_argument when sizes do not fit together.
 NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options = {});
 
-/// Standard deviation of e at this level. @param floor_weight w, see above.
+/// Standard deviation of e where the sample itself has this level, mu (1 + b). @param floor_weight w, see above.
 double standard_deviation(const NoiseModel& noise, double level, double floor_weight);
 
-/// Covariance of the values of one sample at these levels, the sample effect included. @param floor_weights w, one per level.
+/// Covariance of the values of one sample about these levels mu, the sample effect included. @param floor_weights w, one per level.
 Eigen::MatrixXd covariance(const NoiseModel& noise, const Eigen::VectorXd& levels, const Eigen::VectorXd& floor_weights);
 
 }  // namespace coagula::diagnose
