@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,6 +31,17 @@ TEST(Units, ReadsNumbersWithUnits) {
     EXPECT_EQ(parse_quantity("7", "1"), 7);
     EXPECT_EQ(parse_quantity("12 %", "1"), 0.12);
     EXPECT_DOUBLE_EQ(parse_quantity("180 degrees", "rad"), 3.14159265358979323846);
+}
+
+TEST(Units, ConvertsColumnsWithTheirZero) {
+    const std::vector<double> kelvin = convert({0, 25, std::nan("")}, "°C", "K");
+    EXPECT_DOUBLE_EQ(kelvin[0], 273.15);
+    EXPECT_DOUBLE_EQ(kelvin[1], 298.15);
+    EXPECT_TRUE(std::isnan(kelvin[2]));
+    EXPECT_EQ(convert({3}, "mN·m", "N.m")[0], 3e-3);
+    EXPECT_EQ(convert({12}, "%", "1")[0], 0.12);
+    EXPECT_THROW(convert({1}, "Pa", "m"), InputError);
+    EXPECT_THROW(convert({1}, "", "m"), InputError);
 }
 
 TEST(Units, TellsMillisecondsFromMetreSeconds) {
