@@ -9,8 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <map>
-#include <numeric>
+#include <sstream>
 
 namespace coagula::tools {
 
@@ -96,8 +97,11 @@ std::string row_list(const std::vector<std::size_t>& rows) {
     return text;
 }
 
+/// Three digits.
 std::string percent(double value) {
-    return with_unit(100 * value, "%");
+    std::ostringstream text;
+    text << std::setprecision(3) << 100 * value << " %";
+    return text.str();
 }
 
 void add_measurement_lines(Table& lines, const CheckedMeasurement& checked) {

@@ -4,14 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace coagula::diagnose {
 
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// A factor to three digits.
+std::string factor_text(double factor) {
+    std::ostringstream text;
+    text << std::setprecision(3) << factor;
+    return text.str();
+}
 
 std::string part_of(std::size_t count, std::size_t all) {
     return std::to_string(count) + " of " + std::to_string(all);
@@ -216,7 +225,7 @@ bool Checker::all_rows_disagree(const Relation& relation, const RelationResult& 
     }
     std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
     complain(relation.name + " fails in " + part_of(result.failed, result.rows) + " rows, typically by a factor of " +
-             to_text(std::round(ratios[ratios.size() / 2] * 1e4) / 1e4) + ": are the units of these columns right?");
+             factor_text(ratios[ratios.size() / 2]) + ": are the units of these columns right?");
     return true;
 }
 
@@ -284,8 +293,7 @@ void Checker::leave_out_suspects(const std::vector<Relation>& relations) {
                 return std::find(each->columns.begin(), each->columns.end(), suspect) != each->columns.end();
             });
             const double ratio = (*relation)->ratio((*relation)->cells(row));
-            leave_out(column(suspect->name), row,
-                      (*relation)->name + " fails by a factor of " + to_text(std::round(ratio * 1e4) / 1e4));
+            leave_out(column(suspect->name), row, (*relation)->name + " fails by a factor of " + factor_text(ratio));
         }
     }
 }

@@ -27,7 +27,7 @@ class Install(ProgramTest):
     def test_consumer(self):
         self.call(CMAKE, "--install", BUILD, "--prefix", self.folder / "prefix")
         self.assertIn("coagula", self.call(self.folder / "prefix/bin/coagula", "--version"))
-        for component in ("common", "io", "generators", "mechanics", ""):
+        for component in ("common", "io", "generators", "mechanics", "diagnose", ""):
             self.configure(component)
         self.configure("characterize")
         self.call(CMAKE, "--build", "consumer")

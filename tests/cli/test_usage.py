@@ -4,7 +4,7 @@ import unittest
 
 from support import ProgramTest
 
-VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "info", "import", "export"]
+VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "info", "import", "export"]
 
 
 class Help(ProgramTest):

@@ -1,0 +1,218 @@
+"""coagula diagnose --check: what an experiment file says, what the data checks find, and every bad input refused by one sentence."""
+
+import math
+import os
+import unittest
+from pathlib import Path
+
+from support import ProgramTest
+
+CEMENT = Path(os.environ["COAGULA_SHARED_DATA"]) / "cement_laos"
+HEAD = "strain [%],storage modulus [Pa],loss modulus [Pa],stress [Pa]\n"
+
+
+def sweep(rows=8, scale=1.0, wobble=0.0):
+    """An amplitude sweep in a CSV file; scale and wobble make replicates of it."""
+    lines = []
+    for i in range(rows):
+        strain = 0.001 * 10 ** (i / 2)
+        storage = scale * 500 / (1 + strain) * (1 + wobble * math.sin(5 * i * scale))
+        loss = 50 * scale
+        lines.append(f"{strain:.6g},{storage:.6g},{loss:.6g},{math.hypot(storage, loss) * strain / 100:.6g}\n")
+    return HEAD + "".join(lines)
+
+
+def experiment(*measurements, before=""):
+    return before + "".join(f"[[measurement]]\n{text}\n" for text in measurements)
+
+
+SWEEP = 'kind = "amplitude-sweep"\nfile = "sweep.csv"'
+
+
+class Check(ProgramTest):
+    def found(self, text):
+        return self.succeed_json("diagnose", "--check", self.write("experiment.toml", text))
+
+    def test_reads_converts_and_reports(self):
+        self.write("sweep.csv", sweep())
+        found = self.found(experiment(SWEEP + '\nsample = "A"\nvalues = { frequency = "1 Hz" }', before='title = "gel"\n'))
+        self.assertEqual(found["title"], "gel")
+        (table,) = found["measurements"]
+        self.assertEqual((table["kind"], table["sample"], table["rows"], table["left_out"]), ("amplitude-sweep", "A", 8, []))
+        columns = {column["name"]: column for column in table["columns"]}
+        self.assertAlmostEqual(columns["strain"]["min"], 1e-5)
+        self.assertAlmostEqual(columns["angular_frequency"]["max"], 2 * math.pi)
+        self.assertFalse(found["noise"][0]["rows_estimated"])
+        self.assertIn("no replicates", found["noise"][0]["statement"])
+        self.assertIn("amplitude-sweep", self.succeed("diagnose", "--check", "experiment.toml"))
+
+    def test_a_slipped_separator_is_listed_and_left_out(self):
+        lines = sweep().splitlines()
+        cells = lines[4].split(",")
+        cells[3] = str(float(cells[3]) * 10)
+        lines[4] = ",".join(cells)
+        self.write("sweep.csv", "\n".join(lines) + "\n")
+        (table,) = self.found(experiment(SWEEP))["measurements"]
+        self.assertIn(("stress", 4), {(cell["column"], cell["row"]) for cell in table["left_out"]})
+        self.assertEqual({cell["row"] for cell in table["left_out"]}, {4})
+        self.assertIn("|G*| x strain = stress", table["left_out"][0]["reason"])
+
+    def test_replicates_give_the_noise(self):
+        parts = []
+        for number, scale in enumerate((1.0, 1.1, 0.7)):
+            self.write(f"{number}.csv", sweep(12, scale, 0.02))
+            parts.append(f'kind = "amplitude-sweep"\nfile = "{number}.csv"\nsample = "batch {number}"')
+        noise = self.found(experiment(*parts))["noise"][0]
+        self.assertEqual((noise["observable"], noise["tables"], noise["samples"]), ("storage_modulus", 3, 3))
+        self.assertTrue(noise["rows_estimated"] and noise["sample_estimated"])
+        self.assertTrue(noise["sample"]["low"] < 0.21 < noise["sample"]["high"])  # scatter of 1, 1.1, 0.7 about their mean
+        effects = noise["sample_effects"]
+        self.assertAlmostEqual((1 + effects["batch 2"]) / (1 + effects["batch 0"]), 0.7, delta=0.03)
+
+    def test_columns_by_heading_and_standard_errors(self):
+        self.write("s.csv", "a,modulus [MPa],error [MPa]\n" + "".join(f"{0.37 + 0.05 * i},{1 + 0.1 * i},0.1\n" for i in range(6)))
+        found = self.found(experiment('kind = "structure-series"\nfile = "s.csv"\n'
+                                      'columns = { heterogeneity = "a", storage_modulus = "modulus" }\n'
+                                      'standard_errors = { storage_modulus = "error [MPa]" }'))
+        columns = {column["name"]: column for column in found["measurements"][0]["columns"]}
+        self.assertAlmostEqual(columns["storage_modulus"]["max"], 1.5e6)
+        self.assertTrue(columns["storage_modulus"]["standard_errors"])
+        self.assertAlmostEqual(columns["heterogeneity"]["min"], 0.37)
+
+    def test_trios_steps_are_chosen_by_section_and_result(self):
+        rows = "".join(f"{10 ** (0.5 * i)}\t{100 + i}\t{10}\n" for i in range(6))
+        self.write("t.txt", "Filename\tx\n[step]\nConditioning\nTime\tTemperature\ns\t°C\n1\t20\n\n"
+                            f"[step]\nFrequency sweep\nAngular frequency\tStorage modulus\tLoss modulus\nrad/s\tkPa\tPa\n{rows}")
+        keys = 'kind = "frequency-sweep"\nfile = "t.txt"\n'
+        for choice in ("section = 2", 'result = "Frequency sweep"'):
+            (table,) = self.found(experiment(keys + choice))["measurements"]
+            self.assertEqual(table["rows"], 6)
+            self.assertAlmostEqual({c["name"]: c for c in table["columns"]}["storage_modulus"]["max"], 105e3)
+        self.write("experiment.toml", experiment(keys))
+        self.fail_with(2, "diagnose", "--check", "experiment.toml", says="several sections fit")
+
+
+class BadInput(ProgramTest):
+    def refuse(self, text, *says, data=None):
+        self.write("sweep.csv", sweep() if data is None else data)
+        self.write("experiment.toml", text)
+        self.fail_with(2, "diagnose", "--check", "experiment.toml", says=says, may_say_nan=True)
+
+    def refuse_data(self, data, *says):
+        self.refuse(experiment(SWEEP), *says, data=data)
+
+    def test_data(self):
+        self.refuse_data("strain [%],loss modulus [Pa]\n1,2\n", "sweep.csv", "no column 'storage_modulus'")
+        self.refuse_data("storage modulus [Pa]\n1\n", "no column 'strain'")
+        self.refuse_data(HEAD.replace("modulus [Pa]", "modulus [m]") + "1,2,3,4\n", "'storage modulus'", "another dimension")
+        self.refuse_data(HEAD.replace("strain [%]", "strain") + "1,2,3,4\n", "'strain' names no unit")
+        self.refuse_data(sweep(3), "3 usable rows are too few")
+        self.refuse_data(HEAD + "".join(f"{i},500,50,{i * 5.0249}\n" for i in range(1, 9)), "'storage_modulus' is 500 Pa in every row")
+        self.refuse_data(HEAD + "".join(f"{i},nan,50,1\n" for i in range(1, 9)), "'storage_modulus' has no readable number")
+        head, *rows = sweep(12).splitlines(keepends=True)
+        self.refuse_data(head + "".join(rows[6:] + rows[:6]), "the rows are in the wrong order")
+        self.refuse_data(sweep().replace("strain [%]", "strain [1]"), "by a factor of 100", "units")
+        self.refuse_data("", "sweep.csv", "no header")
+
+    def test_metadata(self):
+        for before, says in (
+            ('[instrument]\ngap = "0 mm"\n', "instrument.gap is 0"),
+            ('[instrument]\ngap = "1 Pa"\n', "key 'gap'"),
+            ('[instrument]\ngeometry = "egg"\n', "'egg' is none of"),
+            ('[instrument]\ngeometry = "plate-plate"\ncone_angle = "1 degree"\n', "cone_angle"),
+            ('[instrument]\nplate_radius = "12.5mm"\ngap = "2cm"\n', "must be below plate_radius"),
+            ("[sample]\nvolume_fraction = 40\n", "volume_fraction"),
+            ('[sample]\nparticle_radius = "-1um"\n', "particle_radius"),
+            ("[sample]\ncolour = 3\n", "key 'colour'"),
+            ("colour = 3\n", "key 'colour'"),
+            ('[structures]\nfiles = ["absent.h5"]\n', "absent.h5 does not exist"),
+            ('[structures]\ngenerator = "snow"\n', "'snow'"),
+            ("[noise]\nstated_relative = 5\n", "stated_relative"),
+            ("sample = 3\n", "must be a table"),
+        ):
+            with self.subTest(before=before):
+                self.refuse(experiment(SWEEP, before=before), "experiment.toml", says)
+
+    def test_measurements(self):
+        for text, says in (
+            ("", "there is no measurement"),
+            (experiment('file = "sweep.csv"'), "the key 'kind' is missing"),
+            (experiment('kind = "amplitude-sweep"'), "the key 'file' is missing"),
+            (experiment('kind = "swing"\nfile = "sweep.csv"'), "'swing' is none of frequency-sweep, amplitude-sweep"),
+            (experiment('kind = "amplitude-sweep"\nfile = "absent.csv"'), "absent.csv does not exist"),
+            (experiment(SWEEP + "\nsection = 7"), "no section fits"),
+            (experiment(SWEEP + "\npoints = [1]"), "only a waveform has points"),
+            (experiment(SWEEP + '\ncolumns = { storage_modulus = "E" }'), "there is no column 'E'"),
+            (experiment(SWEEP + '\ncolumns = { stiffness = "E" }'), "'stiffness' is no quantity"),
+            (experiment(SWEEP + '\nvalues = { angular_frequency = "0 rad/s" }'), "must be > 0"),
+            (experiment(SWEEP + '\nvalues = { stress = "3 Pa" }'), "has a column of it"),
+            (experiment(SWEEP + "\nmood = 1"), "key 'mood'"),
+            ("[[measurement]\n", "not TOML"),
+        ):
+            with self.subTest(text=text):
+                self.refuse(text, says)
+
+    def test_files(self):
+        self.fail_with(2, "diagnose", "--check", "absent.toml", says="absent.toml")
+        self.fail_with(2, "diagnose", "--check", self.folder, says="cannot be read")
+        self.write("experiment.toml", experiment(SWEEP))
+        self.fail_with(2, "diagnose", "experiment.toml", says="--check")
+
+
+@unittest.skipUnless(CEMENT.is_dir(), f"no folder {CEMENT}")
+class CementPaste(ProgramTest):
+    """The example of docs/experiment-file.md on the exports themselves."""
+
+    def setUp(self):
+        super().setUp()
+        document = Path(__file__).parents[2] / "docs" / "experiment-file.md"
+        example = document.read_text().split("```toml\n")[1].split("```")[0]
+        for path in CEMENT.glob("*.csv"):
+            (self.folder / path.name).symlink_to(path.resolve())
+        self.write("experiment.toml", example)
+        self.found = self.succeed_json("diagnose", "--check", "experiment.toml")
+
+    def test_columns_and_rows(self):
+        kinds = [(table["kind"], table["rows"]) for table in self.found["measurements"]]
+        self.assertEqual(kinds, 3 * [("amplitude-sweep", 51)] + [("waveform", 513)] + [("time-sweep", 200)])
+        for table in self.found["measurements"][:4]:
+            self.assertEqual(table["left_out"], [])
+
+    def test_exactly_the_slipped_stress_cells_are_left_out(self):
+        cells = self.found["measurements"][-1]["left_out"]
+        left_out = {cell["row"]: cell["value"] for cell in cells if cell["column"] == "stress"}
+        # Independently, from the text of the file: the stress that G', G'' and the strain of the row make.
+        lines = (CEMENT / "SAOS_0.55_250.csv").read_bytes().decode("utf-16").splitlines()
+        start = [i for i, line in enumerate(lines) if line.startswith("Abschnitt und")][1]
+        slipped = {}
+        for line in lines[start + 4:start + 204]:
+            cell = line.split("\t")
+            strain, stress, storage, loss = (float(cell[i].replace(",", ".")) for i in (2, 4, 5, 6))
+            ratio = stress / (math.hypot(storage, loss) * strain / 100)
+            if abs(ratio - 1) > 0.5:
+                self.assertAlmostEqual(ratio, 10, delta=0.02)  # the separator, and nothing else
+                slipped[int(cell[1])] = stress
+            else:
+                self.assertAlmostEqual(ratio, 1, delta=0.002)
+        self.assertEqual(len(slipped), 43)
+        self.assertEqual(set(left_out), set(slipped))
+        for row, value in left_out.items():
+            self.assertEqual(float(value), slipped[row])
+
+    def test_no_modulus_or_axis_is_lost(self):
+        cells = self.found["measurements"][-1]["left_out"]
+        self.assertEqual({cell["column"] for cell in cells}, {"stress", "torque", "complex_viscosity", "gap"})
+        self.assertEqual([cell["value"] for cell in cells if cell["column"] == "torque"], ["7.67E-01"])
+
+    def test_the_third_batch_is_a_sample_effect(self):
+        for noise in self.found["noise"][:2]:
+            self.assertEqual(noise["samples"], 3)
+            effects = noise["sample_effects"]
+            ratio = (1 + effects["batch 3"]) / (1 + (effects["batch 1"] + effects["batch 2"]) / 2)
+            self.assertAlmostEqual(ratio, 0.66, delta=0.06)
+            self.assertTrue(noise["sample"]["low"] > 3 * noise["relative"]["high"] / 2)
+            self.assertLess(noise["relative"]["value"], 0.05)
+
+
+if __name__ == "__main__":
+    unittest.main()
