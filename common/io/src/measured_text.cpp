@@ -239,7 +239,7 @@ void DecimalCommaVote::add(std::string_view cell) {
     points_ += as_point && !as_comma ? 1 : 0;
 }
 
-Cell read_cell(std::string_view text, bool decimal_comma) {
+CellNumber read_cell(std::string_view text, bool decimal_comma) {
     const std::string joined = without_blanks(trim(text));
     if (joined.empty()) {
         return {};
@@ -283,7 +283,7 @@ TableBuilder::TableBuilder(std::vector<HeadingWithUnit> headings, bool decimal_c
 void TableBuilder::add_row(const std::vector<std::string>& cells) {
     for (std::size_t column = 0; column < table_.columns.size(); ++column) {
         const std::string text = column < cells.size() ? cells[column] : "";
-        const Cell cell = read_cell(text, decimal_comma_);
+        const CellNumber cell = read_cell(text, decimal_comma_);
         table_.columns[column].values.push_back(cell.value.value_or(std::numeric_limits<double>::quiet_NaN()));
         if (!cell.complaint.empty()) {
             table_.unreadable.push_back({column, rows_, text, cell.complaint});

@@ -33,11 +33,11 @@ private:
     std::size_t points_ = 0;
 };
 
-struct Cell {
+struct CellNumber {
     std::optional<double> value;
     std::string complaint;  ///< why it cannot be read; empty for a number and for an empty cell
 };
-Cell read_cell(std::string_view text, bool decimal_comma);
+CellNumber read_cell(std::string_view text, bool decimal_comma);
 
 /// Heading and unit of "strain [%]" or "strain (%)"; the unit is empty when there is none.
 struct HeadingWithUnit {

@@ -174,7 +174,7 @@ bool find_decimal_comma(const MeasuredText& text, char separator) {
 std::pair<int, int> announced(const std::string& line, char separator) {
     const std::vector<std::string> cells = split_cells(line, separator);
     const auto number = [&](std::size_t i) {
-        const Cell cell = i < cells.size() ? read_cell(cells[i], false) : Cell{};
+        const CellNumber cell = i < cells.size() ? read_cell(cells[i], false) : CellNumber{};
         return cell.value && *cell.value > 0 && *cell.value < 1e9 ? static_cast<int>(*cell.value) : 0;
     };
     return {number(1), number(2)};

@@ -44,7 +44,7 @@ StepHead read_head(const MeasuredText& text, std::size_t step) {
         if (key == "step name" && cells.size() > 1) {
             head.title = cells[1];
         } else if (key == "number of points" && cells.size() > 1) {
-            const Cell points = read_cell(cells[1], false);
+            const CellNumber points = read_cell(cells[1], false);
             head.announced_points = points.value && *points.value < 1e9 ? static_cast<int>(*points.value) : 0;
         } else if (cells.size() > 1 && std::any_of(cells.begin(), cells.end(),
                                                    [](const std::string& cell) { return !quantity_of_heading(cell).empty(); })) {
