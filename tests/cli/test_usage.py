@@ -64,14 +64,6 @@ class WrongUsage(ProgramTest):
             with self.subTest(words=words):
                 self.fail_with(2, *words, says=part, may_say_nan="nan" in words)
 
-<<<<<<< HEAD
-    def test_methods_to_come(self):
-        self.copy_of_packing()
-        for method in ("quasistatic",):
-            self.fail_with(2, "shear", "packing.h5", "--method", method, says="not available in this version")
-
-=======
->>>>>>> d2d711b (coagula shear --method quasistatic: small strain, ramps and amplitude sweeps; documentation and tests)
     def test_errors_with_json_are_sentences_on_standard_error(self):
         self.fail_with(2, "info", "absent.h5", "--json", says="absent.h5")
 
