@@ -25,8 +25,8 @@ constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
 std::vector<Verb> all_verbs() {
-    return {generate_vem_verb(), characterize_verb(), shear_verb(),  calibrate_verb(), fit_power_law_verb(),
-            diagnose_verb(),     info_verb(),         import_verb(), export_verb()};
+    return {generate_vem_verb(),  generate_brownian_verb(), characterize_verb(), shear_verb(),  calibrate_verb(),
+            fit_power_law_verb(), diagnose_verb(),          info_verb(),         import_verb(), export_verb()};
 }
 
 void print_program_help() {
@@ -34,7 +34,7 @@ void print_program_help() {
                  "Random sphere packings and coagulated particle gels: generate, characterize, shear.\n\nverbs:\n";
     for (const Verb& verb : all_verbs()) {
         std::string name = verb.name;
-        name.resize(14, ' ');
+        name.resize(20, ' ');
         std::cout << "  " << name << verb.summary << '\n';
     }
     std::cout
@@ -57,8 +57,9 @@ Verb take_verb(std::vector<std::string>& words) {
         throw InputError("'fit' needs the name of a law, and the one law is 'fit power-law'");
     }
     if (words.front() == "generate") {
-        throw InputError(words.size() > 1 ? "'generate " + words[1] + "' is not a verb: the one generator is 'generate vem'"
-                                          : "'generate' needs the name of a generator: 'generate vem'");
+        throw InputError(words.size() > 1 ? "'generate " + words[1] +
+                                                "' is not a verb: the generators are 'generate vem' and 'generate brownian'"
+                                          : "'generate' needs the name of a generator: 'generate vem' or 'generate brownian'");
     }
     throw InputError("'" + words.front() + "' is not a verb (see 'coagula --help')");
 }

@@ -1,10 +1,11 @@
 #include "rheometer_checkpoint.hpp"
 
+#include "checkpoint_file.hpp"
+
 #include <coagula/common/checks.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <array>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -18,53 +19,9 @@ using dem::Quad;
 using mechanics::Oscillation;
 using mechanics::RheometerCheckpoint;
 using mechanics::RheometerRun;
-using Numbers = std::vector<double>;
-using Integers = std::vector<std::int64_t>;
+using Reader = CheckpointReader;
 
 const std::string kind = "checkpoint of coagula shear --method dem";
-
-/// Data sets by path, with a sentence for what is missing.
-class Reader {
-public:
-    explicit Reader(const std::string& path) : path_(path) {
-        for (io::Dataset& dataset : io::read_results(path, "/")) {
-            datasets_.emplace(dataset.path, std::move(dataset));
-        }
-    }
-    bool has(const std::string& name) const { return datasets_.contains(name); }
-    template <class Values>
-    const Values& get(const std::string& name) const {
-        const auto found = datasets_.find(name);
-        if (found == datasets_.end() || !std::holds_alternative<Values>(found->second.values)) {
-            throw InputError(path_ + ": " + name + " is missing: this is no " + kind);
-        }
-        return std::get<Values>(found->second.values);
-    }
-    /// The values of a table with so many columns.
-    template <class Values>
-    const Values& table(const std::string& name, std::size_t columns, std::size_t rows) const {
-        const Values& values = get<Values>(name);
-        if (values.size() != columns * rows) {
-            throw InputError(path_ + ": " + name + " has " + std::to_string(values.size()) + " values, not " +
-                             std::to_string(columns * rows) + ": the checkpoint is damaged");
-        }
-        return values;
-    }
-    [[noreturn]] void fail(const std::string& rule) const { throw InputError(path_ + " " + rule); }
-
-private:
-    std::string path_;
-    std::map<std::string, io::Dataset> datasets_;
-};
-
-void put(std::vector<io::Dataset>& all, const std::string& path, Numbers values) {
-    const std::size_t count = values.size();
-    all.push_back({path, {count}, std::move(values), "1", "state of the run, SI units"});
-}
-void put(std::vector<io::Dataset>& all, const std::string& path, Integers values) {
-    const std::size_t count = values.size();
-    all.push_back({path, {count}, std::move(values), "1", "state of the run"});
-}
 
 /// The per-particle vectors of a state with their names.
 template <class State>
@@ -242,9 +199,7 @@ std::string finished_group(std::size_t number) {
 }  // namespace
 
 void write_checkpoint(const std::string& path, const std::string& signature, const RheometerCheckpoint& checkpoint) {
-    std::vector<io::Dataset> all;
-    all.push_back(io::text("/kind", kind, "what this file is"));
-    all.push_back(io::text("/signature", signature, "options and structure of the run"));
+    std::vector<io::Dataset> all = checkpoint_head(kind, signature);
     for (std::size_t run = 0; run < checkpoint.finished.size(); ++run) {
         put_run(all, finished_group(run), checkpoint.finished[run]);
     }
@@ -254,14 +209,7 @@ void write_checkpoint(const std::string& path, const std::string& signature, con
 }
 
 RheometerCheckpoint read_checkpoint(const std::string& path, const std::string& signature) {
-    const Reader file(path);
-    if (file.get<std::string>("/kind") != kind) {
-        file.fail("is no " + kind);
-    }
-    if (file.get<std::string>("/signature") != signature) {
-        file.fail(
-            "is the checkpoint of a run with other options or another structure: remove it, or repeat the call that wrote it");
-    }
+    const Reader file(path, kind, signature);
     RheometerCheckpoint checkpoint;
     for (std::size_t run = 0; file.has(finished_group(run) + "orientation"); ++run) {
         checkpoint.finished.push_back(read_run(file, finished_group(run)));

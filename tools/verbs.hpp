@@ -5,6 +5,7 @@
 
 namespace coagula::tools {
 
+Verb generate_brownian_verb();
 Verb generate_vem_verb();
 Verb characterize_verb();
 Verb shear_verb();

@@ -35,23 +35,37 @@ void write_metadata(File& file) {
     file.set_attribute(metadata + "/modules/units", "system", "SI");
 }
 
-void write_positions(File& file, const Packing& packing) {
-    const Eigen::Matrix3Xd positions = layout::stored_positions(packing);
+/// The frames before the packing itself, which is the last.
+void write_positions(File& file, const Structure& structure) {
+    const Packing& packing = structure.packing;
+    const std::size_t frames = structure.earlier.size() + 1;
+    const Index particles = packing.size();
+    Eigen::Matrix3Xd positions(3, static_cast<Index>(frames) * particles);
+    std::vector<double> times;
+    std::vector<std::int64_t> steps;
+    for (const Frame& frame : structure.earlier) {
+        const auto number = static_cast<Index>(times.size());
+        positions.middleCols(number * particles, particles) =
+            layout::stored_positions({packing.cell, frame.positions, packing.radii});
+        steps.push_back(number);
+        times.push_back(frame.time);
+    }
+    positions.rightCols(particles) = layout::stored_positions(packing);
+    steps.push_back(static_cast<std::int64_t>(times.size()));
+    times.push_back(structure.time);
     const std::string position = in_trajectory("position");
-    file.write(position + "/value", {1, static_cast<std::size_t>(packing.size()), 3}, positions.data());
+    file.write(position + "/value", {frames, static_cast<std::size_t>(particles), 3}, positions.data());
     file.describe(position + "/value", "nm", "centres of the particles");
-    const std::int64_t step = 0;
-    file.write(position + "/step", {1}, &step);
+    file.write(position + "/step", {frames}, steps.data());
     file.describe(position + "/step", "1", "number of the frame");
-    const double time = 0;
-    file.write(position + "/time", {1}, &time);
+    file.write(position + "/time", {frames}, times.data());
     file.describe(position + "/time", "s", "time of the frame");
 }
 
-void write_box(File& file, const Cell& cell) {
+void write_box(File& file, const Cell& cell, std::size_t frames) {
     const std::string box = in_trajectory("box");
-    const Eigen::Matrix3d edges = cell.edges() * layout::nanometres;
-    file.write(box + "/edges/value", {1, 3, 3}, edges.data());
+    const Eigen::Matrix3Xd edges = (cell.edges() * layout::nanometres).replicate(1, static_cast<Index>(frames));
+    file.write(box + "/edges/value", {frames, 3, 3}, edges.data());
     file.describe(box + "/edges/value", "nm", "edge vectors of the box, one per row");
     file.link(in_trajectory("position/step"), box + "/edges/step");
     file.link(in_trajectory("position/time"), box + "/edges/time");
@@ -62,9 +76,10 @@ void write_box(File& file, const Cell& cell) {
     file.set_attribute(box, "boundary", std::vector<std::string>(3, cell.is_periodic() ? "periodic" : "none"));
 }
 
-void write_particles(File& file, const Packing& packing) {
-    write_positions(file, packing);
-    write_box(file, packing.cell);
+void write_particles(File& file, const Structure& structure) {
+    const Packing& packing = structure.packing;
+    write_positions(file, structure);
+    write_box(file, packing.cell, structure.earlier.size() + 1);
     const auto particles = static_cast<std::size_t>(packing.size());
     const Eigen::VectorXd radii = packing.radii * layout::nanometres;
     file.write(in_trajectory("radius"), {particles}, radii.data());
@@ -97,9 +112,12 @@ void write_structure(const std::string& path, const Structure& structure, const 
                      const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite) {
     check_output(path, overwrite);
     check_structure(structure.packing, structure.bonds);
+    for (const Frame& frame : structure.earlier) {
+        require(frame.positions.cols() == structure.packing.size(), "a frame of the trajectory has another number of particles");
+    }
     File file = File::create(path);
     write_metadata(file);
-    write_particles(file, structure.packing);
+    write_particles(file, structure);
     if (structure.bonds) {
         write_bonds(file, layout::trajectory, *structure.bonds);
     }

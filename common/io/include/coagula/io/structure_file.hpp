@@ -63,10 +63,18 @@ struct Provenance {
     std::string positions_sha256;  ///< of the positions that went in; empty for a generator
 };
 
+/// Positions at another time.
+struct Frame {
+    double time = unset;         ///< [s]
+    Eigen::Matrix3Xd positions;  ///< 3 x N [m]
+};
+
 /// What a file holds beyond its results.
 struct Structure {
     Packing packing;
     std::optional<ContactNetwork> bonds;
+    std::vector<Frame> earlier = {};  ///< the trajectory that led to the packing; written, but not read back
+    double time = 0;                  ///< of the packing [s]
 };
 
 /// Throws InputError when `path` cannot become an output: it exists (without `overwrite`), is no regular file, or its folder is

@@ -1,0 +1,305 @@
+#include "brownian_system.hpp"
+
+#include <coagula/common/cell_list.hpp>
+#include <coagula/common/checks.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace coagula::generators {
+
+namespace {
+
+constexpr double wide_skin = 0.6;  // of the list of all pairs
+constexpr double narrow_skin = 0.2;     // of the list of near pairs
+constexpr std::size_t particles_per_chunk = 2000;
+constexpr std::size_t most_chunks = 16;
+
+double squared_distance(const double* a, const double* b) {
+    const double x = a[0] - b[0];
+    const double y = a[1] - b[1];
+    const double z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+/// Calls work(chunk) for all chunks; must be reached by all threads of a parallel region, or by one alone.
+template <class Chunks, class Work>
+void share_chunks(Chunks& chunks, Work&& work) {
+    const auto count = static_cast<std::ptrdiff_t>(chunks.size());
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t number = 0; number < count; ++number) {
+        work(chunks[static_cast<std::size_t>(number)]);
+    }
+}
+
+}  // namespace
+
+BrownianState initial_state(const Eigen::Matrix3Xd& positions) {
+    return {0, positions, positions, positions, Eigen::Matrix3Xd::Zero(3, positions.cols())};
+}
+
+/// Finds neighbours in slots.
+class PairFinder {
+public:
+    PairFinder(const Cell& cell, const Eigen::Matrix3Xd& positions, double cutoff)
+        : cells(cell, positions, cutoff), slot_of(static_cast<std::size_t>(positions.cols())) {
+        for (std::size_t slot = 0; slot < slot_of.size(); ++slot) {
+            slot_of[static_cast<std::size_t>(cells.order()[slot])] = static_cast<std::int32_t>(slot);
+        }
+    }
+    CellList cells;
+    std::vector<std::int32_t> slot_of;
+};
+
+BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
+    : setup_(std::move(setup)),
+      equal_radii_(setup_.radii.minCoeff() == setup_.radii.maxCoeff()),
+      list_skin_(wide_skin),
+      near_skin_(narrow_skin),
+      reserve_(6 * std::sqrt(2 * setup_.mobility * setup_.time_step / setup_.radii.minCoeff())),
+      step_(state.step) {
+    const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
+    require(setup_.period.minCoeff() >= 2 * reach,
+            "the box is " + to_text(setup_.period.minCoeff()) + " mean radii wide, but the forces need at least " +
+                to_text(2 * reach) + ": take more particles, a smaller volume fraction or a shorter cut-off gap");
+    require(2 * reserve_ < near_skin_, "the time step is " + to_text(setup_.time_step) +
+                                           " times the diffusion time of a particle, too long for the neighbour list");
+    const auto particles = static_cast<std::size_t>(setup_.radii.size());
+    const std::size_t count = std::clamp<std::size_t>(particles / particles_per_chunk, 1, most_chunks);
+    chunks_.resize(count);
+    for (std::size_t number = 0; number < count; ++number) {
+        chunks_[number].begin = number * particles / count;
+        chunks_[number].end = (number + 1) * particles / count;
+    }
+    // Slots as they were when the lists were made; then the present is put in.
+    particle_.resize(particles);
+    for (std::size_t slot = 0; slot < particles; ++slot) {
+        particle_[slot] = static_cast<std::int32_t>(slot);
+    }
+    for (std::vector<double>* values : {&current_, &previous_, &noise_, &force_}) {
+        values->assign(4 * particles, 0.0);
+    }
+    position_ = in_slots(state.list_reference);
+    far_ = in_slots(state.far_forces);
+    make_list();
+    near_reference_ = in_slots(state.near_reference);
+    choose_near();
+    position_ = in_slots(state.positions);
+    for (Chunk& chunk : chunks_) {
+        measure_paths(chunk);
+    }
+}
+
+std::vector<double> BrownianSystem::in_slots(const Eigen::Matrix3Xd& values) const {
+    std::vector<double> slots(4 * particle_.size(), 0.0);
+    for (std::size_t slot = 0; slot < particle_.size(); ++slot) {
+        Eigen::Vector3d::Map(&slots[4 * slot]) = values.col(particle_[slot]);
+    }
+    return slots;
+}
+
+Eigen::Matrix3Xd BrownianSystem::in_order(const std::vector<double>& slots) const {
+    Eigen::Matrix3Xd values(3, static_cast<Index>(particle_.size()));
+    for (std::size_t slot = 0; slot < particle_.size(); ++slot) {
+        values.col(particle_[slot]) = Eigen::Vector3d::Map(&slots[4 * slot]);
+    }
+    return values;
+}
+
+BrownianState BrownianSystem::state() const {
+    return {step_, in_order(position_), in_order(list_reference_), in_order(near_reference_), in_order(far_)};
+}
+
+Eigen::Matrix3Xd BrownianSystem::observed_positions() const {
+    std::vector<double> shaken(position_.size());
+    random_normals(setup_.seed, RandomPurpose::brownian_observation, static_cast<std::uint64_t>(step_), particle_, shaken.data());
+    for (std::size_t slot = 0; slot < particle_.size(); ++slot) {
+        for (std::size_t part = 4 * slot; part < 4 * slot + 3; ++part) {
+            shaken[part] = position_[part] + setup_.scheme.observation * noise_scale_[slot] * shaken[part];
+        }
+    }
+    return in_order(shaken);
+}
+
+std::size_t BrownianSystem::near_pairs() const {
+    std::size_t sum = 0;
+    for (const Chunk& chunk : chunks_) {
+        sum += 2 * chunk.near.inside.size() + chunk.near.across.size();
+    }
+    return sum / 2;
+}
+
+/// Sorts the slots in space and lists all pairs, both at the present positions.
+void BrownianSystem::make_list() {
+    const Eigen::Matrix3Xd positions = in_order(position_);
+    const Eigen::Matrix3Xd far = in_order(far_);
+    const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
+    const PairFinder finder(Cell::periodic(setup_.period), positions, reach);
+    particle_.assign(finder.cells.order().begin(), finder.cells.order().end());
+    position_ = in_slots(positions);
+    far_ = in_slots(far);
+    list_reference_ = position_;
+    const std::size_t particles = particle_.size();
+    radius_.resize(particles);
+    mobility_.resize(particles);
+    noise_scale_.resize(particles);
+    for (std::size_t slot = 0; slot < particles; ++slot) {
+        radius_[slot] = setup_.radii[particle_[slot]];
+        mobility_[slot] = setup_.mobility / radius_[slot];
+        noise_scale_[slot] = std::sqrt(2 * mobility_[slot] * setup_.time_step);
+    }
+#pragma omp parallel
+    share_chunks(chunks_, [&](Chunk& chunk) { list_pairs(chunk, finder); });
+    near_reference_ = position_;
+    choose_near();
+    ++lists_made_;
+}
+
+void BrownianSystem::list_pairs(Chunk& chunk, const PairFinder& finder) const {
+    chunk.all.inside.clear();
+    chunk.all.across.clear();
+    for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
+        const Eigen::Vector3d here = Eigen::Vector3d::Map(&position_[4 * slot]);
+        const double own_reach = setup_.far.last() + list_skin_ + radius_[slot];
+        const auto first = static_cast<std::int32_t>(slot);
+        finder.cells.for_each_near(here, [&](int particle, const Eigen::Vector3d& separation) {
+            const std::int32_t second = finder.slot_of[static_cast<std::size_t>(particle)];
+            const auto other = static_cast<std::size_t>(second);
+            const double reach = own_reach + radius_[other];
+            if (second == first || separation.squaredNorm() > reach * reach) {
+                return;
+            }
+            if (other < chunk.begin || other >= chunk.end) {
+                chunk.all.across.push_back({first, second});
+            } else if (second > first) {
+                chunk.all.inside.push_back({first, second});
+            }
+        });
+    }
+}
+
+/// Of all pairs those that are near at the positions of near_reference_.
+void BrownianSystem::choose_near() {
+#pragma omp parallel
+    share_chunks(chunks_, [&](Chunk& chunk) {
+        choose_near(chunk.all.inside, chunk.near.inside);
+        choose_near(chunk.all.across, chunk.near.across);
+        measure_paths(chunk);
+    });
+}
+
+void BrownianSystem::choose_near(const std::vector<SlotPair>& from, std::vector<SlotPair>& to) const {
+    const double reach = setup_.near.last() + near_skin_;
+    to.clear();
+    for (const SlotPair& pair : from) {
+        const auto first = static_cast<std::size_t>(pair.first);
+        const auto second = static_cast<std::size_t>(pair.second);
+        double squared = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto part = static_cast<std::size_t>(axis);
+            const double period = setup_.period[axis];
+            const double distance = near_reference_[4 * second + part] - near_reference_[4 * first + part];
+            const double nearest = distance - period * std::floor(distance / period + 0.5);
+            squared += nearest * nearest;
+        }
+        const double limit = reach + radius_[first] + radius_[second];
+        if (squared < limit * limit) {
+            to.push_back(pair);
+        }
+    }
+}
+
+void BrownianSystem::measure_paths(Chunk& chunk) const {
+    chunk.list_path_squared = 0;
+    chunk.near_path_squared = 0;
+    for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
+        const double* const here = &position_[4 * slot];
+        const double from_list = squared_distance(here, &list_reference_[4 * slot]);
+        const double from_near = squared_distance(here, &near_reference_[4 * slot]);
+        chunk.list_path_squared = std::max(chunk.list_path_squared, from_list);
+        chunk.near_path_squared = std::max(chunk.near_path_squared, from_near);
+    }
+}
+
+StageArrays BrownianSystem::arrays() {
+    return {position_.data(), noise_.data(), force_.data(), mobility_.data(), current_.data(), previous_.data()};
+}
+
+void BrownianSystem::add_forces(const Pairs& pairs, const ForceTable& table, const std::vector<double>& positions,
+                                std::vector<double>& forces) const {
+    PairLoop loop;
+    loop.positions = positions.data();
+    loop.forces = forces.data();
+    loop.radii = equal_radii_ ? nullptr : radius_.data();
+    std::copy(setup_.period.begin(), setup_.period.end(), loop.period);
+    add_forces_on_both(loop, table, pairs.inside.data(), pairs.inside.size());
+    add_forces_on_first(loop, table, pairs.across.data(), pairs.across.size());
+}
+
+/// Noise, the point where the first force is taken, and the far forces.
+void BrownianSystem::begin_step(Chunk& chunk, bool refresh_far) {
+    const std::size_t count = chunk.end - chunk.begin;
+    random_normals(setup_.seed, setup_.noise, static_cast<std::uint64_t>(step_),
+                   std::span(particle_).subspan(chunk.begin, count), &noise_[4 * chunk.begin]);
+    for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
+        for (std::size_t part = 4 * slot; part < 4 * slot + 4; ++part) {
+            noise_[part] *= noise_scale_[slot];
+            current_[part] = position_[part] + setup_.scheme.evaluation * noise_[part];
+        }
+    }
+    if (refresh_far) {
+        std::fill(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * count, 0.0);
+        add_forces(chunk.all, setup_.far, position_, far_);
+    }
+}
+
+void BrownianSystem::sum_forces(const Chunk& chunk) {
+    std::copy(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), &force_[4 * chunk.begin]);
+    add_forces(chunk.near, setup_.near, current_, force_);
+}
+
+void BrownianSystem::move(Chunk& chunk, std::size_t stage) {
+    const StageWeights& weights = setup_.scheme.stages[stage];
+    if (stage == 0) {
+        first_stage(arrays(), chunk.begin, chunk.end, weights, setup_.time_step);
+    } else {
+        later_stage(arrays(), chunk.begin, chunk.end, weights, setup_.time_step);
+    }
+    if (stage + 1 == setup_.scheme.stages.size()) {
+        std::copy(&current_[4 * chunk.begin], &current_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin),
+                  &position_[4 * chunk.begin]);
+        measure_paths(chunk);
+    }
+}
+
+void BrownianSystem::step() {
+    double list_path = 0;
+    double near_path = 0;
+    for (const Chunk& chunk : chunks_) {
+        list_path = std::max(list_path, chunk.list_path_squared);
+        near_path = std::max(near_path, chunk.near_path_squared);
+    }
+    // The list of all pairs must hold the far forces now and the near pairs when they are chosen.
+    const double slack = std::min(0.0, setup_.far.last() - setup_.near.last() - near_skin_);
+    if (std::sqrt(list_path) > (list_skin_ + slack) / 2 - reserve_) {
+        make_list();
+    } else if (std::sqrt(near_path) > near_skin_ / 2 - reserve_) {
+        near_reference_ = position_;
+        choose_near();
+    }
+    const bool refresh_far = step_ % setup_.far_interval == 0;
+#pragma omp parallel
+    {
+        share_chunks(chunks_, [&](Chunk& chunk) { begin_step(chunk, refresh_far); });
+        for (std::size_t stage = 0; stage < setup_.scheme.stages.size(); ++stage) {
+            share_chunks(chunks_, [&](const Chunk& chunk) { sum_forces(chunk); });
+            share_chunks(chunks_, [&](Chunk& chunk) { move(chunk, stage); });
+        }
+    }
+    ++step_;
+}
+
+}  // namespace coagula::generators

@@ -1,0 +1,129 @@
+// The time step of Brownian dynamics from the potential: stability from the stiffest mode, accuracy from the barrier.
+#include <coagula/generators/brownian_dynamics.hpp>
+
+#include "reduced_units.hpp"
+#include "step_scheme.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace coagula::generators {
+
+namespace {
+
+// In units of R^2/D, with lengths in R and energies in kB T.
+constexpr double longest_time_step = 2e-5;
+constexpr double longest_listed = 1.3e-4;  // a particle must stay within the skin of the neighbour list during a step
+constexpr double far_time = 3e-5;          // over which far forces may be held
+constexpr double far_steepness = 1000;     // of the force where it may be held that long
+constexpr double barrier_share = 0.0625;   // of the square of the length of the barrier
+constexpr int most_stages = 30;
+constexpr double impassable = 30;  // height of a barrier in kB T
+// Largest eigenvalue of the stiffness matrix of a contact network over the stiffness of one contact: 8 in a close-packed crystal,
+// less in random packings.
+constexpr double network_factor = 8;
+
+void check(const BrownianOptions& options) {
+    require_positive(options.temperature, "the temperature", "K");
+    require_positive(options.viscosity, "the viscosity", "Pa s");
+    require(options.slowing > 0 && options.slowing <= 1,
+            "the hydrodynamic slowing is " + to_text(options.slowing) + ", but it must be above 0 and at most 1");
+    if (!std::isnan(options.cutoff_gap)) {
+        require_positive(options.cutoff_gap, "the cut-off gap", "m");
+    }
+}
+
+/// Largest gradient of the force that particles meet.
+double largest_steepness(const PairPotential& potential, const ReducedUnits& units, double closest_gap, double cutoff) {
+    const double height = potential.barrier_height(cutoff * units.length) / units.energy;
+    const auto top = potential.barrier(cutoff * units.length);
+    const bool contacts = height < impassable || (top && closest_gap < top->gap);
+    double largest = contacts ? potential.contact().stiffness * units.length * units.length / units.energy : 0.0;
+    const double lowest = contacts ? potential.cut_gap() / units.length : top->gap / units.length;
+    for (double gap = lowest; gap < cutoff; gap += 1e-3) {
+        // Attraction that grows towards contact (a negative stiffness) makes no step unstable.
+        const double energy = potential.energy(gap * units.length) / units.energy;
+        if (energy < impassable) {
+            largest = std::max(largest, steepness(potential, units, gap));
+        }
+    }
+    return largest;
+}
+
+/// sqrt(kB T / |V''|) at the top: over this length around it the barrier is passed.
+double barrier_length(const PairPotential& potential, const ReducedUnits& units, double cutoff) {
+    const auto top = potential.barrier(cutoff * units.length);
+    return 1 / std::sqrt(steepness(potential, units, top->gap / units.length));
+}
+
+StepScheme scheme_of(Integrator integrator, int stages) {
+    return integrator == Integrator::euler ? euler_maruyama() : stabilised_scheme(stages);
+}
+
+}  // namespace
+
+double steepness(const PairPotential& potential, const ReducedUnits& units, double gap) {
+    constexpr double half = 1e-5;
+    const double change = potential.force((gap + half) * units.length) - potential.force((gap - half) * units.length);
+    return std::abs(change) * units.length / units.energy / (2 * half);
+}
+
+ForceRanges choose_ranges(const PairPotential& potential, const ReducedUnits& units, const BrownianOptions& options) {
+    constexpr double width = 0.06;
+    const double cutoff = std::isnan(options.cutoff_gap) ? 1.0 : options.cutoff_gap / units.length;
+    double start = 0.1;
+    for (double gap = cutoff; gap > start; gap -= 1e-3) {
+        if (steepness(potential, units, gap) > far_steepness) {
+            start = gap;
+            break;
+        }
+    }
+    // A short law is all near.
+    const double end = start + width < 0.8 * cutoff ? start + width : cutoff;
+    return {std::min(start, 0.8 * end), end, cutoff};
+}
+
+TimeStep choose_time_step(const PairPotential& potential, double mean_radius, double closest_gap, const BrownianOptions& options) {
+    check(options);
+    require_positive(mean_radius, "the mean radius", "m");
+    const ReducedUnits units(mean_radius, options);
+    const double cutoff = choose_ranges(potential, units, options).cutoff;
+    const double rate = network_factor * largest_steepness(potential, units, closest_gap, cutoff);
+    const double height = potential.barrier_height(cutoff * units.length) / units.energy;
+    TimeStep chosen;
+    chosen.diffusion_time = units.time;
+
+    double accurate = longest_time_step;
+    chosen.reason = "the motion of free particles";
+    if (height > 0 && height < impassable) {
+        const double length = barrier_length(potential, units, cutoff);
+        if (barrier_share * length * length < accurate) {
+            accurate = barrier_share * length * length;
+            chosen.reason = "the barrier";
+        }
+    }
+    const double stable = scheme_of(options.integrator, most_stages).stability / std::max(rate, 1.0);
+    const double bound = std::min(stable, longest_listed);
+    double step = accurate;
+    if (0.5 * bound < step) {
+        step = 0.5 * bound;
+        chosen.reason = "the stiffness of the contacts";
+    }
+    if (!std::isnan(options.time_step)) {
+        step = require_positive(options.time_step, "the time step", "s") / units.time;
+        chosen.reason = "the option";
+        require(step <= bound, "the time step is " + to_text(options.time_step) + " s, but the integrator is stable up to " +
+                                   to_text(bound * units.time) + " s only");
+    }
+    while (options.integrator == Integrator::stabilised && stabilised_scheme(chosen.stages).stability < step * rate) {
+        ++chosen.stages;
+    }
+    chosen.time_step = step * units.time;
+    chosen.stability_bound = bound * units.time;
+    chosen.accuracy_bound = accurate * units.time;
+    chosen.far_interval = std::max<std::int64_t>(1, static_cast<std::int64_t>(far_time / step));
+    return chosen;
+}
+
+}  // namespace coagula::generators

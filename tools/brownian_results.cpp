@@ -1,0 +1,71 @@
+#include "brownian_results.hpp"
+
+#include <coagula/io/structure_file.hpp>
+
+namespace coagula::tools {
+
+namespace {
+
+using namespace generators;
+
+const std::string group = "/generation/brownian/";
+
+void add_series(Results& results, const BrownianSeries& series) {
+    const auto numbers = [&](const std::string& name, const std::vector<double>& values, const std::string& unit,
+                             const std::string& meaning) {
+        results.push_back({group + "series/" + name, {values.size()}, values, unit, meaning});
+    };
+    const auto counts = [&](const std::string& name, const std::vector<std::int64_t>& values, const std::string& meaning) {
+        results.push_back({group + "series/" + name, {values.size()}, values, "1", meaning});
+    };
+    numbers("time", series.time, "s", "times of the samples");
+    numbers("coordination", series.coordination, "1", "mean number of contacts");
+    numbers("energy", series.energy, "J", "energy of all pairs");
+    numbers("mean_gap", series.mean_gap, "m", "mean gap of the contacts");
+    counts("clusters", series.clusters, "particles joined by contacts, single ones included");
+    counts("largest_cluster", series.largest, "particles in the largest cluster");
+    counts("contacts_formed", series.formed, "contacts that are new since the sample before");
+    counts("contacts_broken", series.broken, "contacts that are gone since the sample before");
+}
+
+}  // namespace
+
+Results datasets_of(const BrownianRun& run, const PairPotential& potential, const BrownianOptions& options) {
+    const TimeStep& step = run.time_step;
+    const double thermal = boltzmann_constant * options.temperature;
+    const double farthest = std::isnan(options.cutoff_gap) ? mean_radius(run.packing) : options.cutoff_gap;
+    Results results = {
+        io::scalar(group + "time", run.time, "s", "simulated time"),
+        io::integer(group + "steps", run.steps, "time steps"),
+        io::scalar(group + "coordination", run.coordination, "1", "mean number of contacts at the end"),
+        io::scalar(group + "contact_tolerance", options.contact_tolerance, "1", "pairs nearer than (1 + x) (r_i + r_j) touch"),
+        io::scalar(group + "diffusion_time", step.diffusion_time, "s", "R^2/D of a particle of mean radius"),
+        io::scalar(group + "time_step/value", step.time_step, "s", "time step"),
+        io::integer(group + "time_step/stages", step.stages, "force evaluations per step"),
+        io::integer(group + "time_step/far_interval", step.far_interval, "steps between evaluations of the far forces"),
+        io::scalar(group + "time_step/stability_bound", step.stability_bound, "s", "longest stable time step"),
+        io::scalar(group + "time_step/accuracy_bound", step.accuracy_bound, "s", "longest accurate time step"),
+        io::text(group + "time_step/reason", step.reason, "what sets the time step"),
+        io::scalar(group + "potential/barrier_height", potential.barrier_height(farthest) / thermal, "1",
+                   "barrier above the secondary minimum, over kB T"),
+        io::scalar(group + "potential/contact_energy", potential.contact_minimum().energy / thermal, "1",
+                   "energy of two particles in contact, over kB T"),
+        io::scalar(group + "potential/cut_gap", potential.cut_gap(), "m", "below this gap the contact is elastic"),
+        io::scalar(group + "potential/contact_stiffness", potential.contact().stiffness, "N/m", "stiffness of the contact")};
+    add_series(results, run.series);
+    return results;
+}
+
+Table table_of(const BrownianRun& run) {
+    const TimeStep& step = run.time_step;
+    return {{"particles", std::to_string(run.packing.size())},
+            {"box", describe(run.packing.cell)},
+            {"volume fraction", with_unit(volume_fraction(run.packing), "1")},
+            {"simulated", with_unit(run.time, "s") + " in " + std::to_string(run.steps) + " steps"},
+            {"time step", with_unit(step.time_step, "s") + " (" + std::to_string(step.stages) + " stages), set by " + step.reason +
+                              "; stable up to " + with_unit(step.stability_bound, "s")},
+            {"coordination number", with_unit(run.coordination, "1")},
+            {"largest cluster", std::to_string(run.series.largest.back()) + " particles"}};
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,16 @@
+// What a Brownian run leaves in the file and prints.
+#pragma once
+
+#include "report.hpp"
+
+#include <coagula/generators/brownian_dynamics.hpp>
+
+namespace coagula::tools {
+
+/// Data sets below /generation/brownian: time step, end, time series, potential.
+Results datasets_of(const generators::BrownianRun& run, const generators::PairPotential& potential,
+                    const generators::BrownianOptions& options);
+
+Table table_of(const generators::BrownianRun& run);
+
+}  // namespace coagula::tools

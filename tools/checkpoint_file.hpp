@@ -1,0 +1,63 @@
+// What the checkpoints of long runs have in common: named arrays, and a text that tells runs apart.
+#pragma once
+
+#include <coagula/common/checks.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace coagula::tools {
+
+using Numbers = std::vector<double>;
+using Integers = std::vector<std::int64_t>;
+
+/// The data sets that every checkpoint begins with.
+/// @param kind what the file is, such as "checkpoint of coagula shear --method dem".
+/// @param signature text that tells runs apart: options and structure.
+std::vector<io::Dataset> checkpoint_head(const std::string& kind, const std::string& signature);
+
+void put(std::vector<io::Dataset>& all, const std::string& path, Numbers values);
+void put(std::vector<io::Dataset>& all, const std::string& path, Integers values);
+
+/// Data sets by path, with a sentence for what is missing.
+class CheckpointReader {
+public:
+    /// Throws InputError when the file is no checkpoint of this kind or belongs to another run.
+    CheckpointReader(const std::string& path, std::string kind, const std::string& signature);
+
+    bool has(const std::string& name) const { return datasets_.contains(name); }
+
+    template <class Values>
+    const Values& get(const std::string& name) const {
+        const auto found = datasets_.find(name);
+        if (found == datasets_.end() || !std::holds_alternative<Values>(found->second.values)) {
+            throw InputError(path_ + ": " + name + " is missing: this is no " + kind_);
+        }
+        return std::get<Values>(found->second.values);
+    }
+
+    /// The values of a table with so many columns.
+    template <class Values>
+    const Values& table(const std::string& name, std::size_t columns, std::size_t rows) const {
+        const Values& values = get<Values>(name);
+        if (values.size() != columns * rows) {
+            throw InputError(path_ + ": " + name + " has " + std::to_string(values.size()) + " values, not " +
+                             std::to_string(columns * rows) + ": the checkpoint is damaged");
+        }
+        return values;
+    }
+
+    [[noreturn]] void fail(const std::string& rule) const { throw InputError(path_ + " " + rule); }
+
+private:
+    std::string path_;
+    std::string kind_;
+    std::map<std::string, io::Dataset> datasets_;
+};
+
+}  // namespace coagula::tools

@@ -1,0 +1,202 @@
+// coagula generate brownian: coagulation of a stabilised suspension by Brownian dynamics.
+#include "brownian_checkpoint.hpp"
+#include "brownian_results.hpp"
+#include "output_file.hpp"
+#include "potential_options.hpp"
+#include "progress_bar.hpp"
+#include "provenance.hpp"
+#include "report.hpp"
+#include "size_distribution_text.hpp"
+#include "verbs.hpp"
+
+#include <coagula/generators/brownian_dynamics.hpp>
+#include <coagula/io/structure_file.hpp>
+#include <coagula/io/units.hpp>
+
+#include <filesystem>
+
+namespace coagula::tools {
+
+namespace {
+
+using namespace generators;
+
+BrownianOptions brownian_options(const Arguments& arguments) {
+    BrownianOptions options;
+    options.temperature = arguments.quantity("temperature");
+    options.viscosity = arguments.quantity("viscosity");
+    options.slowing = arguments.quantity("slowing");
+    options.cutoff_gap = arguments.optional_quantity("cutoff-gap").value_or(unset);
+    options.integrator = arguments.text("integrator") == "euler" ? Integrator::euler : Integrator::stabilised;
+    options.time_step = arguments.optional_quantity("time-step").value_or(unset);
+    options.stop_time = arguments.optional_quantity("stop-time").value_or(unset);
+    options.stop_coordination = arguments.optional_quantity("stop-coordination").value_or(unset);
+    options.contact_tolerance = arguments.quantity("contact-tolerance");
+    options.sample_interval = arguments.optional_quantity("sample-interval").value_or(unset);
+    for (const std::string& time : split(arguments.text("snapshots", ""))) {
+        options.snapshot_times.push_back(io::parse_quantity(time, "s"));
+    }
+    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
+    return options;
+}
+
+/// Random positions, brought to equilibrium at a high surface potential.
+Packing stabilised_suspension(const Arguments& arguments, const BrownianOptions& run, const Progress& progress) {
+    if (!arguments.has("volume-fraction")) {
+        throw InputError("coagula generate brownian needs --volume-fraction, or --start");
+    }
+    SuspensionOptions options;
+    options.volume_fraction = arguments.quantity("volume-fraction");
+    options.seed = run.seed;
+    options.radii = draw_radii(
+        parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
+        arguments.count("particles"), options.seed);
+    const Packing placed = place_suspension(options, progress);
+    BrownianOptions equilibration = run;
+    equilibration.time_step = unset;
+    equilibration.integrator = Integrator::stabilised;
+    equilibration.stop_coordination = unset;
+    equilibration.sample_interval = unset;
+    equilibration.snapshot_times.clear();
+    equilibration.noise = RandomPurpose::equilibration;
+    const PairPotential potential = make_potential(arguments, mean_radius(placed), arguments.quantity("equilibration-potential"));
+    // A quarter of the diffusion time: the degree of heterogeneity has long been constant then.
+    const double diffusion_time =
+        choose_time_step(potential, mean_radius(placed), mean_radius(placed), equilibration).diffusion_time;
+    equilibration.stop_time = arguments.optional_quantity("equilibration-time").value_or(0.25 * diffusion_time);
+    const Progress renamed([&progress](std::string_view, double fraction, std::string_view remark) {
+        progress.update("equilibration", fraction, remark);
+        return true;
+    });
+    return simulate_brownian(placed, potential, equilibration, renamed).packing;
+}
+
+/// What must be the same for a run to go on.
+std::string fingerprint(const Arguments& arguments) {
+    Json options = arguments.to_json();
+    for (const char* name : {"output", "force", "quiet", "json", "threads", "checkpoint", "checkpoint-interval", "picture"}) {
+        options.erase(name);
+    }
+    return options.dump();
+}
+
+/// The run, from its checkpoint if there is one.
+BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, const PairPotential& potential,
+                          const BrownianOptions& options, const Progress& progress) {
+    const std::string path = arguments.text("checkpoint", "");
+    if (path.empty()) {
+        return simulate_brownian(start, potential, options, progress);
+    }
+    const std::string signature = fingerprint(arguments) + io::positions_sha256(start);
+    std::optional<BrownianCheckpoint> resumed;
+    if (std::filesystem::exists(path)) {
+        resumed = read_brownian_checkpoint(path, signature);
+    } else {
+        check_output(path, false);
+    }
+    BrownianControl control;
+    control.resume = resumed ? &*resumed : nullptr;
+    const double interval = arguments.quantity("checkpoint-interval");
+    Stopwatch since;
+    control.checkpoint_due = [&] { return since.seconds() > interval; };
+    control.on_checkpoint = [&](const BrownianCheckpoint& checkpoint) {
+        write_checkpoint(path, signature, checkpoint);
+        since = Stopwatch();
+    };
+    return simulate_brownian(start, potential, options, progress, control);
+}
+
+void run(const Arguments& arguments) {
+    const Stopwatch clock;
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    std::optional<Packing> start;
+    if (arguments.has("start")) {
+        start = io::read_structure(arguments.text("start")).packing;
+    }
+    const double radius = start ? mean_radius(*start) : arguments.optional_quantity("radius").value_or(unset);
+    if (arguments.flag("potential-curve")) {
+        if (std::isnan(radius)) {
+            throw InputError("--potential-curve needs --radius");
+        }
+        report_potential(arguments, make_potential(arguments, radius), radius);
+        return;
+    }
+    if (!arguments.has("output")) {
+        throw InputError("coagula generate brownian needs --output (see 'coagula generate brownian --help')");
+    }
+    const std::string output = arguments.text("output");
+    check_output(output, arguments.flag("force"));
+    const BrownianOptions options = brownian_options(arguments);
+    if (std::isnan(options.stop_time) && std::isnan(options.stop_coordination)) {
+        throw InputError("coagula generate brownian needs --stop-time or --stop-coordination");
+    }
+    const std::optional<Packing> input = start;
+    if (!start) {
+        // Wrong options of the potential shall not wait for the equilibration.
+        if (!std::isnan(radius)) {
+            choose_time_step(make_potential(arguments, radius), radius, radius, options);
+        }
+        start = stabilised_suspension(arguments, options, progress);
+    }
+    const PairPotential potential = make_potential(arguments, mean_radius(*start));
+    const BrownianRun made = run_or_resume(arguments, *start, potential, options, progress);
+
+    progress.update("writing", 1.0);
+    io::Structure structure{made.packing, made.contacts, {}, made.time};
+    for (const Snapshot& snapshot : made.snapshots) {
+        structure.earlier.push_back({snapshot.time, snapshot.positions});
+    }
+    const Results results = datasets_of(made, potential, options);
+    io::write_structure(output, structure, {}, results, describe_call(arguments, input ? &*input : nullptr, clock),
+                        arguments.flag("force"));
+    Json json = to_json(results, "/generation/brownian");
+    json["particles"] = made.packing.size();
+    json["volume_fraction"] = volume_fraction(made.packing);
+    json["seed"] = options.seed;
+    json["output"] = output;
+    json["seconds"] = clock.seconds();
+    Table table = table_of(made);
+    table.emplace_back("time", with_unit(clock.seconds(), "s"));
+    table.emplace_back("written to", output);
+    report(arguments, json, table);
+}
+
+}  // namespace
+
+Verb generate_brownian_verb() {
+    std::vector<Option> options = {
+        count("particles", "number of particles", "8000", within(2, 1e8)),
+        quantity("volume-fraction", "1", "volume of the spheres over that of the box; required without --start", "", between(0, 0.55)),
+        quantity("radius", "m", "mean radius of the particles; required, unless a table or a file gives the radii", "", above(0)),
+        text("size-distribution", "NAME", "monodisperse, normal:S, lognormal:S or FILE.csv", "monodisperse"),
+        text("start", "FILE", "go on from the packing in this file instead of a suspension in equilibrium"),
+        quantity("equilibration-potential", "V", "surface potential at which the suspension is brought to equilibrium", "50mV",
+                 above(0)),
+        quantity("equilibration-time", "s", "of that, a quarter of R^2/D when not given", "", at_least(0))};
+    for (Option& option : potential_options()) {
+        options.push_back(std::move(option));
+    }
+    const std::vector<Option> rest = {
+        quantity("viscosity", "Pa s", "of the liquid", "1e-3", above(0)),
+        quantity("slowing", "1", "share of the free diffusion that hydrodynamics leave on average", "1", within(0, 1)),
+        choice("integrator", {"stabilised", "euler"}, "SK-ROCK or Euler-Maruyama", "stabilised"),
+        quantity("time-step", "s", "chosen from the potential when not given", "", above(0)),
+        quantity("stop-time", "s", "simulated time at the end", "", at_least(0)),
+        quantity("stop-coordination", "1", "or mean number of contacts at the end, at a sample", "", between(0, 12)),
+        quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01", within(0, 0.1)),
+        quantity("sample-interval", "s", "of the time series; stop time/200 when not given", "", above(0)),
+        text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),
+        text("checkpoint", "FILE", "state of the run; a run that finds the file goes on from it"),
+        quantity("checkpoint-interval", "s", "between checkpoints, of wall-clock time", "60s", at_least(0)),
+        count("seed", "of the random numbers", "1", at_least(0)),
+        output("HDF5 file to write"),
+        flag("force", "replace an existing file")};
+    options.insert(options.end(), rest.begin(), rest.end());
+    return {.name = "generate brownian",
+            .summary = "coagulate a stabilised suspension by Brownian dynamics with DLVO forces",
+            .input = "",
+            .options = std::move(options),
+            .run = run};
+}
+
+}  // namespace coagula::tools
