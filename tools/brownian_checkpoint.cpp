@@ -17,10 +17,9 @@ const std::string kind = "checkpoint of coagula generate brownian";
 
 template <class Checkpoint>
 auto vectors_of(Checkpoint& checkpoint) {
-    return std::array{std::pair{"/state/positions", &checkpoint.positions},
-                      std::pair{"/state/list_reference", &checkpoint.list_reference},
-                      std::pair{"/state/near_reference", &checkpoint.near_reference},
-                      std::pair{"/state/far_forces", &checkpoint.far_forces}};
+    return std::array{
+        std::pair{"/state/positions", &checkpoint.positions}, std::pair{"/state/list_reference", &checkpoint.list_reference},
+        std::pair{"/state/near_reference", &checkpoint.near_reference}, std::pair{"/state/far_forces", &checkpoint.far_forces}};
 }
 
 template <class Series>

@@ -48,9 +48,8 @@ Packing stabilised_suspension(const Arguments& arguments, const BrownianOptions&
     SuspensionOptions options;
     options.volume_fraction = arguments.quantity("volume-fraction");
     options.seed = run.seed;
-    options.radii = draw_radii(
-        parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
-        arguments.count("particles"), options.seed);
+    options.radii = draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
+                               arguments.count("particles"), options.seed);
     const Packing placed = place_suspension(options, progress);
     BrownianOptions equilibration = run;
     equilibration.time_step = unset;
@@ -166,7 +165,8 @@ void run(const Arguments& arguments) {
 Verb generate_brownian_verb() {
     std::vector<Option> options = {
         count("particles", "number of particles", "8000", within(2, 1e8)),
-        quantity("volume-fraction", "1", "volume of the spheres over that of the box; required without --start", "", between(0, 0.55)),
+        quantity("volume-fraction", "1", "volume of the spheres over that of the box; required without --start", "",
+                 between(0, 0.55)),
         quantity("radius", "m", "mean radius of the particles; required, unless a table or a file gives the radii", "", above(0)),
         text("size-distribution", "NAME", "monodisperse, normal:S, lognormal:S or FILE.csv", "monodisperse"),
         text("start", "FILE", "go on from the packing in this file instead of a suspension in equilibrium"),

@@ -88,23 +88,23 @@ std::vector<PairLaw> dlvo_laws(const Arguments& arguments, const PairRadii& radi
 }  // namespace
 
 std::vector<Option> potential_options() {
-    return {
-        quantity("surface-potential", "V", "of the particles; required, unless a table gives the potential", "", within(-1, 1)),
-        quantity("debye-length", "m", "of the double layer, 10 nm when not given", "", above(0)),
-        quantity("ionic-strength", "mol/m3", "of a z:z electrolyte, instead of the Debye length", "", above(0)),
-        choice("double-layer", {"superposition", "hogg-healy-fuerstenau"}, "law of the double layers", "superposition"),
-        quantity("hamaker-constant", "J", "of the van der Waals attraction", "4.76e-20J", at_least(0)),
-        quantity("permittivity", "1", "of the liquid, relative", "81", above(0)),
-        count("valency", "of the electrolyte", "1", within(1, 10)),
-        quantity("yukawa-energy", "J", "of a Yukawa force besides, at contact", "", Range{}),
-        quantity("yukawa-length", "m", "screening length of the Yukawa force", "", above(0)),
-        text("potential-table", "FILE", "CSV with columns 'gap [unit],energy [unit]' instead of these laws"),
-        quantity("contact-stiffness", "N/m", "of the elastic contact below a cut-off gap; 4e5 kB T/R^2 when not given", "", Range{}),
-        quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "", above(0)),
-        quantity("cutoff-gap", "m", "no forces beyond; R when not given", "", above(0)),
-        quantity("temperature", "K", "of the suspension", "293K", above(0)),
-        flag("potential-curve", "print the potential over the gap instead of a run"),
-        text("picture", "FILE", "with --potential-curve: draw it with gnuplot, .png or .svg")};
+    return {quantity("surface-potential", "V", "of the particles; required, unless a table gives the potential", "", within(-1, 1)),
+            quantity("debye-length", "m", "of the double layer, 10 nm when not given", "", above(0)),
+            quantity("ionic-strength", "mol/m3", "of a z:z electrolyte, instead of the Debye length", "", above(0)),
+            choice("double-layer", {"superposition", "hogg-healy-fuerstenau"}, "law of the double layers", "superposition"),
+            quantity("hamaker-constant", "J", "of the van der Waals attraction", "4.76e-20J", at_least(0)),
+            quantity("permittivity", "1", "of the liquid, relative", "81", above(0)),
+            count("valency", "of the electrolyte", "1", within(1, 10)),
+            quantity("yukawa-energy", "J", "of a Yukawa force besides, at contact", "", Range{}),
+            quantity("yukawa-length", "m", "screening length of the Yukawa force", "", above(0)),
+            text("potential-table", "FILE", "CSV with columns 'gap [unit],energy [unit]' instead of these laws"),
+            quantity("contact-stiffness", "N/m", "of the elastic contact below a cut-off gap; 4e5 kB T/R^2 when not given", "",
+                     Range{}),
+            quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "", above(0)),
+            quantity("cutoff-gap", "m", "no forces beyond; R when not given", "", above(0)),
+            quantity("temperature", "K", "of the suspension", "293K", above(0)),
+            flag("potential-curve", "print the potential over the gap instead of a run"),
+            text("picture", "FILE", "with --potential-curve: draw it with gnuplot, .png or .svg")};
 }
 
 PairPotential make_potential(const Arguments& arguments, double radius, std::optional<double> surface_potential) {
@@ -148,7 +148,8 @@ void report_potential(const Arguments& arguments, const PairPotential& potential
         return found ? Json{{"gap", found->gap}, {"energy_kT", found->energy / thermal}} : Json(nullptr);
     };
     const auto described = [&](const std::optional<Extreme>& found) {
-        return found ? with_unit(found->energy / thermal, "kT") + " at a gap of " + with_unit(found->gap, "m") : std::string("none");
+        return found ? with_unit(found->energy / thermal, "kT") + " at a gap of " + with_unit(found->gap, "m")
+                     : std::string("none");
     };
     const Json json = {{"barrier_height_kT", potential.barrier_height(farthest) / thermal},
                        {"barrier", extreme(potential.barrier(farthest))},

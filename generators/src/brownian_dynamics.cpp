@@ -18,10 +18,10 @@ namespace coagula::generators {
 
 namespace {
 
-constexpr double largest_start_overlap = 0.05;   // of the sum of the radii
-constexpr double near_spacing = 5e-4;            // of the force tables, in mean radii
+constexpr double largest_start_overlap = 0.05;  // of the sum of the radii
+constexpr double near_spacing = 5e-4;           // of the force tables, in mean radii
 constexpr double far_spacing = 5e-3;
-constexpr double longest_run = 1e15;             // steps
+constexpr double longest_run = 1e15;              // steps
 constexpr double default_sample_interval = 5e-4;  // in units of R^2/D, when no stop time is given
 
 void check(const Packing& start, const BrownianOptions& options) {

@@ -136,8 +136,7 @@ COAGULA_VARIANTS void add_forces_on_both(const PairLoop& loop, const ForceTable&
     add_forces<true>(loop, table, pairs, count);
 }
 
-COAGULA_VARIANTS void add_forces_on_first(const PairLoop& loop, const ForceTable& table, const SlotPair* pairs,
-                                          std::size_t count) {
+COAGULA_VARIANTS void add_forces_on_first(const PairLoop& loop, const ForceTable& table, const SlotPair* pairs, std::size_t count) {
     add_forces<false>(loop, table, pairs, count);
 }
 

@@ -21,9 +21,9 @@ struct PairLoop {
     double period[3] = {};          ///< of the periodic box
 };
 
-/// Adds the forces of the pairs to both of their particles. Pairs meet through the nearest images. For unequal radii the table, which
-/// is that of two spheres of radius 1, is scaled with 2 R1 R2/(R1 + R2) (Derjaguin's approximation).
-/// The results do not depend on the instructions of the processor.
+/// Adds the forces of the pairs to both of their particles. Pairs meet through the nearest images. For unequal radii the table,
+/// which is that of two spheres of radius 1, is scaled with 2 R1 R2/(R1 + R2) (Derjaguin's approximation). The results do not
+/// depend on the instructions of the processor.
 void add_forces_on_both(const PairLoop& loop, const ForceTable& table, const SlotPair* pairs, std::size_t count);
 
 /// The same, for the first particles only.

@@ -7,8 +7,7 @@
 
 namespace coagula::generators {
 
-BrownianSampler::BrownianSampler(const PairPotential& potential, const ReducedUnits& units, double cutoff,
-                                 double contact_tolerance)
+BrownianSampler::BrownianSampler(const PairPotential& potential, const ReducedUnits& units, double cutoff, double contact_tolerance)
     : potential_(potential), mean_radius_(units.length), cutoff_(cutoff), tolerance_(contact_tolerance) {}
 
 void BrownianSampler::resume(const BrownianSeries& series, const Pairs& contacts) {

@@ -13,8 +13,8 @@ namespace coagula::generators {
 
 namespace {
 
-constexpr double wide_skin = 0.6;  // of the list of all pairs
-constexpr double narrow_skin = 0.2;     // of the list of near pairs
+constexpr double wide_skin = 0.6;    // of the list of all pairs
+constexpr double narrow_skin = 0.2;  // of the list of near pairs
 constexpr std::size_t particles_per_chunk = 2000;
 constexpr std::size_t most_chunks = 16;
 
@@ -62,9 +62,9 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
       reserve_(6 * std::sqrt(2 * setup_.mobility * setup_.time_step / setup_.radii.minCoeff())),
       step_(state.step) {
     const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
-    require(setup_.period.minCoeff() >= 2 * reach,
-            "the box is " + to_text(setup_.period.minCoeff()) + " mean radii wide, but the forces need at least " +
-                to_text(2 * reach) + ": take more particles, a smaller volume fraction or a shorter cut-off gap");
+    require(setup_.period.minCoeff() >= 2 * reach, "the box is " + to_text(setup_.period.minCoeff()) +
+                                                       " mean radii wide, but the forces need at least " + to_text(2 * reach) +
+                                                       ": take more particles, a smaller volume fraction or a shorter cut-off gap");
     require(2 * reserve_ < near_skin_, "the time step is " + to_text(setup_.time_step) +
                                            " times the diffusion time of a particle, too long for the neighbour list");
     const auto particles = static_cast<std::size_t>(setup_.radii.size());
@@ -242,8 +242,8 @@ void BrownianSystem::add_forces(const Pairs& pairs, const ForceTable& table, con
 /// Noise, the point where the first force is taken, and the far forces.
 void BrownianSystem::begin_step(Chunk& chunk, bool refresh_far) {
     const std::size_t count = chunk.end - chunk.begin;
-    random_normals(setup_.seed, setup_.noise, static_cast<std::uint64_t>(step_),
-                   std::span(particle_).subspan(chunk.begin, count), &noise_[4 * chunk.begin]);
+    random_normals(setup_.seed, setup_.noise, static_cast<std::uint64_t>(step_), std::span(particle_).subspan(chunk.begin, count),
+                   &noise_[4 * chunk.begin]);
     for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
         for (std::size_t part = 4 * slot; part < 4 * slot + 4; ++part) {
             noise_[part] *= noise_scale_[slot];

@@ -38,7 +38,7 @@ double HamakerAttraction::energy(double gap) const {
     const double outer = gap * (gap + 2 * radii_.sum());
     const double product = radii_.first * radii_.second;
     const double inner = outer + 4 * product;
-    return -sixth_ * (2 * product / outer + 2 * product / inner + std::log(outer / inner));
+    return -sixth_ * (2 * product / outer + 2 * product / inner + std::log1p(-4 * product / inner));
 }
 
 double HamakerAttraction::force(double gap) const {
@@ -62,8 +62,8 @@ LinearSuperposition::LinearSuperposition(const DoubleLayer& layer, const PairRad
     check(radii);
     const double thermal = boltzmann_constant * layer.temperature / (layer.valency * elementary_charge);
     const double steepness = std::tanh(layer.surface_potential / (4 * thermal));
-    at_contact_ = 64 * pi * vacuum_permittivity * layer.relative_permittivity * radii.reduced() * thermal * thermal * steepness *
-                  steepness;
+    at_contact_ =
+        64 * pi * vacuum_permittivity * layer.relative_permittivity * radii.reduced() * thermal * thermal * steepness * steepness;
     inverse_length_ = 1 / layer.debye_length;
 }
 

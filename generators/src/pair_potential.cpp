@@ -28,8 +28,7 @@ double bisect(double low, double high, Function&& function) {
 
 }  // namespace
 
-PairPotential::PairPotential(std::vector<PairLaw> laws, const ElasticContact& contact)
-    : laws_(std::move(laws)), contact_(contact) {
+PairPotential::PairPotential(std::vector<PairLaw> laws, const ElasticContact& contact) : laws_(std::move(laws)), contact_(contact) {
     require(!laws_.empty(), "the pair potential has no laws, but it needs at least one");
     require(contact.stiffness > 0 && std::isfinite(contact.stiffness),
             "the contact stiffness is " + to_text(contact.stiffness) +
@@ -108,8 +107,8 @@ std::vector<Extreme> PairPotential::extremes(double farthest, bool maxima) const
 
 std::optional<Extreme> PairPotential::barrier(double farthest) const {
     const std::vector<Extreme> maxima = extremes(farthest, true);
-    const auto highest = std::max_element(maxima.begin(), maxima.end(),
-                                          [](const Extreme& a, const Extreme& b) { return a.energy < b.energy; });
+    const auto highest =
+        std::max_element(maxima.begin(), maxima.end(), [](const Extreme& a, const Extreme& b) { return a.energy < b.energy; });
     return highest != maxima.end() ? std::optional(*highest) : std::nullopt;
 }
 
@@ -120,8 +119,8 @@ std::optional<Extreme> PairPotential::secondary_minimum(double farthest) const {
         return std::nullopt;
     }
     std::erase_if(minima, [&](const Extreme& minimum) { return minimum.gap < maxima.front().gap || minimum.energy >= 0; });
-    const auto lowest = std::min_element(minima.begin(), minima.end(),
-                                         [](const Extreme& a, const Extreme& b) { return a.energy < b.energy; });
+    const auto lowest =
+        std::min_element(minima.begin(), minima.end(), [](const Extreme& a, const Extreme& b) { return a.energy < b.energy; });
     return lowest != minima.end() ? std::optional(*lowest) : std::nullopt;
 }
 

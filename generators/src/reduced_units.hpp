@@ -27,7 +27,7 @@ struct ForceRanges {
 
 ForceRanges choose_ranges(const PairPotential& potential, const ReducedUnits& units, const BrownianOptions& options);
 
-/// Force gradient |dF/dgap| in reduced units.
-double steepness(const PairPotential& potential, const ReducedUnits& units, double gap);
+/// dF/dgap in reduced units.
+double force_slope(const PairPotential& potential, const ReducedUnits& units, double gap);
 
 }  // namespace coagula::generators

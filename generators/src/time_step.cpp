@@ -18,8 +18,9 @@ constexpr double longest_listed = 1.3e-4;  // a particle must stay within the sk
 constexpr double far_time = 3e-5;          // over which far forces may be held
 constexpr double far_steepness = 1000;     // of the force where it may be held that long
 constexpr double barrier_share = 0.0625;   // of the square of the length of the barrier
+constexpr double largest_cut = 0.1;        // gap up to which contacts may be elastic
 constexpr int most_stages = 30;
-constexpr double impassable = 30;  // height of a barrier in kB T
+constexpr double impassable = 25;  // height of a barrier in kB T
 // Largest eigenvalue of the stiffness matrix of a contact network over the stiffness of one contact: 8 in a close-packed crystal,
 // less in random packings.
 constexpr double network_factor = 8;
@@ -42,10 +43,9 @@ double largest_steepness(const PairPotential& potential, const ReducedUnits& uni
     double largest = contacts ? potential.contact().stiffness * units.length * units.length / units.energy : 0.0;
     const double lowest = contacts ? potential.cut_gap() / units.length : top->gap / units.length;
     for (double gap = lowest; gap < cutoff; gap += 1e-3) {
-        // Attraction that grows towards contact (a negative stiffness) makes no step unstable.
-        const double energy = potential.energy(gap * units.length) / units.energy;
-        if (energy < impassable) {
-            largest = std::max(largest, steepness(potential, units, gap));
+        // Attraction that grows towards contact, a negative stiffness, makes no step unstable.
+        if (potential.energy(gap * units.length) / units.energy < impassable) {
+            largest = std::max(largest, -force_slope(potential, units, gap));
         }
     }
     return largest;
@@ -54,7 +54,7 @@ double largest_steepness(const PairPotential& potential, const ReducedUnits& uni
 /// sqrt(kB T / |V''|) at the top: over this length around it the barrier is passed.
 double barrier_length(const PairPotential& potential, const ReducedUnits& units, double cutoff) {
     const auto top = potential.barrier(cutoff * units.length);
-    return 1 / std::sqrt(steepness(potential, units, top->gap / units.length));
+    return 1 / std::sqrt(force_slope(potential, units, top->gap / units.length));
 }
 
 StepScheme scheme_of(Integrator integrator, int stages) {
@@ -63,10 +63,10 @@ StepScheme scheme_of(Integrator integrator, int stages) {
 
 }  // namespace
 
-double steepness(const PairPotential& potential, const ReducedUnits& units, double gap) {
+double force_slope(const PairPotential& potential, const ReducedUnits& units, double gap) {
     constexpr double half = 1e-5;
     const double change = potential.force((gap + half) * units.length) - potential.force((gap - half) * units.length);
-    return std::abs(change) * units.length / units.energy / (2 * half);
+    return change * units.length / units.energy / (2 * half);
 }
 
 ForceRanges choose_ranges(const PairPotential& potential, const ReducedUnits& units, const BrownianOptions& options) {
@@ -74,7 +74,7 @@ ForceRanges choose_ranges(const PairPotential& potential, const ReducedUnits& un
     const double cutoff = std::isnan(options.cutoff_gap) ? 1.0 : options.cutoff_gap / units.length;
     double start = 0.1;
     for (double gap = cutoff; gap > start; gap -= 1e-3) {
-        if (steepness(potential, units, gap) > far_steepness) {
+        if (std::abs(force_slope(potential, units, gap)) > far_steepness) {
             start = gap;
             break;
         }
@@ -87,6 +87,9 @@ ForceRanges choose_ranges(const PairPotential& potential, const ReducedUnits& un
 TimeStep choose_time_step(const PairPotential& potential, double mean_radius, double closest_gap, const BrownianOptions& options) {
     check(options);
     require_positive(mean_radius, "the mean radius", "m");
+    require(potential.cut_gap() < largest_cut * mean_radius,
+            "the contact is elastic up to a gap of " + to_text(potential.cut_gap()) +
+                " m, but that must be less than a tenth of the mean radius: take a stiffer contact or a smaller equilibrium gap");
     const ReducedUnits units(mean_radius, options);
     const double cutoff = choose_ranges(potential, units, options).cutoff;
     const double rate = network_factor * largest_steepness(potential, units, closest_gap, cutoff);

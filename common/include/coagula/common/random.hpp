@@ -33,7 +33,8 @@ Eigen::Vector3d random_uniform(std::uint64_t seed, RandomPurpose purpose, std::u
 Eigen::Vector3d random_normal(std::uint64_t seed, RandomPurpose purpose, std::uint64_t step, std::uint64_t particle);
 
 /// Three independent standard normal numbers for each of many particles, much faster than one by one, and other numbers: Philox
-/// 4x32-10 and Box-Muller, 32 random bits per uniform number (so at most 6.7 standard deviations). The same bits on every processor.
+/// 4x32-10 and Box-Muller, 32 random bits per uniform number (so at most 6.7 standard deviations). The same bits on every
+/// processor.
 /// @param particles their numbers, which key the noise. @param normals four for each: the three numbers and a zero.
 void random_normals(std::uint64_t seed, RandomPurpose purpose, std::uint64_t step, std::span<const std::int32_t> particles,
                     double* normals);

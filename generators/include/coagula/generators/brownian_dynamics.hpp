@@ -1,5 +1,6 @@
 // Brownian dynamics of spheres with pair forces: the coagulation of a suspension.
-// Overdamped motion without hydrodynamic interactions: dx = mobility F dt + sqrt(2 kB T mobility) dW, mobility 1/(6 pi viscosity R).
+// Overdamped motion without hydrodynamic interactions: dx = mobility F dt + sqrt(2 kB T mobility) dW, mobility 1/(6 pi viscosity
+// R).
 #pragma once
 
 #include <coagula/common/checks.hpp>
@@ -25,17 +26,17 @@ enum class Integrator {
 
 /// What moves the particles. SI units.
 struct BrownianOptions {
-    double temperature = 293;     ///< [K]
-    double viscosity = 1e-3;      ///< of the liquid [Pa s]
-    double slowing = 1;           ///< share of the free diffusion that hydrodynamics leave on average, 0 < slowing <= 1
-    double cutoff_gap = unset;    ///< beyond it no force [m]; one mean radius if unset
+    double temperature = 293;   ///< [K]
+    double viscosity = 1e-3;    ///< of the liquid [Pa s]
+    double slowing = 1;         ///< share of the free diffusion that hydrodynamics leave on average, 0 < slowing <= 1
+    double cutoff_gap = unset;  ///< beyond it no force [m]; one mean radius if unset
     Integrator integrator = Integrator::stabilised;
-    double time_step = unset;     ///< [s]; chosen by choose_time_step if unset
-    double stop_time = unset;     ///< the run ends then [s]
-    double stop_coordination = unset;     ///< or as soon as the mean number of contacts reaches this
-    double contact_tolerance = 0.01;      ///< pairs nearer than (1 + tolerance) (r_i + r_j) count as contacts
-    double sample_interval = unset;       ///< of the time series [s]; a two-hundredth of the stop time, or 5e-4 R^2/D, if unset
-    std::vector<double> snapshot_times;   ///< when positions are kept, besides the end [s]
+    double time_step = unset;            ///< [s]; chosen by choose_time_step if unset
+    double stop_time = unset;            ///< the run ends then [s]
+    double stop_coordination = unset;    ///< or as soon as the mean number of contacts reaches this
+    double contact_tolerance = 0.01;     ///< pairs nearer than (1 + tolerance) (r_i + r_j) count as contacts
+    double sample_interval = unset;      ///< of the time series [s]; a two-hundredth of the stop time, or 5e-4 R^2/D, if unset
+    std::vector<double> snapshot_times;  ///< when positions are kept, besides the end [s]
     std::uint64_t seed = 1;
     RandomPurpose noise = RandomPurpose::brownian_force;  ///< another for a run that comes before, so that none is repeated
 };
@@ -57,14 +58,14 @@ TimeStep choose_time_step(const PairPotential& potential, double mean_radius, do
 
 /// Values at the times of the samples; all of one length.
 struct BrownianSeries {
-    std::vector<double> time;                ///< [s]
-    std::vector<double> coordination;        ///< mean number of contacts
-    std::vector<double> energy;              ///< of all pairs [J]
-    std::vector<double> mean_gap;            ///< of the contacts [m]; 0 without contacts
-    std::vector<std::int64_t> clusters;      ///< particles joined by contacts, single ones included
-    std::vector<std::int64_t> largest;       ///< particles in the largest cluster
-    std::vector<std::int64_t> formed;        ///< contacts that are new since the sample before
-    std::vector<std::int64_t> broken;        ///< contacts that are gone since the sample before
+    std::vector<double> time;            ///< [s]
+    std::vector<double> coordination;    ///< mean number of contacts
+    std::vector<double> energy;          ///< of all pairs [J]
+    std::vector<double> mean_gap;        ///< of the contacts [m]; 0 without contacts
+    std::vector<std::int64_t> clusters;  ///< particles joined by contacts, single ones included
+    std::vector<std::int64_t> largest;   ///< particles in the largest cluster
+    std::vector<std::int64_t> formed;    ///< contacts that are new since the sample before
+    std::vector<std::int64_t> broken;    ///< contacts that are gone since the sample before
 };
 
 /// Positions at a time.
@@ -87,15 +88,15 @@ struct BrownianCheckpoint {
 
 /// How a long run is watched and resumed.
 struct BrownianControl {
-    std::function<bool()> checkpoint_due;                           ///< asked now and then; empty: never
-    std::function<void(const BrownianCheckpoint&)> on_checkpoint;   ///< also called when the run is cancelled
-    const BrownianCheckpoint* resume = nullptr;                     ///< go on from here; the options must be the same
+    std::function<bool()> checkpoint_due;                          ///< asked now and then; empty: never
+    std::function<void(const BrownianCheckpoint&)> on_checkpoint;  ///< also called when the run is cancelled
+    const BrownianCheckpoint* resume = nullptr;                    ///< go on from here; the options must be the same
 };
 
 struct BrownianRun {
-    Packing packing;           ///< at the end
-    ContactNetwork contacts;   ///< pairs within the contact tolerance
-    double time = unset;       ///< simulated [s]
+    Packing packing;          ///< at the end
+    ContactNetwork contacts;  ///< pairs within the contact tolerance
+    double time = unset;      ///< simulated [s]
     double coordination = unset;
     std::int64_t steps = 0;
     TimeStep time_step;

@@ -9,10 +9,10 @@
 
 namespace coagula::generators {
 
-inline constexpr double boltzmann_constant = 1.380649e-23;     ///< [J/K]
-inline constexpr double elementary_charge = 1.602176634e-19;   ///< [C]
+inline constexpr double boltzmann_constant = 1.380649e-23;       ///< [J/K]
+inline constexpr double elementary_charge = 1.602176634e-19;     ///< [C]
 inline constexpr double vacuum_permittivity = 8.8541878128e-12;  ///< [F/m]
-inline constexpr double avogadro_constant = 6.02214076e23;     ///< [1/mol]
+inline constexpr double avogadro_constant = 6.02214076e23;       ///< [1/mol]
 
 /// Radii of the two spheres [m], > 0.
 struct PairRadii {

@@ -39,8 +39,8 @@ public:
     std::optional<Extreme> barrier(double farthest) const;
     /// The lowest minimum beyond the barrier; none when there is no maximum to separate it from the contact.
     std::optional<Extreme> secondary_minimum(double farthest) const;
-    /// What spheres have to climb on their way to contact: from the secondary minimum, or from far apart where that is lower, to the
-    /// barrier [J]; 0 without a barrier.
+    /// What spheres have to climb on their way to contact: from the secondary minimum, or from far apart where that is lower, to
+    /// the barrier [J]; 0 without a barrier.
     double barrier_height(double farthest) const;
     /// The rest state of the contact itself.
     Extreme contact_minimum() const { return {contact_.equilibrium_gap, energy(contact_.equilibrium_gap)}; }

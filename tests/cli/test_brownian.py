@@ -1,0 +1,142 @@
+"""coagula generate brownian from outside: options, files, restart, refusals."""
+
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from support import PACKING, PROGRAM, ProgramTest, checksum
+from test_determinism import data_sets, h5py
+
+SUSPENSION = ["generate", "brownian", "--particles", "300", "--volume-fraction", "0.4", "--radius", "0.25um",
+              "--equilibration-time", "0.3ms"]
+RUN = [*SUSPENSION, "--surface-potential", "0mV", "--stop-time", "0.3ms"]
+
+
+class Potential(ProgramTest):
+    CURVE = ["generate", "brownian", "--potential-curve", "--radius", "0.25um"]
+
+    def test_barrier_and_secondary_minimum(self):
+        found = self.succeed_json(*self.CURVE, "--surface-potential", "15mV")
+        self.assertAlmostEqual(found["barrier_height_kT"], 5.65, delta=0.02)
+        self.assertAlmostEqual(found["secondary_minimum"]["energy_kT"], -1.8, delta=0.05)
+        self.assertEqual(len(found["curve"]["gap"]), len(found["curve"]["energy_kT"]))
+        self.assertIsNone(self.succeed_json(*self.CURVE, "--surface-potential", "11.5mV")["barrier"])
+
+    def test_ionic_strength_is_a_debye_length(self):
+        by_strength = self.succeed_json(*self.CURVE, "--surface-potential", "15mV", "--ionic-strength", "0.93mol/m3")
+        self.assertAlmostEqual(by_strength["barrier_height_kT"], 5.65, delta=0.3)
+        self.fail_with(2, *self.CURVE, "--surface-potential", "15mV", "--ionic-strength", "1mol/m3", "--debye-length", "10nm",
+                       says="same thing")
+
+    def test_picture(self):
+        try:
+            subprocess.run(["gnuplot", "--version"], capture_output=True, check=True)
+        except OSError:
+            self.skipTest("needs gnuplot")
+        self.succeed(*self.CURVE, "--surface-potential", "15mV", "--picture", "curve.svg")
+        self.assertIn("<svg", (self.folder / "curve.svg").read_text())
+        self.fail_with(2, *self.CURVE, "--surface-potential", "15mV", "--picture", "curve.jpg", says=".png or .svg")
+
+
+class Runs(ProgramTest):
+    def test_later_stages_take_the_output(self):
+        made = self.succeed_json(*RUN, "--snapshots", "0.1ms,0.2ms", "-o", "b.h5")
+        self.assertGreater(made["coordination"], 0.5)
+        self.assertEqual(made["time_step"]["reason"], "the motion of free particles")
+        self.assertEqual(len(made["series"]["time"]), len(made["series"]["largest_cluster"]))
+        found = self.succeed_json("characterize", "b.h5")
+        self.assertAlmostEqual(found["coordination"], made["coordination"])
+        self.succeed_json("shear", "b.h5")
+        if h5py:
+            with h5py.File(self.folder / "b.h5") as file:
+                self.assertEqual(file["particles/trajectory/position/value"].shape, (3, 300, 3))
+                self.assertEqual(file["particles/trajectory/box/edges/value"].shape, (3, 3, 3))
+                self.assertLess(abs(file["particles/trajectory/position/time"][1] - 2e-4), 2e-6)
+
+    @unittest.skipIf(h5py is None, "needs python3-h5py")
+    def test_threads_give_the_same_bytes(self):
+        for threads in (1, 2):
+            self.succeed("generate", "brownian", "--particles", "4100", "--volume-fraction", "0.4", "--radius", "0.25um",
+                         "--equilibration-time", "0.02ms", "--surface-potential", "0", "--stop-time", "0.05ms",
+                         "--threads", threads, "-o", f"{threads}.h5")
+        one, two = (data_sets(self.folder / f"{threads}.h5") for threads in (1, 2))
+        self.assertEqual(one.keys(), two.keys())
+        for name in one:
+            self.assertEqual(one[name], two[name], name)
+
+    def test_goes_on_from_a_packing_of_another_generator(self):
+        made = self.succeed_json("generate", "brownian", "--start", PACKING, "--surface-potential", "0", "--stop-time", "10us",
+                                 "-o", "b.h5")
+        self.assertEqual(made["particles"], 500)
+        self.assertGreater(made["coordination"], 3.5)
+
+    def test_potential_from_a_table(self):
+        self.write("table.csv", "gap [nm],energy [J]\n" + "".join(f"{gap},{-2e-20 * 2.718 ** (-gap / 20)}\n" for gap in range(1, 200, 3)))
+        made = self.succeed_json(*SUSPENSION, "--potential-table", "table.csv", "--stop-time", "0.05ms", "-o", "b.h5")
+        self.assertLess(made["potential"]["contact_energy"], -3)
+
+
+@unittest.skipIf(h5py is None, "needs python3-h5py")
+class Restart(ProgramTest):
+    LONG = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "3ms"]
+
+    def test_killed_runs_go_on_to_the_same_bytes(self):
+        self.succeed(*self.LONG, "-o", "whole.h5")
+        words = [*self.LONG, "--checkpoint", "state.h5", "--checkpoint-interval", "0.05s", "-o", "pieces.h5"]
+        for signal_number in (signal.SIGKILL, signal.SIGTERM):
+            before = checksum(self.folder / "state.h5") if (self.folder / "state.h5").exists() else ""
+            program = subprocess.Popen([PROGRAM, *words], cwd=self.folder, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+            for _ in range(600):
+                time.sleep(0.05)
+                if (self.folder / "state.h5").exists() and checksum(self.folder / "state.h5") != before:
+                    break
+            program.send_signal(signal_number)
+            self.assertNotEqual(program.wait(), 0, "the run was over before it could be stopped")
+        self.assertFalse((self.folder / "pieces.h5").exists())
+        self.succeed(*words)
+        whole, pieces = data_sets(self.folder / "whole.h5"), data_sets(self.folder / "pieces.h5")
+        self.assertEqual(whole.keys(), pieces.keys())
+        for name in whole:
+            self.assertEqual(whole[name], pieces[name], name)
+        os.remove(self.folder / "pieces.h5")
+        self.fail_with(2, *words, "--seed", "2", says="other options")
+
+    def test_full_disk_keeps_the_last_checkpoint(self):
+        words = [*self.LONG, "--checkpoint", "state.h5", "--checkpoint-interval", "0s", "-o", "b.h5"]
+        self.write("state.h5", "no checkpoint")
+        self.fail_with(2, *words, says="state.h5")
+        os.remove(self.folder / "state.h5")
+        limit = f"ulimit -f 8; exec {PROGRAM} " + " ".join(words)
+        done = subprocess.run(["bash", "-c", limit], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.check_sentence(done.stderr, says="state.h5")
+        self.assertEqual(os.listdir(self.folder), [])
+
+
+class Refusals(ProgramTest):
+    def test_sentences(self):
+        for more, says in ((["--debye-length", "-1nm"], "--debye-length"),
+                           (["--contact-stiffness", "0"], "without contact repulsion"),
+                           (["--integrator", "euler", "--time-step", "1us"], "stable up to"),
+                           (["--volume-fraction", "0.7"], "--volume-fraction"),
+                           (["--equilibrium-gap", "90nm"], "contact"),
+                           (["--yukawa-energy", "1e-20J"], "--yukawa-length"),
+                           (["--potential-table", "absent.csv"], "absent.csv"),
+                           (["--snapshots", "1nm"], "1nm")):
+            words = [word for word in RUN]
+            if more[0] == "--potential-table":
+                words = [*SUSPENSION, "--stop-time", "1ms"]
+            if more[0] in words:
+                words[words.index(more[0]) + 1] = more[1]
+                more = []
+            with self.subTest(says=says):
+                self.fail_with(2, *words, *more, "-o", "b.h5", says=says)
+        self.fail_with(2, *SUSPENSION, "--stop-time", "1ms", "-o", "b.h5", says="--surface-potential")
+        self.fail_with(2, *SUSPENSION, "--surface-potential", "0", "-o", "b.h5", says="--stop-time")
+        self.fail_with(2, *RUN, says="--output")
+
+
+if __name__ == "__main__":
+    unittest.main()
