@@ -1,4 +1,5 @@
-// coagula diagnose --check: reads an experiment file, checks the data and says what is there.
+// coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
+#include "diagnosis_run.hpp"
 #include "experiment_file.hpp"
 #include "report.hpp"
 #include "verbs.hpp"
@@ -158,14 +159,23 @@ std::vector<CheckedMeasurement> check_all(const diagnose::Experiment& experiment
 }
 
 void run(const Arguments& arguments) {
-    if (!arguments.flag("check")) {
-        throw InputError("only 'diagnose --check' is there so far: it reads an experiment file and checks its data");
+    if (!arguments.flag("check") && !arguments.has("output")) {
+        throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
     }
-    const ExperimentFile file = read_experiment(arguments.input());
+    ExperimentFile file = read_experiment(arguments.input());
     const std::vector<CheckedMeasurement> checked = check_all(file.experiment);
     std::vector<diagnose::Measurement> tables;
     for (const CheckedMeasurement& entry : checked) {
         tables.push_back(entry.measurement);
+    }
+    std::vector<NoiseModel> noises;
+    for (const diagnose::Replicates& replicates : diagnose::find_replicates(tables)) {
+        noises.push_back(diagnose::fit_noise(replicates, file.noise));
+    }
+    if (!arguments.flag("check")) {
+        file.experiment.measurements = std::move(tables);
+        run_diagnosis(arguments, std::move(file), noises);
+        return;
     }
     Json json = {
         {"title", file.experiment.title}, {"measurements", Json::array()}, {"noise", Json::array()}, {"notes", file.notes}};
@@ -174,8 +184,7 @@ void run(const Arguments& arguments) {
         json["measurements"].push_back(measurement_json(entry));
         add_measurement_lines(lines, entry);
     }
-    for (const diagnose::Replicates& replicates : diagnose::find_replicates(tables)) {
-        const NoiseModel noise = diagnose::fit_noise(replicates, file.noise);
+    for (const NoiseModel& noise : noises) {
         json["noise"].push_back(noise_json(noise));
         add_noise_lines(lines, noise);
     }
@@ -188,11 +197,15 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Verb diagnose_verb() {
-    return {.name = "diagnose",
-            .summary = "read an experiment file, check the measured data, estimate their noise",
-            .input = "EXPERIMENT.toml",
-            .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise")},
-            .run = run};
+    Verb verb{.name = "diagnose",
+              .summary = "what the simulation gets wrong about measured moduli, and the cause",
+              .input = "EXPERIMENT.toml",
+              .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise")},
+              .run = run,
+              .notes = {"Tables of G' and G'' against frequency, strain, time or gap are diagnosed; see docs/diagnosis.md."}};
+    const std::vector<Option> own = diagnosis_options();
+    verb.options.insert(verb.options.end(), own.begin(), own.end());
+    return verb;
 }
 
 }  // namespace coagula::tools

@@ -112,10 +112,9 @@ public:
     }
 
     void oscillate(const std::function<void(const dem::ParticleState&, const RheometerRun&)>& checkpoint) {
-        const auto total = static_cast<double>(options_.oscillations);
         for (auto number = static_cast<int>(run_.oscillations.size()); number < options_.oscillations; ++number) {
             become_older(system_, laws_, number / options_.frequency);
-            const double amplitude = options_.growing ? options_.amplitude * (number + 1) / total : options_.amplitude;
+            const double amplitude = options_.amplitude * part_of_amplitude(number);
             const std::size_t first = run_.stress.size();
             const std::size_t broken = run_.broken.size();
             move(amplitude, 0, options_.steps_per_oscillation, number);
@@ -157,15 +156,15 @@ public:
 
     RheometerRun result() const {
         RheometerRun run = run_;
+        const double amplitude = run.oscillations.back().amplitude;
         if (mounted_.has_plates()) {
             const auto last = static_cast<std::size_t>(options_.samples_per_oscillation);
-            run.plate_storage =
-                evaluate_oscillation({run.plate_stress.data() + (run.plate_stress.size() - last), last}, options_.amplitude)
-                    .fundamental_storage;
+            run.plate_storage = evaluate_oscillation({run.plate_stress.data() + (run.plate_stress.size() - last), last}, amplitude)
+                                    .fundamental_storage;
             run.sphere_storage.resize(probe_.spheres());
             for (Index sphere = 0; sphere < probe_.spheres(); ++sphere) {
                 const Eigen::VectorXd stress = run.sphere_stress.col(sphere).tail(options_.samples_per_oscillation);
-                run.sphere_storage[sphere] = evaluate_oscillation({stress.data(), last}, options_.amplitude).fundamental_storage;
+                run.sphere_storage[sphere] = evaluate_oscillation({stress.data(), last}, amplitude).fundamental_storage;
             }
         }
         return run;
@@ -185,6 +184,12 @@ private:
         system_.set_spins(none);
     }
 
+    double part_of_amplitude(int oscillation) const {
+        if (!options_.course.empty()) {
+            return options_.course[static_cast<std::size_t>(oscillation)];
+        }
+        return options_.growing ? (oscillation + 1.0) / options_.oscillations : 1.0;
+    }
     double strain_at(double amplitude, int step) const {
         return amplitude * std::sin(2 * std::numbers::pi * step / options_.steps_per_oscillation);
     }

@@ -25,8 +25,9 @@ enum class RheometerBoundary {
 struct RheometerOptions {
     ContactModel model;
     RheometerBoundary boundary = RheometerBoundary::plates;
-    double amplitude = 1e-3;            ///< strain of the last oscillation, > 0
+    double amplitude = 1e-3;            ///< largest strain of an oscillation, > 0
     bool growing = true;                ///< the k-th of n oscillations has k / n of the amplitude; else all have it
+    std::vector<double> course = {};    ///< part of the amplitude (0 .. 1] of every oscillation instead; or empty
     int oscillations = 10;              ///< > 0
     double frequency = 1;               ///< [Hz], > 0; with scaled masses, see RheometerResult::mass_scaling
     int steps_per_oscillation = 6000;   ///< >= 100

@@ -1,0 +1,128 @@
+// From measured data and structures to a named cause and a better model: fit, detect, localise, attribute, extend, gain, propose.
+#pragma once
+
+#include <coagula/common/progress.hpp>
+#include <coagula/diagnose/measurement.hpp>
+#include <coagula/diagnose/mechanism.hpp>
+#include <coagula/diagnose/settings.hpp>
+#include <coagula/diagnose/simulator.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Standard deviations of G' and G'': of a row sqrt(floor^2 + (relative x level)^2), and the factor of a sample. Rows whose table
+/// states a standard error use that.
+struct NoiseSettings {
+    double storage_floor = 0;  ///< [Pa]
+    double storage_relative = 0.03;
+    double loss_floor = 0;  ///< [Pa]
+    double loss_relative = 0.05;
+    double sample = 0.1;
+};
+
+struct DiagnosisOptions {
+    NoiseSettings noise;
+    double level = 0.05;         ///< of the test whether anything is wrong
+    int bootstrap = 999;         ///< data sets behind a p-value
+    double held_out_part = 0.3;  ///< of the rows of a table, those at the end of its axis, if no whole table can be held out
+    double pair_prior = 0.1;     ///< prior weight of each pair of mechanisms over that of a single one
+    double none_prior = 0.3;     ///< of "none of the catalogue" over that of a single mechanism
+    std::uint64_t seed = 1;
+};
+
+enum class Verdict {
+    no_discrepancy,     ///< the base model explains the data
+    named,              ///< one cause (or pair) stands out
+    tied,               ///< several causes explain the data about equally
+    none_of_catalogue,  ///< something is wrong that no cause explains
+};
+/// "no-discrepancy", "named", "tied", "none-of-catalogue".
+const char* name_of(Verdict verdict);
+
+/// A value with its 90 % interval.
+struct EstimatedParameter {
+    std::string name;
+    std::string unit;
+    double value = 0;
+    double low = 0;
+    double high = 0;
+};
+
+/// A cause, or several at once ("ageing + wall-slip"), or "none of the catalogue", "base".
+struct Cause {
+    std::string name;
+    std::string words = {};  ///< what it changes
+    double posterior = 0;
+    double log_evidence = 0;
+    std::vector<EstimatedParameter> parameters = {};
+    Settings settings = {};  ///< most probable
+};
+
+/// Where the base model fails.
+struct Failure {
+    std::string observable;   ///< "storage_modulus", "loss_modulus"
+    std::string axis;         ///< "strain", "angular_frequency", "time", "gap"
+    double bayes_factor = 1;  ///< of a smooth departure along the axis against none
+    double from = 0;          ///< value of the axis from which on it departs
+    double departure = 0;     ///< mean relative difference of data and base model there
+    std::string sentence;
+};
+
+/// What the extended model gains on data that neither model was fitted to.
+struct Gain {
+    std::size_t held_out = 0;  ///< numbers
+    double rmse_base = 0;      ///< of the relative difference
+    double rmse_extended = 0;
+    double rmse_flexible = 0;    ///< of a base model with a smooth (Gaussian process) correction
+    double rmse_ratio = 1;       ///< base over extended
+    double elpd_difference = 0;  ///< in expected log predictive density, extended less base
+    double elpd_low = 0;         ///< 90 % interval by block bootstrap
+    double elpd_high = 0;
+};
+
+/// A measurement that would tell the causes of a tie apart.
+struct Proposal {
+    std::string what;
+    double information = 0;  ///< expected information gain [bit]
+    double resolution = 0;   ///< probability that one cause is then certain to 95 %
+};
+
+/// One observation beside the models.
+struct PredictedRow {
+    std::size_t measurement = 0;
+    std::size_t row = 0;
+    std::string observable;
+    double measured = 0;
+    double standard_deviation = 0;  ///< of a row
+    double base = 0;
+    double extended = 0;
+    bool held_out = false;
+};
+
+struct Diagnosis {
+    bool detected = false;
+    double p_value = 1;
+    Verdict verdict = Verdict::no_discrepancy;
+    Cause base;
+    std::vector<Cause> causes;              ///< all that were compared, most probable first
+    std::vector<std::string> credible_set;  ///< smallest set with 95 % of the posterior; pairs with a member of the set left out
+    std::vector<Failure> failures;          ///< strongest first
+    double extended_p_value = 1;            ///< of the test, applied to the best cause
+    Gain gain;
+    std::vector<Proposal> proposals;  ///< most informative first
+    NoiseSettings noise;
+    std::vector<PredictedRow> rows;
+    std::size_t observations = 0;
+};
+
+/// Diagnoses an experiment whose tables have passed check_data.
+/// Throws InputError when there are fewer than five usable moduli: too little to say anything.
+Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options = {},
+                   const Progress& progress = {});
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,31 @@
+// Everything that the base model and the mechanisms can set: contact, structure and instrument.
+#pragma once
+
+#include <limits>
+
+namespace coagula::diagnose {
+
+/// One state of the simulation and of the instrument. The defaults are the base model of Schenker et al. 2012: linear normal and
+/// shear springs, bonds without moments, no loss, a perfect instrument.
+struct Settings {
+    double normal_stiffness = 100;  ///< of a particle [N/m]
+    double stiffness_ratio = 0.1;   ///< shear over normal stiffness
+    double bending_ratio = 0;       ///< bending and twisting stiffness of a contact over its normal stiffness times r0^2
+    double bond_tolerance = 0.01;   ///< pairs nearer than (1 + tolerance) (r_i + r_j) are bonded
+
+    double springpot_ratio = 0;     ///< springpot of a contact over its spring at 1 Hz, in both directions
+    double springpot_exponent = 0;  ///< 0 .. 1
+
+    double critical_strain =
+        std::numeric_limits<double>::infinity();  ///< bond strength, normal and shear, over k_n r0 of a contact
+
+    double ageing_per_decade = 0;  ///< stiffness grows by this share of its first value in a decade of time
+    double ageing_start = 1;       ///< age of the sample when the first run begins [s]
+
+    double slip = 0;             ///< wall slip b: apparent modulus G / (1 + 2 G b / gap) [m/Pa]
+    double gap_error = 0;        ///< true gap less the stated one [m]
+    double tool_compliance = 0;  ///< [rad/(N m)], beyond what the instrument corrects
+    double tool_inertia = 0;     ///< [kg m^2], beyond what the instrument corrects
+};
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,40 @@
+// Does a fitted model fail the data, and where?
+#pragma once
+
+#include "hypothesis.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Along which quantity residuals are looked at.
+enum class Coordinate { strain, angular_frequency, time, gap, none };
+
+const char* name_of(Coordinate coordinate);
+/// Of one observation.
+double coordinate_of(const Observation& observation, Coordinate coordinate);
+
+/// One way to fail: a smooth departure of one observable of some tables along a coordinate, or the whole.
+struct MisfitStatistic {
+    std::string observable;  ///< "storage_modulus", "loss_modulus" or "all"
+    Coordinate coordinate = Coordinate::none;
+    bool autocorrelation = false;  ///< of neighbours along the coordinate, else the size of smooth components
+    std::vector<Index> rows = {};  ///< observations that take part, sorted along the coordinate
+    double value = 0;
+    double score = 0;  ///< standardised: over the bootstrap's mean and standard deviation
+};
+
+struct Detection {
+    double p_value = 1;
+    std::vector<MisfitStatistic> statistics;  ///< the largest score first
+};
+
+/// The statistics of the residuals, standardised, and the p-value of the largest: the part of data sets drawn from the fitted model
+/// and fitted again (linearised at the fit) whose largest one is as large.
+/// @param jacobian derivatives of the whitened prediction by the fitted parameters.
+Detection detect(const std::vector<Observation>& observations, const Eigen::VectorXd& residual, const Eigen::MatrixXd& jacobian,
+                 std::uint64_t seed, int bootstrap = 999);
+
+}  // namespace coagula::diagnose

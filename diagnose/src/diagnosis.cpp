@@ -1,0 +1,239 @@
+#include <coagula/diagnose/diagnosis.hpp>
+
+#include "detection.hpp"
+#include "flexible.hpp"
+#include "gain.hpp"
+#include "hypothesis.hpp"
+#include "localise.hpp"
+#include "proposal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr std::size_t fewest_observations = 5;
+constexpr std::size_t causes_in_pairs = 4;  ///< pairs are made of the best so many causes
+constexpr double certain = 0.95;
+constexpr const char* none_name = "none of the catalogue";
+
+/// Data and noise of one experiment.
+struct Problem {
+    std::vector<Observation> observations;
+    Eigen::VectorXd data;
+    Eigen::MatrixXd covariance;
+    std::vector<std::string> samples;
+};
+
+Problem problem_of(const Experiment& experiment, const NoiseSettings& noise) {
+    Problem problem;
+    problem.observations = observations_of(experiment);
+    if (problem.observations.size() < fewest_observations) {
+        throw InputError("the experiment has " + std::to_string(problem.observations.size()) +
+                         " usable moduli: at least five are needed to say anything");
+    }
+    problem.data.resize(static_cast<Index>(problem.observations.size()));
+    for (std::size_t k = 0; k < problem.observations.size(); ++k) {
+        problem.data[static_cast<Index>(k)] = problem.observations[k].value;
+        problem.samples.push_back(experiment.measurements[problem.observations[k].measurement].sample);
+    }
+    problem.covariance =
+        covariance_of(problem.observations, {noise.storage_floor, noise.storage_relative}, {noise.loss_floor, noise.loss_relative});
+    return problem;
+}
+
+Cause cause_of(const Fit& fit) {
+    Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .settings = fit.settings};
+    const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior) {
+        cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high});
+    };
+    add("normal_stiffness", "N/m", fit.stiffness);
+    std::size_t next = 0;
+    for (const Mechanism* mechanism : fit.hypothesis) {
+        cause.words += (cause.words.empty() ? "" : "; ") + mechanism->term;
+        for (const MechanismParameter& parameter : mechanism->parameters) {
+            add(parameter.name, parameter.unit, fit.parameters[next++]);
+        }
+    }
+    return cause;
+}
+
+/// Fits single causes and pairs of the best of them; the base model comes first.
+std::vector<Fit> fit_all(const Experiment& experiment, const Inference& inference, const Progress& progress) {
+    std::vector<Fit> fits{inference.fit({})};
+    std::vector<const Mechanism*> possible;
+    for (const Mechanism& mechanism : catalogue()) {
+        if (mechanism.applies(experiment)) {
+            possible.push_back(&mechanism);
+        }
+    }
+    for (const Mechanism* mechanism : possible) {
+        progress.update("attributing", 0.5, mechanism->name);
+        fits.push_back(inference.fit({mechanism}));
+    }
+    std::vector<Fit> ranked(fits.begin() + 1, fits.end());
+    std::stable_sort(ranked.begin(), ranked.end(), [](const Fit& a, const Fit& b) { return a.log_evidence > b.log_evidence; });
+    const std::size_t partners = std::min(causes_in_pairs, ranked.size());
+    for (std::size_t first = 0; first < partners; ++first) {
+        for (std::size_t second = first + 1; second < partners; ++second) {
+            progress.update("attributing", 0.8, "pairs");
+            fits.push_back(inference.fit({ranked[first].hypothesis[0], ranked[second].hypothesis[0]}));
+        }
+    }
+    return fits;
+}
+
+/// Posterior of each fit and, last, of "none of the catalogue".
+std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidence, const DiagnosisOptions& options) {
+    std::vector<double> logarithms;
+    for (const Fit& fit : fits) {
+        logarithms.push_back(fit.log_evidence + (fit.hypothesis.size() > 1 ? std::log(options.pair_prior) : 0.0));
+    }
+    logarithms.push_back(none_evidence + std::log(options.none_prior));
+    const double largest = *std::max_element(logarithms.begin(), logarithms.end());
+    double sum = 0;
+    for (double& value : logarithms) {
+        value = std::exp(value - largest);
+        sum += value;
+    }
+    for (double& value : logarithms) {
+        value /= sum;
+    }
+    return logarithms;
+}
+
+double test(const Problem& problem, const Inference& inference, const Fit& fit, const DiagnosisOptions& options,
+            Detection* detection) {
+    const Eigen::VectorXd residual = inference.likelihood().residual(inference.forward().predict(fit.settings));
+    Detection found = detect(problem.observations, residual, inference.jacobian(fit), options.seed, options.bootstrap);
+    const double p_value = found.p_value;
+    if (detection != nullptr) {
+        *detection = std::move(found);
+    }
+    return p_value;
+}
+
+std::vector<PredictedRow> predicted_rows(const Problem& problem, const Forward& forward, const Settings& base,
+                                         const Settings& extended, const std::vector<bool>& held_out) {
+    const Eigen::VectorXd by_base = forward.predict(base);
+    const Eigen::VectorXd by_extended = forward.predict(extended, true);
+    std::vector<PredictedRow> rows;
+    for (std::size_t k = 0; k < problem.observations.size(); ++k) {
+        const Observation& observation = problem.observations[k];
+        const auto i = static_cast<Index>(k);
+        rows.push_back({observation.measurement, observation.row, observation.loss ? "loss_modulus" : "storage_modulus",
+                        observation.value, std::sqrt(problem.covariance(i, i)), by_base[i], by_extended[i], held_out[k]});
+    }
+    return rows;
+}
+
+/// Whether a pair "a + b" has this member.
+bool contains(const std::string& pair, const std::string& member) {
+    const std::string joint = " + ";
+    return pair.starts_with(member + joint) || pair.ends_with(joint + member);
+}
+
+void rank_causes(const std::vector<Fit>& fits, double none_evidence, const DiagnosisOptions& options, Diagnosis& diagnosis) {
+    const std::vector<double> posterior = posteriors(fits, none_evidence, options);
+    for (std::size_t k = 0; k < fits.size(); ++k) {
+        diagnosis.causes.push_back(cause_of(fits[k]));
+        diagnosis.causes.back().posterior = posterior[k];
+    }
+    diagnosis.causes.push_back({.name = none_name,
+                                .words = "a smooth departure that no mechanism of the catalogue makes",
+                                .posterior = posterior.back(),
+                                .log_evidence = none_evidence});
+    std::stable_sort(diagnosis.causes.begin(), diagnosis.causes.end(),
+                     [](const Cause& a, const Cause& b) { return a.posterior > b.posterior; });
+    double sum = 0;
+    for (const Cause& cause : diagnosis.causes) {
+        if (sum < certain) {
+            const auto& set = diagnosis.credible_set;
+            // A pair whose one member explains the data alone, and better, adds no cause.
+            const bool adds =
+                std::none_of(set.begin(), set.end(), [&](const std::string& name) { return contains(cause.name, name); });
+            if (adds) {
+                diagnosis.credible_set.push_back(cause.name);
+            }
+            sum += cause.posterior;
+        }
+    }
+}
+
+const Fit& fit_named(const std::vector<Fit>& fits, const std::string& name) {
+    return *std::find_if(fits.begin(), fits.end(), [&](const Fit& fit) { return name_of(fit.hypothesis) == name; });
+}
+
+Verdict verdict_of(const Diagnosis& diagnosis, double level) {
+    if (!diagnosis.detected) {
+        return Verdict::no_discrepancy;
+    }
+    if (diagnosis.causes.front().name == none_name || diagnosis.extended_p_value < level / 5) {
+        return Verdict::none_of_catalogue;
+    }
+    return diagnosis.credible_set.size() == 1 ? Verdict::named : Verdict::tied;
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+    constexpr std::array<const char*, 4> names{"no-discrepancy", "named", "tied", "none-of-catalogue"};
+    return names.at(static_cast<std::size_t>(verdict));
+}
+
+Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options, const Progress& progress) {
+    const Problem problem = problem_of(experiment, options.noise);
+    const Forward forward(experiment, problem.observations, simulator);
+    const Likelihood likelihood(problem.data, problem.covariance, problem.samples, options.noise.sample);
+    const Inference inference(forward, likelihood);
+    const std::vector<bool> held_out = choose_held_out(experiment, problem.observations, options.held_out_part);
+
+    Diagnosis diagnosis;
+    diagnosis.noise = options.noise;
+    diagnosis.observations = problem.observations.size();
+    progress.update("fitting the base model", 0.1);
+    const Fit base = inference.fit({});
+    diagnosis.base = cause_of(base);
+    Detection detection;
+    diagnosis.p_value = test(problem, inference, base, options, &detection);
+    diagnosis.detected = diagnosis.p_value <= options.level;
+    const Eigen::VectorXd base_prediction = forward.predict(base.settings);
+    if (!diagnosis.detected) {
+        diagnosis.rows = predicted_rows(problem, forward, base.settings, base.settings, held_out);
+        return diagnosis;
+    }
+    diagnosis.failures = localise(problem.observations, detection, likelihood.residual(base_prediction), base_prediction);
+
+    const std::vector<Fit> fits = fit_all(experiment, inference, progress);
+    const double none =
+        flexible_evidence(problem.observations, problem.data, problem.covariance, forward, problem.samples, options.noise.sample);
+    rank_causes(fits, none, options, diagnosis);
+    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
+                                   [](const Cause& cause) { return cause.name != none_name && cause.name != "base"; });
+    const Fit& winner = fit_named(fits, best->name);
+    diagnosis.extended_p_value = test(problem, inference, winner, options, nullptr);
+    diagnosis.verdict = verdict_of(diagnosis, options.level);
+    progress.update("measuring the gain", 0.9);
+    diagnosis.gain = measure_gain(problem.observations, problem.data, problem.covariance, problem.samples, options.noise.sample,
+                                  held_out, experiment, simulator, winner.hypothesis, options.seed);
+    diagnosis.rows = predicted_rows(problem, forward, base.settings, winner.settings, held_out);
+    if (diagnosis.verdict == Verdict::tied) {
+        std::vector<Fit> candidates;
+        std::vector<double> weights;
+        for (const Cause& cause : diagnosis.causes) {
+            const bool in_set =
+                std::find(diagnosis.credible_set.begin(), diagnosis.credible_set.end(), cause.name) != diagnosis.credible_set.end();
+            if (in_set && cause.name != none_name && cause.name != "base") {
+                candidates.push_back(fit_named(fits, cause.name));
+                weights.push_back(cause.posterior);
+            }
+        }
+        diagnosis.proposals = propose(experiment, simulator, candidates, weights, options);
+    }
+    return diagnosis;
+}
+
+}  // namespace coagula::diagnose

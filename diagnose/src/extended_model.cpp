@@ -1,0 +1,35 @@
+#include <coagula/diagnose/extended_model.hpp>
+
+#include <coagula/common/contact_law.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace coagula::diagnose {
+
+ContactModel contact_model_of(const Settings& settings, double radius) {
+    ContactModel model;
+    model.normal_stiffness = settings.normal_stiffness;
+    model.shear_stiffness = settings.stiffness_ratio * settings.normal_stiffness;
+    const double normal = stiffness_in_series(model.normal_stiffness, model.normal_stiffness);
+    const double shear = stiffness_in_series(model.shear_stiffness, model.shear_stiffness);
+    if (settings.bending_ratio > 0) {
+        model.bending_stiffness = model.twisting_stiffness = settings.bending_ratio * normal * radius * radius;
+    }
+    if (settings.springpot_ratio > 0) {
+        model.normal_springpot_stiffness = settings.springpot_ratio * normal;
+        model.shear_springpot_stiffness = settings.springpot_ratio * shear;
+        model.normal_springpot_time = model.shear_springpot_time = 1 / (2 * std::numbers::pi);
+        model.normal_springpot_exponent = model.shear_springpot_exponent = settings.springpot_exponent;
+    }
+    if (std::isfinite(settings.critical_strain)) {
+        model.normal_strength = model.shear_strength = settings.critical_strain * normal * radius;
+    }
+    if (settings.ageing_per_decade > 0) {
+        model.ageing_rate = settings.ageing_per_decade / std::numbers::ln10;
+        model.ageing_time = settings.ageing_start;
+    }
+    return model;
+}
+
+}  // namespace coagula::diagnose

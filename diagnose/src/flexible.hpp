@@ -1,0 +1,23 @@
+// The base model with a smooth correction, a Gaussian process along the coordinates: what stands for "none of the catalogue".
+#pragma once
+
+#include "hypothesis.hpp"
+
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Covariance of a smooth multiplicative correction of size `amplitude` and correlation length `length` (part of the range of each
+/// coordinate, which is taken as a rank) of each observable, around the measured levels.
+Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, double amplitude, double length);
+
+/// Log evidence of the base model with that correction, averaged over amplitudes and lengths; the same normalisation as
+/// Fit::log_evidence.
+double flexible_evidence(const std::vector<Observation>& observations, const Eigen::VectorXd& data, const Eigen::MatrixXd& noise,
+                         const Forward& forward, const std::vector<std::string>& samples, double effect);
+
+/// Prediction of all observations by the best of these corrections, conditioned on the observations in `known`.
+Eigen::VectorXd flexible_prediction(const std::vector<Observation>& observations, const Eigen::VectorXd& data,
+                                    const Eigen::MatrixXd& noise, const Eigen::VectorXd& base, const std::vector<Index>& known);
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,171 @@
+#include "forward.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <numbers>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using std::numbers::pi;
+using Complex = std::complex<double>;
+
+/// How long a row takes where the table has no times [s].
+constexpr double row_duration = 10;
+
+bool has_moduli(MeasurementKind kind) {
+    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series;
+}
+
+double cell(const Measurement& table, std::string_view name, std::size_t row) {
+    const Column* column = find_column(table, name);
+    return column == nullptr ? unset : column->values[row];
+}
+
+double angular_frequency(const Measurement& table, std::size_t row) {
+    const double given = cell(table, "angular_frequency", row);
+    return std::isnan(given) ? 2 * pi * cell(table, "frequency", row) : given;
+}
+
+/// Time since the first row of its table; rows without a time follow each other.
+double time_in(const Measurement& table, std::size_t row) {
+    const double given = cell(table, "time", row);
+    return std::isnan(given) ? row_duration * static_cast<double>(row) : given;
+}
+
+double duration(const Measurement& table) {
+    double longest = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        longest = std::max(longest, time_in(table, row));
+    }
+    return longest + row_duration;
+}
+
+/// When each table begins: the runs on one sample follow each other in their order.
+std::vector<double> starts(const Experiment& experiment) {
+    std::vector<double> start(experiment.measurements.size(), 0);
+    for (std::size_t k = 0; k < start.size(); ++k) {
+        for (const Measurement& other : experiment.measurements) {
+            const Measurement& table = experiment.measurements[k];
+            start[k] += other.sample == table.sample && other.run_order < table.run_order ? duration(other) : 0.0;
+        }
+    }
+    return start;
+}
+
+/// Torque per angle over the modulus of a plate-plate or cone-plate geometry [m^3].
+double tool_factor(const Instrument& instrument, double gap) {
+    const double radius = instrument.plate_radius;
+    const bool cone = instrument.geometry && *instrument.geometry == Geometry::cone_plate;
+    return cone ? 2 * pi * std::pow(radius, 3) / (3 * instrument.cone_angle) : pi * std::pow(radius, 4) / (2 * gap);
+}
+
+}  // namespace
+
+std::vector<Observation> observations_of(const Experiment& experiment) {
+    const std::vector<double> start = starts(experiment);
+    std::vector<Observation> all;
+    for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
+        const Measurement& table = experiment.measurements[k];
+        if (!has_moduli(table.kind)) {
+            continue;
+        }
+        for (const bool loss : {false, true}) {
+            const Column* column = find_column(table, loss ? "loss_modulus" : "storage_modulus");
+            for (std::size_t row = 0; column != nullptr && row < table.rows(); ++row) {
+                if (!std::isfinite(column->values[row])) {
+                    continue;
+                }
+                const double error = column->standard_errors.empty() ? unset : column->standard_errors[row];
+                const double gap = cell(table, "gap", row);
+                all.push_back({k, row, loss, column->values[row], error, cell(table, "strain", row), angular_frequency(table, row),
+                               start[k] + time_in(table, row), std::isnan(gap) ? experiment.instrument.gap : gap});
+            }
+        }
+    }
+    return all;
+}
+
+Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
+    : experiment_(experiment), observations_(observations), simulator_(simulator) {}
+
+Complex Forward::seen_by_instrument(const Settings& settings, const Observation& observation, Complex modulus) const {
+    if (settings.gap_error != 0 && std::isfinite(observation.gap)) {
+        modulus *= observation.gap / (observation.gap + settings.gap_error);
+    }
+    if (settings.slip > 0 && std::isfinite(observation.gap)) {
+        modulus /= 1.0 + 2.0 * settings.slip * modulus / observation.gap;
+    }
+    const double factor = tool_factor(experiment_.instrument, observation.gap);
+    if (settings.tool_compliance > 0) {
+        modulus /= 1.0 + settings.tool_compliance * factor * modulus;
+    }
+    if (settings.tool_inertia > 0 && std::isfinite(observation.angular_frequency)) {
+        modulus -= settings.tool_inertia * observation.angular_frequency * observation.angular_frequency / factor;
+    }
+    return modulus;
+}
+
+/// G* / G from breaking bonds for every observation. A bond that broke stays broken: the largest strain so far counts.
+std::vector<Complex> Forward::amplitude_factors(const Settings& settings, bool exact) const {
+    std::vector<Complex> factors(observations_.size(), 1.0);
+    if (!std::isfinite(settings.critical_strain)) {
+        return factors;
+    }
+    for (std::size_t table = 0; table < experiment_.measurements.size(); ++table) {
+        std::vector<double> amplitudes;
+        std::map<std::size_t, std::size_t> place;  // of a row
+        for (const Observation& observation : observations_) {
+            if (observation.measurement == table && !observation.loss && std::isfinite(observation.strain)) {
+                place[observation.row] = amplitudes.size();
+                amplitudes.push_back(observation.strain);
+            }
+        }
+        const std::vector<Complex> run =
+            exact && !amplitudes.empty() ? simulator_.exact_amplitude_response(settings, amplitudes) : std::vector<Complex>{};
+        double largest = 0;
+        for (std::size_t k = 0; k < observations_.size(); ++k) {
+            const Observation& observation = observations_[k];
+            if (observation.measurement != table || !std::isfinite(observation.strain)) {
+                continue;
+            }
+            if (observation.row == 0) {
+                largest = 0;
+            }
+            if (exact && place.contains(observation.row)) {
+                factors[k] = run[place[observation.row]];
+                continue;
+            }
+            const bool falls = observation.strain < largest;
+            largest = std::max(largest, observation.strain);
+            const Complex response = simulator_.amplitude_response(settings, largest);
+            factors[k] = falls ? Complex(response.real()) : response;  // nothing breaks on the way down
+        }
+    }
+    return factors;
+}
+
+Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
+    const double linear = exact ? simulator_.exact_linear_modulus(settings) : simulator_.linear_modulus(settings);
+    const std::vector<Complex> broken = amplitude_factors(settings, exact);
+    Eigen::VectorXd predicted(static_cast<Index>(observations_.size()));
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        Complex modulus = linear * broken[k];
+        if (settings.springpot_ratio > 0) {
+            // A springpot in the same proportion to both springs scales the whole stiffness matrix.
+            modulus *= 1.0 + settings.springpot_ratio *
+                                 std::pow(Complex(0, observation.angular_frequency / (2 * pi)), settings.springpot_exponent);
+        }
+        modulus *= 1 + settings.ageing_per_decade * std::log10(1 + observation.time / settings.ageing_start);
+        modulus = seen_by_instrument(settings, observation, modulus);
+        predicted[static_cast<Index>(k)] = observation.loss ? modulus.imag() : modulus.real();
+    }
+    return predicted;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,71 @@
+// A hypothesis, the base model with some mechanisms, and its evidence.
+#pragma once
+
+#include "forward.hpp"
+#include "likelihood.hpp"
+
+#include <coagula/diagnose/mechanism.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// The base model with these mechanisms.
+using Hypothesis = std::vector<const Mechanism*>;
+
+/// "base", "ageing", "ageing + wall-slip".
+std::string name_of(const Hypothesis& hypothesis);
+
+/// All parameters of the mechanisms, in their order.
+std::vector<MechanismParameter> parameters_of(const Hypothesis& hypothesis);
+
+/// A parameter's posterior.
+struct Posterior {
+    double value;  ///< most probable
+    double low;    ///< 5 % and 95 % quantile
+    double high;
+};
+
+/// A hypothesis fitted to data.
+struct Fit {
+    Hypothesis hypothesis;
+    Settings settings;                  ///< most probable
+    std::vector<Posterior> parameters;  ///< of the mechanisms
+    Posterior stiffness{};              ///< of a particle [N/m]
+    double log_density = 0;             ///< of the data at `settings`
+    double log_evidence = 0;            ///< of the data, all parameters integrated over their priors
+    Eigen::MatrixXd draws;              ///< normal stiffness and parameters x equally probable draws from the posterior
+};
+
+/// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
+/// posterior is, with the Laplace approximation for the stiffness, which scales the moduli. The prior of the stiffness is uniform
+/// in its logarithm over 0.1 .. 1e5 N/m.
+class Inference {
+public:
+    Inference(const Forward& forward, const Likelihood& likelihood) : forward_(forward), likelihood_(likelihood) {}
+
+    Fit fit(const Hypothesis& hypothesis) const;
+
+    /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places and the sample effects at a
+    /// fit.
+    Eigen::MatrixXd jacobian(const Fit& fit) const;
+
+    const Forward& forward() const { return forward_; }
+    const Likelihood& likelihood() const { return likelihood_; }
+
+private:
+    struct Node {
+        double log_stiffness;
+        double deviation;  ///< of log_stiffness
+        double log_density;
+        double log_weight;  ///< stiffness integrated out
+    };
+    Node best_stiffness(Settings settings, double start) const;
+
+    const Forward& forward_;
+    const Likelihood& likelihood_;
+};
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,40 @@
+// Cubic interpolation between nodes that are equally spaced in the logarithm.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace coagula::diagnose {
+
+struct Axis {
+    double low;
+    double high;
+    int count;
+
+    double node(int k) const { return low * std::pow(high / low, static_cast<double>(k) / (count - 1)); }
+    double place(double value) const { return (count - 1) * std::log(value / low) / std::log(high / low); }
+};
+
+/// The value at `value` from those at the nodes, at(k): a cubic through the four nearest nodes; outside the axis its end.
+template <class At>
+double interpolate_nodes(const Axis& axis, double value, const At& at) {
+    const double place = std::clamp(axis.place(value), 0.0, static_cast<double>(axis.count - 1));
+    const int first = std::clamp(static_cast<int>(std::floor(place)) - 1, 0, axis.count - 4);
+    const double t = place - first;
+    const std::array<double, 4> weight{-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2,
+                                       t * (t - 1) * (t - 2) / 6};
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) {
+        sum += weight[static_cast<std::size_t>(k)] * at(first + k);
+    }
+    return sum;
+}
+
+/// The same for positive values that vary over decades, in their logarithms; `f` takes the value of a node.
+template <class Function>
+double interpolate(const Axis& axis, double value, const Function& f) {
+    return std::exp(interpolate_nodes(axis, value, [&](int k) { return std::log(std::max(f(axis.node(k)), 1e-300)); }));
+}
+
+}  // namespace coagula::diagnose

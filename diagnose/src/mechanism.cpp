@@ -1,0 +1,33 @@
+#include <coagula/diagnose/mechanism.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanisms/mechanisms.hpp"
+
+namespace coagula::diagnose {
+
+double MechanismParameter::at(double place) const {
+    return logarithmic ? low * std::pow(high / low, place) : low + (high - low) * place;
+}
+
+double MechanismParameter::place_of(double given) const {
+    return logarithmic ? std::log(given / low) / std::log(high / low) : (given - low) / (high - low);
+}
+
+std::span<const Mechanism> catalogue() {
+    // One line per mechanism.
+    static const std::vector<Mechanism> all{
+        mechanisms::shear_stiffness(), mechanisms::bond_bending(), mechanisms::bond_range(), mechanisms::bond_strength(),
+        mechanisms::contact_loss(),    mechanisms::ageing(),       mechanisms::wall_slip(),  mechanisms::gap_error(),
+        mechanisms::tool_compliance(), mechanisms::tool_inertia()};
+    return all;
+}
+
+const Mechanism* find_mechanism(const std::string& name) {
+    const auto all = catalogue();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Mechanism& entry) { return entry.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace coagula::diagnose

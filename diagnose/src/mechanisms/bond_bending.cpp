@@ -1,0 +1,14 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+Mechanism bond_bending() {
+    return {.name = "bond-bending",
+            .term = "bonds resist bending and twisting",
+            .signature = "raises the moduli, most where the coordination is low",
+            .parameters = {{"bending_over_normal", "1", 1e-6, 0.1, true, &Settings::bending_ratio}},
+            .in_contact = true,
+            .applies = always};
+}
+
+}  // namespace coagula::diagnose::mechanisms

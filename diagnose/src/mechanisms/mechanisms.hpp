@@ -1,0 +1,40 @@
+// The mechanisms, one file each.
+#pragma once
+
+#include <coagula/diagnose/mechanism.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coagula::diagnose::mechanisms {
+
+Mechanism shear_stiffness();
+Mechanism bond_bending();
+Mechanism bond_range();
+Mechanism bond_strength();
+Mechanism contact_loss();
+Mechanism ageing();
+Mechanism wall_slip();
+Mechanism gap_error();
+Mechanism tool_compliance();
+Mechanism tool_inertia();
+
+inline bool always(const Experiment& /*experiment*/) {
+    return true;
+}
+
+inline bool any_measurement(const Experiment& experiment, bool (*holds)(const Measurement&)) {
+    return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), holds);
+}
+
+/// Torque per angle over the modulus is known: a plate or cone radius, and a gap or angle.
+inline bool knows_plates(const Experiment& experiment) {
+    return std::isfinite(experiment.instrument.plate_radius) && std::isfinite(experiment.instrument.gap);
+}
+
+inline bool knows_gap(const Experiment& experiment) {
+    return std::isfinite(experiment.instrument.gap) ||
+           any_measurement(experiment, [](const Measurement& table) { return find_column(table, "gap") != nullptr; });
+}
+
+}  // namespace coagula::diagnose::mechanisms

@@ -1,0 +1,83 @@
+"""coagula diagnose: a hidden loss of the contacts is named, the extended model runs, what cannot be diagnosed is refused."""
+
+import json
+import math
+import unittest
+
+from support import ProgramTest
+
+MODEL = """normal_springpot_stiffness = 12
+normal_springpot_time = 0.15915494309189535
+normal_springpot_exponent = 0.08
+shear_springpot_stiffness = 1.2
+shear_springpot_time = 0.15915494309189535
+shear_springpot_exponent = 0.08
+"""
+
+EXPERIMENT = """title = "hidden loss"
+
+[sample]
+particle_radius = "0.25 um"
+
+[structures]
+files = ["packing.h5"]
+
+[[measurement]]
+kind = "frequency-sweep"
+file = "sweep.csv"
+sample = "one"
+"""
+
+
+class Diagnosis(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.copy_of_packing()
+        self.write("experiment.toml", EXPERIMENT)
+
+    def sweep_of(self, *words):
+        """Moduli of a structure that the diagnosis does not see, with an error of 2 % that alternates."""
+        self.succeed("generate", "vem", "--particles", "300", "--voids", "150", "--volume-fraction", "0.4", "--radius", "0.25um", "--seed",
+                     "9", "--quiet", "--force", "-o", "other.h5")
+        found = self.succeed_json("shear", "other.h5", "-o", "swept.h5", "--force", "--frequency-sweep", "0.1Hz:100Hz:16", *words)
+        lines = ["frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]"]
+        for k, frequency in enumerate(found["frequency"]):
+            error = 1 + 0.02 * math.sin(2.4 * k)
+            lines.append(f"{frequency},{error * found['storage_modulus']['mean'][k]},{found['loss_modulus']['mean'][k] / error}")
+        self.write("sweep.csv", "\n".join(lines) + "\n")
+
+    def test_a_hidden_loss_is_named(self):
+        self.write("hidden.toml", MODEL)
+        self.sweep_of("--model", "hidden.toml")
+        found = self.succeed_json("diagnose", "experiment.toml", "-o", "results")
+        self.assertTrue(found["detected"])
+        self.assertEqual(found["verdict"], "named")
+        self.assertEqual(found["credible_set"], ["contact-loss"])
+        self.assertGreater(found["gain"]["rmse_ratio"], 2)
+        self.assertTrue(found["where"][0]["sentence"])
+        parameters = found["causes"][0]["parameters"]
+        self.assertLess(parameters["exponent"]["low"], 0.08)
+        self.assertGreater(parameters["exponent"]["high"], 0.08)
+        with open(self.folder / "results" / "diagnosis.json") as file:
+            self.assertEqual(json.load(file)["verdict"], "named")
+        # The extended model makes the moduli that the diagnosis predicts.
+        again = self.succeed_json("shear", "packing.h5", "-o", "again.h5", "--frequency-sweep", "0.1Hz:100Hz:16", "--model",
+                                  found["extended_model"])
+        predicted = {(row["row"], row["observable"]): row["extended"] for row in found["rows"]}
+        for k in (0, 7, 15):
+            for part in ("storage_modulus", "loss_modulus"):
+                self.assertAlmostEqual(again[part]["mean"][k] / predicted[(k + 1, part)], 1, delta=1e-6)
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="--force")
+
+    def test_refusals(self):
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="sweep.csv")
+        self.write("sweep.csv", "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]\n" +
+                   "".join(f"{k},{1e6 + k},{1e4 + k}\n" for k in range(1, 12)))
+        self.fail_with(2, "diagnose", "experiment.toml", says="--output")
+        self.write("experiment.toml", EXPERIMENT.replace('[structures]\nfiles = ["packing.h5"]\n', ""))
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="structures")
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "sweep.csv", says="no folder")
+
+
+if __name__ == "__main__":
+    unittest.main()

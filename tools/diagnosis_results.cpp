@@ -1,0 +1,141 @@
+#include "diagnosis_results.hpp"
+
+#include <cmath>
+
+namespace coagula::tools {
+
+namespace {
+
+using diagnose::Cause;
+using diagnose::Diagnosis;
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json parameters_json(const Cause& cause) {
+    Json json = Json::object();
+    for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
+        json[parameter.name] = {{"value", number(parameter.value)},
+                                {"low", number(parameter.low)},
+                                {"high", number(parameter.high)},
+                                {"unit", parameter.unit}};
+    }
+    return json;
+}
+
+Json cause_json(const Cause& cause) {
+    return {{"name", cause.name},
+            {"posterior", cause.posterior},
+            {"log_evidence", number(cause.log_evidence)},
+            {"words", cause.words},
+            {"parameters", parameters_json(cause)}};
+}
+
+Json row_json(const diagnose::PredictedRow& row) {
+    return {{"measurement", row.measurement + 1},
+            {"row", row.row + 1},
+            {"observable", row.observable},
+            {"measured", row.measured},
+            {"standard_deviation", row.standard_deviation},
+            {"base", row.base},
+            {"extended", row.extended},
+            {"held_out", row.held_out}};
+}
+
+std::string list(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
+std::string describe(const Cause& cause) {
+    std::string text = "probability " + with_unit(cause.posterior, "1");
+    for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
+        text += "; " + parameter.name + " " + with_unit(parameter.value, parameter.unit) + " (" +
+                with_unit(parameter.low, parameter.unit) + " to " + with_unit(parameter.high, parameter.unit) + ")";
+    }
+    return text;
+}
+
+}  // namespace
+
+Json to_json(const Diagnosis& diagnosis, const std::string& model) {
+    Json json = {{"detected", diagnosis.detected},
+                 {"p_value", diagnosis.p_value},
+                 {"verdict", diagnose::name_of(diagnosis.verdict)},
+                 {"observations", diagnosis.observations},
+                 {"base", cause_json(diagnosis.base)},
+                 {"causes", Json::array()},
+                 {"credible_set", diagnosis.credible_set},
+                 {"where", Json::array()},
+                 {"rows", Json::array()}};
+    for (const Cause& cause : diagnosis.causes) {
+        json["causes"].push_back(cause_json(cause));
+    }
+    for (const diagnose::Failure& failure : diagnosis.failures) {
+        json["where"].push_back({{"observable", failure.observable},
+                                 {"axis", failure.axis},
+                                 {"bayes_factor", number(failure.bayes_factor)},
+                                 {"from", failure.from},
+                                 {"sentence", failure.sentence}});
+    }
+    for (const diagnose::PredictedRow& row : diagnosis.rows) {
+        json["rows"].push_back(row_json(row));
+    }
+    if (diagnosis.detected) {
+        const diagnose::Gain& gain = diagnosis.gain;
+        json["extended_p_value"] = diagnosis.extended_p_value;
+        json["gain"] = {{"held_out", gain.held_out},
+                        {"rmse_base", gain.rmse_base},
+                        {"rmse_extended", gain.rmse_extended},
+                        {"rmse_flexible", gain.rmse_flexible},
+                        {"rmse_ratio", gain.rmse_ratio},
+                        {"elpd_difference", gain.elpd_difference},
+                        {"elpd_ci90", {gain.elpd_low, gain.elpd_high}}};
+    }
+    json["noise"] = {{"storage_relative", diagnosis.noise.storage_relative},
+                     {"loss_relative", diagnosis.noise.loss_relative},
+                     {"sample", diagnosis.noise.sample}};
+    json["proposed_measurements"] = Json::array();
+    for (const diagnose::Proposal& proposal : diagnosis.proposals) {
+        json["proposed_measurements"].push_back(
+            {{"what", proposal.what}, {"information", proposal.information}, {"predicted_resolution", proposal.resolution}});
+    }
+    if (!diagnosis.proposals.empty()) {
+        json["proposed_measurement"] = json["proposed_measurements"].front();
+    }
+    json["extended_model"] = model.empty() ? Json(nullptr) : Json(model);
+    return json;
+}
+
+Table table_of(const Diagnosis& diagnosis) {
+    Table lines{{"moduli", std::to_string(diagnosis.observations)},
+                {"verdict", std::string(diagnose::name_of(diagnosis.verdict)) + "   (p = " + with_unit(diagnosis.p_value, "1") +
+                                " that the base model fails so by chance)"}};
+    if (!diagnosis.detected) {
+        return lines;
+    }
+    for (const diagnose::Failure& failure : diagnosis.failures) {
+        lines.emplace_back("where", failure.sentence);
+    }
+    lines.emplace_back("95 % set of causes", list(diagnosis.credible_set));
+    for (const Cause& cause : diagnosis.causes) {
+        if (cause.posterior > 0.01) {
+            lines.emplace_back("  " + cause.name, describe(cause));
+        }
+    }
+    const diagnose::Gain& gain = diagnosis.gain;
+    lines.emplace_back("gain on held-out data", "error " + with_unit(100 * gain.rmse_base, "1") + " % before, " +
+                                                    with_unit(100 * gain.rmse_extended, "1") + " % after (" +
+                                                    with_unit(100 * gain.rmse_flexible, "1") + " % by a smooth correction)");
+    if (!diagnosis.proposals.empty()) {
+        const diagnose::Proposal& first = diagnosis.proposals.front();
+        lines.emplace_back("measure next", first.what + "   (decides with probability " + with_unit(first.resolution, "1") + ")");
+    }
+    return lines;
+}
+
+}  // namespace coagula::tools
