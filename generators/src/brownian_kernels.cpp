@@ -18,6 +18,7 @@ namespace {
 
 constexpr int width = 4;
 using Four = double __attribute__((vector_size(32)));
+using Whole = std::int32_t __attribute__((vector_size(16)));
 
 COAGULA_INLINE void load(const double* source, Four& value) {
     std::memcpy(&value, source, sizeof(Four));
@@ -52,81 +53,87 @@ COAGULA_INLINE void square_root(Four& value) {
     }
 }
 
+/// Four pairs; the shares scale their forces.
 template <bool both>
-COAGULA_INLINE void add_forces(const PairLoop& loop, const ForceTable& table, const SlotPair* pairs, std::size_t count) {
+COAGULA_INLINE void add_forces_of_four(const PairLoop& loop, const ForceTable& table, const SlotPair* ends, Four share) {
     const double first_knot = table.first();
     const double inverse_spacing = table.inverse_spacing();
     const auto beyond = static_cast<double>(table.intervals());
     const double* const coefficients = table.coefficients();
-    for (std::size_t begin = 0; begin < count; begin += width) {
-        // The last batch is filled up with its first pair, which then counts once only.
+    Four separation[width];
+    for (int lane = 0; lane < width; ++lane) {
+        Four from;
+        Four to;
+        load(loop.positions + 4 * static_cast<std::size_t>(ends[lane].first), from);
+        load(loop.positions + 4 * static_cast<std::size_t>(ends[lane].second), to);
+        separation[lane] = to - from;
+    }
+    auto& [x, y, z, rest] = separation;
+    transpose(x, y, z, rest);
+    wrap(x, loop.period[0]);
+    wrap(y, loop.period[1]);
+    wrap(z, loop.period[2]);
+    Four distance = x * x + y * y + z * z;
+    square_root(distance);
+    Four reach = {2, 2, 2, 2};
+    if (loop.radii != nullptr) {
+        for (int lane = 0; lane < width; ++lane) {
+            const double one = loop.radii[ends[lane].first];
+            const double other = loop.radii[ends[lane].second];
+            reach[lane] = one + other;
+            share[lane] *= 2 * one * other / (one + other);
+        }
+    }
+    const Four place = (distance - reach - first_knot) * inverse_spacing;
+    const Four nothing = {0, 0, 0, 0};
+    const Four end = nothing + beyond;
+    Four inside = place > nothing ? place : nothing;
+    inside = inside < end ? inside : end;
+    Four cubic[width];
+    const Whole interval = __builtin_convertvector(inside, Whole);
+    const Four knot = __builtin_convertvector(interval, Four);
+    for (int lane = 0; lane < width; ++lane) {
+        load(coefficients + 4 * static_cast<std::size_t>(interval[lane]), cubic[lane]);
+    }
+    transpose(cubic[0], cubic[1], cubic[2], cubic[3]);
+    const Four t = place - knot;
+    const Four force = cubic[0] + t * (cubic[1] + t * (cubic[2] + t * cubic[3]));
+    const Four over_distance = share * force / distance;
+    x *= over_distance;
+    y *= over_distance;
+    z *= over_distance;
+    rest = nothing;
+    transpose(x, y, z, rest);
+    for (int lane = 0; lane < width; ++lane) {
+        double* const on_first = loop.forces + 4 * static_cast<std::size_t>(ends[lane].first);
+        Four sum;
+        load(on_first, sum);
+        store(on_first, sum - separation[lane]);
+        if constexpr (both) {
+            double* const on_second = loop.forces + 4 * static_cast<std::size_t>(ends[lane].second);
+            load(on_second, sum);
+            store(on_second, sum + separation[lane]);
+        }
+    }
+}
+
+template <bool both>
+COAGULA_INLINE void add_forces(const PairLoop& loop, const ForceTable& table, const SlotPair* pairs, std::size_t count) {
+    const Four whole = {1, 1, 1, 1};
+    std::size_t begin = 0;
+    for (; begin + width <= count; begin += width) {
+        add_forces_of_four<both>(loop, table, pairs + begin, whole);
+    }
+    if (begin < count) {
+        // Filled up with the first of the rest, which counts once only.
         SlotPair ends[width];
-        Four share = {1, 1, 1, 1};
+        Four share = {0, 0, 0, 0};
         for (int lane = 0; lane < width; ++lane) {
             const std::size_t entry = begin + static_cast<std::size_t>(lane);
             ends[lane] = pairs[entry < count ? entry : begin];
+            share[lane] = entry < count ? 1 : 0;
         }
-        if (begin + width > count) {
-            for (int lane = static_cast<int>(count - begin); lane < width; ++lane) {
-                share[lane] = 0;
-            }
-        }
-        Four separation[width];
-        for (int lane = 0; lane < width; ++lane) {
-            Four from;
-            Four to;
-            load(loop.positions + 4 * static_cast<std::size_t>(ends[lane].first), from);
-            load(loop.positions + 4 * static_cast<std::size_t>(ends[lane].second), to);
-            separation[lane] = to - from;
-        }
-        auto& [x, y, z, rest] = separation;
-        transpose(x, y, z, rest);
-        wrap(x, loop.period[0]);
-        wrap(y, loop.period[1]);
-        wrap(z, loop.period[2]);
-        Four distance = x * x + y * y + z * z;
-        square_root(distance);
-        Four reach = {2, 2, 2, 2};
-        if (loop.radii != nullptr) {
-            for (int lane = 0; lane < width; ++lane) {
-                const double one = loop.radii[ends[lane].first];
-                const double other = loop.radii[ends[lane].second];
-                reach[lane] = one + other;
-                share[lane] *= 2 * one * other / (one + other);
-            }
-        }
-        const Four place = (distance - reach - first_knot) * inverse_spacing;
-        const Four nothing = {0, 0, 0, 0};
-        const Four end = nothing + beyond;
-        Four inside = place > nothing ? place : nothing;
-        inside = inside < end ? inside : end;
-        Four cubic[width];
-        Four knot;
-        for (int lane = 0; lane < width; ++lane) {
-            const auto interval = static_cast<std::int32_t>(inside[lane]);
-            knot[lane] = interval;
-            load(coefficients + 4 * static_cast<std::size_t>(interval), cubic[lane]);
-        }
-        transpose(cubic[0], cubic[1], cubic[2], cubic[3]);
-        const Four t = place - knot;
-        const Four force = cubic[0] + t * (cubic[1] + t * (cubic[2] + t * cubic[3]));
-        const Four over_distance = share * force / distance;
-        x *= over_distance;
-        y *= over_distance;
-        z *= over_distance;
-        rest = nothing;
-        transpose(x, y, z, rest);
-        for (int lane = 0; lane < width; ++lane) {
-            double* const on_first = loop.forces + 4 * static_cast<std::size_t>(ends[lane].first);
-            Four sum;
-            load(on_first, sum);
-            store(on_first, sum - separation[lane]);
-            if constexpr (both) {
-                double* const on_second = loop.forces + 4 * static_cast<std::size_t>(ends[lane].second);
-                load(on_second, sum);
-                store(on_second, sum + separation[lane]);
-            }
-        }
+        add_forces_of_four<both>(loop, table, ends, share);
     }
 }
 

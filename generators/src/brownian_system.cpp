@@ -13,8 +13,8 @@ namespace coagula::generators {
 
 namespace {
 
-constexpr double wide_skin = 0.6;    // of the list of all pairs
-constexpr double narrow_skin = 0.2;  // of the list of near pairs
+constexpr double wide_skin = 0.6;     // of the list of all pairs
+constexpr double narrow_skin = 0.25;  // of the list of near pairs
 constexpr std::size_t particles_per_chunk = 2000;
 constexpr std::size_t most_chunks = 16;
 
