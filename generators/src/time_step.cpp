@@ -14,11 +14,11 @@ namespace {
 
 // In units of R^2/D, with lengths in R and energies in kB T.
 constexpr double longest_time_step = 2e-5;
-constexpr double longest_listed = 1.3e-4;  // a particle must stay within the skin of the neighbour list during a step
-constexpr double far_time = 4e-5;          // over which far forces may be held
-constexpr double far_steepness = 1000;     // of the force where it may be held that long
-constexpr double barrier_share = 0.0625;   // of the square of the length of the barrier
-constexpr double largest_cut = 0.1;        // gap up to which contacts may be elastic
+constexpr double longest_listed = 1.3e-4;   // a particle must stay within the skin of the neighbour list during a step
+constexpr double far_time = 4e-5;           // over which far forces may be held
+constexpr double far_steepness = 1000;      // of the force where it may be held that long
+constexpr double barrier_share = 1.0 / 28;  // of the square of the length of the barrier
+constexpr double largest_cut = 0.1;         // gap up to which contacts may be elastic
 constexpr int most_stages = 30;
 constexpr double impassable = 25;  // height of a barrier in kB T
 // Largest eigenvalue of the stiffness matrix of a contact network over the stiffness of one contact: 8 in a close-packed crystal,
