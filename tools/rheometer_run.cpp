@@ -50,11 +50,12 @@ std::vector<Option> rheometer_options() {
             quantity("amplitude", "1", "dem: strain of the last oscillation; they grow linearly", "0.001", Range{0, 1, false}),
             flag("constant-amplitude", "dem: all oscillations have that strain"),
             count("oscillations", "dem: number of oscillations", "10", within(1, 100000)),
-            count("steps-per-oscillation", "dem: time steps, a multiple of 100", "6000", within(100, 100000000)),
+            count("steps-per-oscillation", "dem: time steps, a multiple of 100", "24000", within(100, 100000000)),
             quantity("damping", "1", "dem: coefficient of the local damping", "0.9", Range{0, 0.999, true}),
             quantity("density", "kg/m3", "dem: of the particles, to tell by how much masses are scaled", "3690kg/m3", above(0)),
-            choice("rest-length", {"found", "radii"}, "dem: bonds are unstressed as found, or at a distance of r_i + r_j", "found"),
-            text("orientation", "LIST", "dem: plate normal and shear direction, such as xy,zx, or all", "all"),
+            choice("rest-length", {"found", "radii"},
+                   "dem, quasistatic: bonds are unstressed as found, or at a distance of r_i + r_j", "found"),
+            text("orientation", "LIST", "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all", "all"),
             text("checkpoint", "FILE", "dem: state after every oscillation; a run that finds the file goes on from it")};
 }
 

@@ -8,7 +8,8 @@ import h5py
 
 from support import PROGRAM, ProgramTest
 
-QUICK = ["--method", "dem", "--boundary", "periodic", "--bond-tolerance", "0.1", "--amplitude", "1e-5"]
+QUICK = ["--method", "dem", "--boundary", "periodic", "--bond-tolerance", "0.1", "--amplitude", "1e-5", "--steps-per-oscillation",
+         "6000"]
 
 
 class Rheometer(ProgramTest):
@@ -40,14 +41,14 @@ class Rheometer(ProgramTest):
 
     def test_plates(self):
         found = self.succeed_json("shear", "packing.h5", "-o", "out.h5", "--method", "dem", "--orientation", "yz", "--oscillations",
-                                  "1", "--bond-tolerance", "0.1")
+                                  "1", "--bond-tolerance", "0.1", "--steps-per-oscillation", "6000")
         self.assertEqual(found["boundary"], "plates")
         self.assertEqual(len(found["sphere_storage_modulus"][0]), 5)
         self.assertAlmostEqual(found["plate_storage_modulus"][0] / found["storage_modulus"]["yz"], 1, delta=0.1)
 
     def test_a_killed_run_goes_on_to_the_same_bits(self):
         model = self.write("model.toml", 'friction = 0.2\nnormal_strength = "20 pN"\n')
-        words = [*QUICK, "--oscillations", "6", "--steps-per-oscillation", "1500", "--orientation", "zx,xy", "--model", str(model)]
+        words = [*QUICK[:-1], "1500", "--oscillations", "6", "--orientation", "zx,xy", "--model", str(model)]
         whole = self.succeed_json("shear", "packing.h5", "-o", "whole.h5", *words)
         call = ["shear", "packing.h5", "-o", "killed.h5", "--checkpoint", "state.h5", *words]
         running = subprocess.Popen([PROGRAM, *call], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
