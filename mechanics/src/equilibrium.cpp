@@ -30,8 +30,14 @@ double longest(const Motion& motion) {
 
 }  // namespace
 
-bool EquilibriumSolver::is_balanced(const Trial& trial) const {
-    return trial.rms_residual <= std::max(tolerance_ * trial.rms_force, rounding);
+/// Forces are measured by the largest of the run so far: near zero strain there is next to none.
+bool EquilibriumSolver::is_balanced(const Trial& trial) {
+    const double scale = std::max(trial.rms_force, largest_force_);
+    const bool balanced = trial.rms_residual <= std::max(tolerance_ * scale, rounding);
+    if (balanced) {
+        largest_force_ = scale;
+    }
+    return balanced;
 }
 
 /// Factor of the symmetric part with the smallest shift that makes it positive definite.

@@ -32,7 +32,7 @@ public:
     double last_residual() const { return last_residual_; }
 
 private:
-    bool is_balanced(const Trial& trial) const;
+    bool is_balanced(const Trial& trial);
     void factorise(const BlockMatrix& stiffness, double smallest_shift);
     Motion precondition(const Motion& load);
     std::optional<Motion> newton_step(const ShearedNetwork& network, const Trial& trial, Motion& correction);
@@ -40,6 +40,7 @@ private:
     bool search_line(const ShearedNetwork& network, const Motion& step, Trial& trial, Motion& correction);
 
     double tolerance_;
+    double largest_force_ = 0;  ///< rms over the contacts, of the equilibria so far
     SolverEffort& effort_;
     std::unique_ptr<CholeskyFactor> factor_;
     bool fresh_ = false;  ///< the factor belongs to the present state
