@@ -24,7 +24,7 @@ enum class RestLength {
 struct QuasistaticOptions {
     ShearOrientation orientation = {};
     RestLength rest_length = RestLength::as_found;
-    double tolerance = 1e-8;          ///< rms force left on a particle over the largest rms contact force so far, > 0
+    double tolerance = 1e-7;          ///< rms force left on a particle over the largest rms contact force so far, > 0
     double balance_tolerance = 3e-6;  ///< of work against energy in every step, over |stress| x strain step x volume, > 0
     double event_tolerance = 1e-9;    ///< of the strain at which a bond breaks, over the largest strain of the run, > 0
     double smallest_step = 2e-3;  ///< of strain over the largest strain of the run; where no smaller step helps, the network has
