@@ -1,4 +1,5 @@
 // coagula shear: elastic response of the bonded packing, or its response to harmonic strain.
+#include "free_surface.hpp"
 #include "frequency_list.hpp"
 #include "frequency_results.hpp"
 #include "load_structure_results.hpp"
@@ -12,8 +13,6 @@
 #include "shear_results.hpp"
 #include "verbs.hpp"
 
-#include <coagula/characterize/inner_particles.hpp>
-#include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
@@ -82,15 +81,6 @@ mechanics::LinearOptions linear_options(const Arguments& arguments, const Contac
     options.tolerance = arguments.quantity("tolerance");
     options.modulus_tolerance = arguments.quantity("modulus-tolerance");
     return options;
-}
-
-/// A sample with a free surface is strained by its outer particles, those whose Voronoi cells the surroundings could change; the
-/// stress is averaged over the cells of the others.
-void hold_surface(const Packing& packing, mechanics::LinearOptions& options) {
-    const std::vector<bool> inner = characterize::inner_particles(packing);
-    options.held.resize(inner.size());
-    std::transform(inner.begin(), inner.end(), options.held.begin(), [](bool is_inner) { return !is_inner; });
-    options.volume = characterize::measure_pores(packing, {.radii = 4}).volume;
 }
 
 /// The network at rest, if the user asks for it.

@@ -1,6 +1,6 @@
 #include "detection.hpp"
 
-#include <coagula/common/random.hpp>
+#include "weights.hpp"
 
 #include <Eigen/QR>
 
@@ -95,8 +95,7 @@ double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residua
 Eigen::VectorXd normal_numbers(Index count, std::uint64_t seed, std::uint64_t sample) {
     Eigen::VectorXd values(count);
     for (Index k = 0; k < count; ++k) {
-        const auto u = random_uniform(seed, RandomPurpose::diagnosis, sample, static_cast<std::uint64_t>(k));
-        values[k] = std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * pi * u[1]);
+        values[k] = normal_number(seed, sample, static_cast<std::uint64_t>(k));
     }
     return values;
 }

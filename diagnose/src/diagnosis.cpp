@@ -6,10 +6,12 @@
 #include "hypothesis.hpp"
 #include "localise.hpp"
 #include "proposal.hpp"
+#include "weights.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -93,16 +95,7 @@ std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidenc
         logarithms.push_back(fit.log_evidence + (fit.hypothesis.size() > 1 ? std::log(options.pair_prior) : 0.0));
     }
     logarithms.push_back(none_evidence + std::log(options.none_prior));
-    const double largest = *std::max_element(logarithms.begin(), logarithms.end());
-    double sum = 0;
-    for (double& value : logarithms) {
-        value = std::exp(value - largest);
-        sum += value;
-    }
-    for (double& value : logarithms) {
-        value /= sum;
-    }
-    return logarithms;
+    return probabilities_of(std::move(logarithms));
 }
 
 double test(const Problem& problem, const Inference& inference, const Fit& fit, const DiagnosisOptions& options,

@@ -1,6 +1,7 @@
 #include "flexible.hpp"
 
 #include "detection.hpp"
+#include "weights.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -105,12 +106,7 @@ double flexible_evidence(const std::vector<Observation>& observations, const Eig
             evidence.push_back(inference.fit({}).log_evidence);
         }
     }
-    const double largest = *std::max_element(evidence.begin(), evidence.end());
-    double sum = 0;
-    for (const double value : evidence) {
-        sum += std::exp(value - largest);
-    }
-    return largest + std::log(sum / static_cast<double>(evidence.size()));
+    return log_sum(evidence) - std::log(static_cast<double>(evidence.size()));
 }
 
 Eigen::VectorXd flexible_prediction(const std::vector<Observation>& observations, const Eigen::VectorXd& data,

@@ -128,14 +128,16 @@ std::vector<Complex> Forward::amplitude_factors(const Settings& settings, bool e
         const std::vector<Complex> run =
             exact && !amplitudes.empty() ? simulator_.exact_amplitude_response(settings, amplitudes) : std::vector<Complex>{};
         double largest = 0;
+        std::size_t row_before = 0;
         for (std::size_t k = 0; k < observations_.size(); ++k) {
             const Observation& observation = observations_[k];
             if (observation.measurement != table || !std::isfinite(observation.strain)) {
                 continue;
             }
-            if (observation.row == 0) {
-                largest = 0;
+            if (observation.row <= row_before) {
+                largest = 0;  // the other modulus, from the start of the sweep
             }
+            row_before = observation.row;
             if (exact && place.contains(observation.row)) {
                 factors[k] = run[place[observation.row]];
                 continue;

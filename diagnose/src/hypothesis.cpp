@@ -1,5 +1,7 @@
 #include "hypothesis.hpp"
 
+#include "weights.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,15 +49,6 @@ std::vector<int> split(std::size_t number, std::size_t axes, int nodes) {
         number /= static_cast<std::size_t>(nodes);
     }
     return place;
-}
-
-double log_sum(const std::vector<double>& values) {
-    const double largest = *std::max_element(values.begin(), values.end());
-    double sum = 0;
-    for (const double value : values) {
-        sum += std::exp(value - largest);
-    }
-    return largest + std::log(sum);
 }
 
 /// The value below which a part of the weight lies.

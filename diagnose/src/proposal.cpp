@@ -1,11 +1,12 @@
 #include "proposal.hpp"
 
-#include <coagula/common/random.hpp>
+#include "weights.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -135,11 +136,6 @@ Settings settings_of(const Fit& fit, Index draw) {
     return settings;
 }
 
-double normal_number(std::uint64_t seed, std::uint64_t step, std::uint64_t number) {
-    const auto u = random_uniform(seed, RandomPurpose::diagnosis, step, number);
-    return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * pi * u[1]);
-}
-
 /// Probability of each cause given data, each cause being a mixture of its predictions.
 std::vector<double> judge(const Eigen::VectorXd& data, const std::vector<Eigen::MatrixXd>& predictions,
                           const std::vector<double>& weights, const Eigen::ArrayXd& deviation) {
@@ -152,16 +148,7 @@ std::vector<double> judge(const Eigen::VectorXd& data, const std::vector<Eigen::
         const double largest = densities.maxCoeff();
         logarithms.push_back(largest + std::log((densities - largest).exp().mean()) + std::log(weights[cause]));
     }
-    const double largest = *std::max_element(logarithms.begin(), logarithms.end());
-    double sum = 0;
-    for (double& value : logarithms) {
-        value = std::exp(value - largest);
-        sum += value;
-    }
-    for (double& value : logarithms) {
-        value /= sum;
-    }
-    return logarithms;
+    return probabilities_of(std::move(logarithms));
 }
 
 double entropy(const std::vector<double>& probabilities) {
