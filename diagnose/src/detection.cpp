@@ -150,6 +150,7 @@ Detection detect(const std::vector<Observation>& observations, const Eigen::Vect
     }
     const Eigen::RowVectorXd largest = values.colwise().maxCoeff();
     const double observed = largest[bootstrap];
+    result.bootstrap.assign(largest.begin(), largest.end() - 1);
     result.p_value = static_cast<double>((largest.array() >= observed).count()) / (bootstrap + 1);
     for (Index kind = 0; kind < kinds; ++kind) {
         MisfitStatistic& statistic = result.statistics[static_cast<std::size_t>(kind)];

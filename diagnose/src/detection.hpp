@@ -29,6 +29,7 @@ struct MisfitStatistic {
 struct Detection {
     double p_value = 1;
     std::vector<MisfitStatistic> statistics;  ///< the largest score first
+    std::vector<double> bootstrap;            ///< largest score of each drawn data set
 };
 
 /// The statistics of the residuals, standardised, and the p-value of the largest: the part of data sets drawn from the fitted model

@@ -48,7 +48,7 @@ Problem problem_of(const Experiment& experiment, const NoiseSettings& noise) {
 }
 
 Cause cause_of(const Fit& fit) {
-    Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .settings = fit.settings};
+    Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .settings = fit.settings, .draws = fit.draws};
     const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior) {
         cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high});
     };
@@ -109,18 +109,44 @@ double test(const Problem& problem, const Inference& inference, const Fit& fit, 
     return p_value;
 }
 
-std::vector<PredictedRow> predicted_rows(const Problem& problem, const Forward& forward, const Settings& base,
-                                         const Settings& extended, const std::vector<bool>& held_out) {
-    const Eigen::VectorXd by_base = forward.predict(base);
-    const Eigen::VectorXd by_extended = forward.predict(extended, true);
-    std::vector<PredictedRow> rows;
+std::vector<SampleEffect> effects_of(const Likelihood& likelihood, const Eigen::VectorXd& prediction) {
+    const Eigen::VectorXd values = likelihood.effects(prediction);
+    std::vector<SampleEffect> effects;
+    for (std::size_t k = 0; k < likelihood.effect_names().size(); ++k) {
+        effects.push_back({likelihood.effect_names()[k], values[static_cast<Index>(k)]});
+    }
+    return effects;
+}
+
+/// Every row beside both models, and the effects of the samples.
+void predict_rows(const Problem& problem, const Inference& inference, const Settings& base, const Settings& extended,
+                  const std::vector<bool>& held_out, Diagnosis& diagnosis) {
+    const Likelihood& likelihood = inference.likelihood();
+    const Eigen::VectorXd by_base = inference.forward().predict(base);
+    const Eigen::VectorXd by_extended = inference.forward().predict(extended, true);
+    const Eigen::VectorXd base_residual = likelihood.residual(by_base);
+    const Eigen::VectorXd extended_residual = likelihood.residual(by_extended);
+    diagnosis.base_effects = effects_of(likelihood, by_base);
+    diagnosis.extended_effects = effects_of(likelihood, by_extended);
     for (std::size_t k = 0; k < problem.observations.size(); ++k) {
         const Observation& observation = problem.observations[k];
         const auto i = static_cast<Index>(k);
-        rows.push_back({observation.measurement, observation.row, observation.loss ? "loss_modulus" : "storage_modulus",
-                        observation.value, std::sqrt(problem.covariance(i, i)), by_base[i], by_extended[i], held_out[k]});
+        diagnosis.rows.push_back({observation.measurement, observation.row, observation.loss ? "loss_modulus" : "storage_modulus",
+                                  observation.value, std::sqrt(problem.covariance(i, i)), by_base[i], by_extended[i], held_out[k],
+                                  base_residual[i], extended_residual[i]});
     }
-    return rows;
+}
+
+void keep_statistics(const Detection& detection, Diagnosis& diagnosis) {
+    for (const MisfitStatistic& one : detection.statistics) {
+        const bool whole = one.coordinate == Coordinate::none;
+        diagnosis.statistics.push_back({one.observable, name_of(one.coordinate),
+                                        whole                 ? "chi-square"
+                                        : one.autocorrelation ? "neighbours"
+                                                              : "smooth components",
+                                        one.value, one.score});
+    }
+    diagnosis.bootstrap = detection.bootstrap;
 }
 
 /// Whether a pair "a + b" has this member.
@@ -193,9 +219,10 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     Detection detection;
     diagnosis.p_value = test(problem, inference, base, options, &detection);
     diagnosis.detected = diagnosis.p_value <= options.level;
+    keep_statistics(detection, diagnosis);
     const Eigen::VectorXd base_prediction = forward.predict(base.settings);
     if (!diagnosis.detected) {
-        diagnosis.rows = predicted_rows(problem, forward, base.settings, base.settings, held_out);
+        predict_rows(problem, inference, base.settings, base.settings, held_out, diagnosis);
         return diagnosis;
     }
     diagnosis.failures = localise(problem.observations, detection, likelihood.residual(base_prediction), base_prediction);
@@ -212,7 +239,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(problem.observations, problem.data, problem.covariance, problem.samples, options.noise.sample,
                                   held_out, experiment, simulator, winner.hypothesis, options.seed);
-    diagnosis.rows = predicted_rows(problem, forward, base.settings, winner.settings, held_out);
+    predict_rows(problem, inference, base.settings, winner.settings, held_out, diagnosis);
     if (diagnosis.verdict == Verdict::tied) {
         std::vector<Fit> candidates;
         std::vector<double> weights;

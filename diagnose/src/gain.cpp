@@ -138,6 +138,9 @@ Gain measure_gain(const std::vector<Observation>& observations, const Eigen::Vec
     gain.rmse_extended = root_mean_square(held, better(held.index));
     gain.rmse_flexible = root_mean_square(held, flexible(held.index));
     gain.rmse_ratio = gain.rmse_extended > 0 ? gain.rmse_base / gain.rmse_extended : 1.0;
+    for (const Index row : held.index) {
+        gain.predictions.push_back({static_cast<std::size_t>(row), base[row], better[row], flexible[row]});
+    }
     const Eigen::VectorXd differences = log_densities(held, better(held.index)) - log_densities(held, base(held.index));
     gain.elpd_difference = differences.sum();
     bootstrap_interval(differences, seed, gain);

@@ -27,15 +27,14 @@ Likelihood::Likelihood(const Eigen::VectorXd& data, const Eigen::MatrixXd& covar
     if (factor_.info() != Eigen::Success) {
         throw std::runtime_error("the covariance of the data is singular: the stated noise of some rows is zero");
     }
-    std::vector<std::string> names;
     for (const std::string& sample : samples) {
-        const auto found = std::find(names.begin(), names.end(), sample);
-        group_.push_back(found - names.begin());
-        if (found == names.end()) {
-            names.push_back(sample);
+        const auto found = std::find(names_.begin(), names_.end(), sample);
+        group_.push_back(found - names_.begin());
+        if (found == names_.end()) {
+            names_.push_back(sample);
         }
     }
-    groups_ = static_cast<Index>(names.size());
+    groups_ = static_cast<Index>(names_.size());
     data_ = factor_.matrixL().solve(data);
     log_determinant_ = 2 * factor_.matrixLLT().diagonal().array().log().sum();
 }
@@ -53,14 +52,17 @@ Eigen::MatrixXd Likelihood::effect_directions(const Eigen::VectorXd& prediction)
 }
 
 Eigen::VectorXd Likelihood::residual(const Eigen::VectorXd& prediction) const {
-    const Eigen::VectorXd plain = data_ - whiten(prediction);
+    return data_ - whiten(prediction) - effect_directions(prediction) * effects(prediction);
+}
+
+Eigen::VectorXd Likelihood::effects(const Eigen::VectorXd& prediction) const {
     if (effect_ <= 0) {
-        return plain;
+        return Eigen::VectorXd::Zero(groups_);
     }
     const Eigen::MatrixXd directions = effect_directions(prediction);
     Eigen::MatrixXd normal = directions.transpose() * directions;
     normal.diagonal().array() += 1 / (effect_ * effect_);
-    return plain - directions * normal.ldlt().solve(directions.transpose() * plain);
+    return normal.ldlt().solve(directions.transpose() * (data_ - whiten(prediction)));
 }
 
 double Likelihood::log_density(const Eigen::VectorXd& prediction) const {

@@ -30,6 +30,9 @@ public:
     Index size() const { return data_.size(); }
     /// Whitened data less prediction: independent standard normal numbers if the model is true, but for the sample effects.
     Eigen::VectorXd residual(const Eigen::VectorXd& prediction) const;
+    /// Most probable effects b, one per sample in the order of `effect_names`.
+    Eigen::VectorXd effects(const Eigen::VectorXd& prediction) const;
+    const std::vector<std::string>& effect_names() const { return names_; }
     /// Logarithm of the density of the data, but for n/2 log(2 pi).
     double log_density(const Eigen::VectorXd& prediction) const;
     /// Whitened directions in which the sample effects move the prediction, one column per sample.
@@ -40,6 +43,7 @@ private:
     Eigen::LLT<Eigen::MatrixXd> factor_;
     Eigen::VectorXd data_;  ///< whitened
     std::vector<Index> group_;
+    std::vector<std::string> names_;  ///< of the groups
     Index groups_ = 0;
     double effect_;
     double log_determinant_;

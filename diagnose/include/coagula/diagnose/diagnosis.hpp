@@ -4,6 +4,7 @@
 #include <coagula/common/progress.hpp>
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/mechanism.hpp>
+#include <coagula/diagnose/noise.hpp>
 #include <coagula/diagnose/settings.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
@@ -60,7 +61,17 @@ struct Cause {
     double posterior = 0;
     double log_evidence = 0;
     std::vector<EstimatedParameter> parameters = {};
-    Settings settings = {};  ///< most probable
+    Settings settings = {};      ///< most probable
+    Eigen::MatrixXd draws = {};  ///< from the posterior: parameters x equally probable draws
+};
+
+/// One way to fail that the test looked at.
+struct TestedStatistic {
+    std::string observable;  ///< as in Failure, or "all"
+    std::string axis;        ///< as in Failure, or "none"
+    std::string measure;     ///< "chi-square", "smooth components" or "neighbours"
+    double value = 0;
+    double score = 0;  ///< standardised
 };
 
 /// Where the base model fails.
@@ -73,6 +84,14 @@ struct Failure {
     std::string sentence;
 };
 
+/// Predictions of a row by models that were fitted without the held-out rows [Pa].
+struct HeldOutPrediction {
+    std::size_t row = 0;  ///< of Diagnosis::rows
+    double base = 0;
+    double extended = 0;
+    double flexible = 0;
+};
+
 /// What the extended model gains on data that neither model was fitted to.
 struct Gain {
     std::size_t held_out = 0;  ///< numbers
@@ -83,6 +102,7 @@ struct Gain {
     double elpd_difference = 0;  ///< in expected log predictive density, extended less base
     double elpd_low = 0;         ///< 90 % interval by block bootstrap
     double elpd_high = 0;
+    std::vector<HeldOutPrediction> predictions = {};
 };
 
 /// A measurement that would tell the causes of a tie apart.
@@ -102,6 +122,9 @@ struct PredictedRow {
     double base = 0;
     double extended = 0;
     bool held_out = false;
+    double base_residual =
+        0;  ///< measured less predicted, sample effects taken out, over the standard deviation (and decorrelated)
+    double extended_residual = 0;
 };
 
 struct Diagnosis {
@@ -118,6 +141,10 @@ struct Diagnosis {
     NoiseSettings noise;
     std::vector<PredictedRow> rows;
     std::size_t observations = 0;
+    std::vector<TestedStatistic> statistics;     ///< of the base model, largest score first
+    std::vector<double> bootstrap;               ///< largest score of each data set drawn from the base model
+    std::vector<SampleEffect> base_effects;      ///< most probable b of each sample, prediction x (1 + b)
+    std::vector<SampleEffect> extended_effects;  ///< the same for the best cause
 };
 
 /// Diagnoses an experiment whose tables have passed check_data.
