@@ -1,8 +1,11 @@
 #include "diagnosis_run.hpp"
 
+#include "diagnosis_datasets.hpp"
+#include "diagnosis_page.hpp"
 #include "diagnosis_results.hpp"
 #include "progress_bar.hpp"
 #include "provenance.hpp"
+#include "result_folder.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
@@ -118,34 +121,35 @@ std::string cache_text(const diagnose::SimulationCache& cache) {
     return text;
 }
 
-/// A new file beside the target, then renamed.
-void write_text(const fs::path& path, const std::string& text) {
-    const fs::path temporary = path.string() + ".new";
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
-        fs::remove(temporary);
-        throw std::runtime_error("cannot write " + path.string());
+/// The structures as the page names them.
+std::vector<std::string> structure_sentences(const Experiment& experiment, const Structures& structures) {
+    std::vector<std::string> sentences;
+    for (std::size_t k = 0; k < structures.packings.size(); ++k) {
+        const std::string from = experiment.structures.empty()
+                                     ? experiment.recipe->generator + ", seed " + std::to_string(experiment.recipe->seeds[k])
+                                     : experiment.structures[k];
+        sentences.push_back(from + ": " + std::to_string(structures.packings[k].size()) + " particles, SHA-256 of the positions " +
+                            structures.hashes[k]);
     }
-    fs::rename(temporary, path);
+    return sentences;
 }
 
-fs::path checked_folder(const Arguments& arguments) {
-    const fs::path folder = arguments.text("output");
-    if (fs::exists(folder) && !fs::is_directory(folder)) {
-        throw InputError(folder.string() + " is there already and is no folder");
+/// The contact of the best cause as a TOML file; empty when there is none.
+std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
+    const auto& set = diagnosis.credible_set;
+    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
+                                   [&](const diagnose::Cause& cause) { return !set.empty() && cause.name == set.front(); });
+    if (!diagnosis.detected || best == diagnosis.causes.end() || best->parameters.empty()) {
+        return {};
     }
-    if (fs::exists(folder / "diagnosis.json") && !arguments.flag("force")) {
-        throw InputError((folder / "diagnosis.json").string() + " is there already; use --force to replace it");
-    }
-    return folder;
+    return "# " + best->name + ": " + best->words + "\n" +
+           io::contact_model_text(diagnose::contact_model_of(best->settings, radius));
 }
 
 }  // namespace
 
 std::vector<Option> diagnosis_options() {
-    return {output("folder for diagnosis.json, extended_model.toml and the cache of simulations"),
+    return {output("folder for report.html, diagnosis.json, diagnosis.h5, extended_model.toml and the cache of simulations"),
             quantity("level", "1", "of the test whether anything is wrong", "0.05", between(0, 1)),
             count("bootstrap", "data sets drawn for the test", "999", within(99, 1000000)),
             count("seed", "of the random numbers", "1", at_least(0)), flag("force", "replace an existing diagnosis")};
@@ -153,7 +157,7 @@ std::vector<Option> diagnosis_options() {
 
 void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise) {
     const Progress progress = make_progress(arguments.flag("quiet"));
-    const fs::path folder = checked_folder(arguments);
+    ResultFolder folder(arguments.text("output"), "diagnosis.json", arguments.flag("force"));
     const Stopwatch clock;
     diagnose::DiagnosisOptions options;
     options.level = arguments.quantity("level");
@@ -162,27 +166,36 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     state_errors(file.experiment, noise, options.noise);
     Structures structures = structures_of(file.experiment, progress);
 
-    diagnose::SimulationCache cache = read_cache(folder / "simulations.txt");
+    diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
     const double radius = mean_radius(structures.packings.front());
+    const std::vector<std::string> sentences = structure_sentences(file.experiment, structures);
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress);
     const diagnose::Diagnosis diagnosis = diagnose::diagnose(file.experiment, simulator, options, progress);
 
-    fs::create_directories(folder);
-    std::string model;
-    const auto& set = diagnosis.credible_set;
-    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
-                                   [&](const diagnose::Cause& cause) { return !set.empty() && cause.name == set.front(); });
-    if (diagnosis.detected && best != diagnosis.causes.end() && !best->parameters.empty()) {
-        model = (folder / "extended_model.toml").string();
-        write_text(model, "# " + best->name + ": " + best->words + "\n" +
-                              io::contact_model_text(diagnose::contact_model_of(best->settings, radius)));
+    const std::string contact = model_text(diagnosis, radius);
+    const std::string model = contact.empty() ? "" : (folder.path() / "extended_model.toml").string();
+    if (contact.empty()) {
+        folder.withdraw("extended_model.toml");
+    } else {
+        folder.write("extended_model.toml", contact);
     }
+    const DiagnosisRecord record{file.experiment, diagnosis,     noise, describe_call(arguments, nullptr, clock),
+                                 sentences,       options.level, model};
+    Gnuplot gnuplot;
+    folder.write("report.html", diagnosis_page(record, gnuplot));
+    io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
+    folder.write("simulations.txt", cache_text(cache));
     Json json = to_json(diagnosis, model);
+    json["report"] = (folder.path() / "report.html").string();
     json["seconds"] = clock.seconds();
-    write_text(folder / "simulations.txt", cache_text(cache));
-    write_text(folder / "diagnosis.json", json.dump(2) + "\n");
+    folder.write("diagnosis.json", json.dump(2) + "\n");
+    folder.publish();
     Table table = table_of(diagnosis);
-    table.emplace_back("written to", folder.string());
+    if (!gnuplot.problem().empty()) {
+        table.emplace_back("note", gnuplot.problem());
+        json["notes"] = {gnuplot.problem()};
+    }
+    table.emplace_back("written to", folder.path().string() + ", page for people: " + (folder.path() / "report.html").string());
     report(arguments, json, table);
 }
 

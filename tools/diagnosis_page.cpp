@@ -1,0 +1,386 @@
+#include "diagnosis_page.hpp"
+
+#include "diagnosis_plots.hpp"
+#include "html.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace coagula::tools {
+
+namespace {
+
+using diagnose::Cause;
+using diagnose::Diagnosis;
+using diagnose::Verdict;
+
+constexpr double shown_from = 0.001;  ///< smallest probability of a cause with a line of its own
+
+std::string paragraph(const std::string& html, const std::string& style = {}) {
+    return (style.empty() ? "<p>" : "<p class=\"" + style + "\">") + html + "</p>\n";
+}
+
+std::string heading(const std::string& text) {
+    return "<h2>" + text + "</h2>\n";
+}
+
+std::string percent(double part) {
+    if (part > 0.9995 && part < 1) {
+        return "&gt; 99.9 %";
+    }
+    return part > 0 && part < 0.001 ? "&lt; 0.1 %" : printed(100 * part) + " %";
+}
+
+std::string signed_percent(double part) {
+    return (part > 0 ? "+" : "") + printed(100 * part) + " %";
+}
+
+std::string probability(double p) {
+    return printed(p);
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        text += (k == 0 ? "" : k + 1 == names.size() ? " or " : ", ") + names[k];
+    }
+    return text;
+}
+
+std::string figure(const std::string& svg, const std::string& caption) {
+    return svg.empty() ? std::string{} : "<figure>\n" + svg + "\n<figcaption>" + caption + "</figcaption>\n</figure>\n";
+}
+
+std::string readable(const std::string& name) {
+    return escaped(replaced(name, "_", " "));
+}
+
+std::string header(const DiagnosisRecord& record) {
+    const Diagnosis& found = record.diagnosis;
+    const std::string title = record.experiment.title.empty() ? "Diagnosis of measured moduli" : record.experiment.title;
+    std::string html = "<header>\n<h1>" + escaped(title) + "</h1>\n";
+    const std::string sample = record.experiment.sample.name;
+    html += paragraph((sample.empty() ? "" : escaped(sample) + " · ") + "diagnosis by coagula · " + record.provenance.time, "soft");
+    html += std::string("<div class=\"verdict ") + diagnose::name_of(found.verdict) + "\"><p>" + escaped(verdict_sentence(found)) +
+            "</p></div>\n<dl class=\"facts\">\n";
+    const auto fact = [&](const std::string& name, const std::string& value) {
+        html += "<div><dt>" + name + "</dt><dd>" + value + "</dd></div>\n";
+    };
+    fact("verdict", diagnose::name_of(found.verdict));
+    fact("chance that the base model fails so", "p = " + probability(found.p_value));
+    fact("moduli", std::to_string(found.observations));
+    if (found.detected && found.gain.held_out > 0) {
+        fact("error on held-out rows", percent(found.gain.rmse_base) + " → " + percent(found.gain.rmse_extended));
+    }
+    return html + "</dl>\n</header>\n";
+}
+
+std::string detection(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+    const Diagnosis& found = record.diagnosis;
+    std::string html = heading("Where the base model fails");
+    html += paragraph(
+        "The base model – linear normal and shear springs, bonds without moments, no loss – has one free parameter, the "
+        "stiffness of the particles.");
+    if (found.failures.empty()) {
+        html += paragraph(found.detected ? "It fails as a whole, without a smooth departure along one axis that would stand out."
+                                         : "It does not fail: no misfit is larger than chance makes it.");
+    } else {
+        html += "<ul class=\"findings\">\n";
+        for (const diagnose::Failure& failure : found.failures) {
+            html += "<li>" + escaped(failure.sentence) + ". <span class=\"soft\">Bayes factor " +
+                    (failure.bayes_factor > 1e6 ? "above 10⁶" : printed(failure.bayes_factor)) + ".</span></li>\n";
+        }
+        html += "</ul>\n";
+    }
+    const std::string what =
+        found.statistics.empty()
+            ? ""
+            : found.statistics.front().measure +
+                  (found.statistics.front().axis == "none"
+                       ? ""
+                       : " of " + symbol_of(found.statistics.front().observable) + " along " + found.statistics.front().axis);
+    return html + figure(draw_detection(gnuplot, found),
+                         "The largest of " + std::to_string(found.statistics.size()) + " standardised misfit statistics (here: " +
+                             readable(what) + ") beside that of " + std::to_string(found.bootstrap.size()) +
+                             " data sets drawn from the fitted base model: p = " + probability(found.p_value) +
+                             "; the test decides at " + percent(record.level) + ".");
+}
+
+/// Numbers that a logarithmic axis cannot show.
+std::string not_shown(const Diagnosis& found, std::size_t table) {
+    std::size_t measured = 0;
+    bool base = false;
+    for (const diagnose::PredictedRow& row : found.rows) {
+        measured += row.measurement == table && row.measured <= 0 ? 1 : 0;
+        base = base || (row.measurement == table && row.observable == "loss_modulus" && row.base <= 0);
+    }
+    return (base ? " The base model has no loss: its G'' = 0 is not on a logarithmic axis." : "") +
+           (measured > 0 ? " " + std::to_string(measured) + (measured == 1 ? " modulus" : " moduli") +
+                               " not above zero cannot be shown on a logarithmic axis."
+                         : std::string{});
+}
+
+std::string data_and_models(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+    const Diagnosis& found = record.diagnosis;
+    const Cause* cause = extended_cause(found);
+    std::string html = heading("Measured data against the models");
+    for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
+        const diagnose::Measurement& table = record.experiment.measurements[k];
+        const auto rows =
+            std::count_if(found.rows.begin(), found.rows.end(), [&](const auto& row) { return row.measurement == k; });
+        html += "<h3>" + escaped(table.label) + " <span class=\"soft\">· " + std::string(diagnose::name_of(table.kind)) +
+                " · sample " + escaped(table.sample) + "</span></h3>\n";
+        if (rows == 0) {
+            html += paragraph("Tables of this kind are read and checked, but do not take part in the diagnosis.", "soft");
+            continue;
+        }
+        const auto effect = std::find_if(found.base_effects.begin(), found.base_effects.end(),
+                                         [&](const auto& one) { return one.sample == table.sample; });
+        html += figure(draw_table(gnuplot, table, k, found, cause == nullptr ? "" : cause->name),
+                       "Circles G', triangles G'', open: held out for the gain; bars: one standard deviation. Dashed: base model" +
+                           std::string(cause == nullptr ? "" : "; solid: with " + escaped(cause->name)) +
+                           (effect == found.base_effects.end() || effect->effect == 0
+                                ? "."
+                                : ". The models include the effect of the sample, " + signed_percent(effect->effect) +
+                                      " for the base model.") +
+                           " Right: what remains, the effect of the sample taken out; grey: two standard deviations." +
+                           not_shown(found, k));
+    }
+    return html;
+}
+
+std::string causes(const Diagnosis& found) {
+    std::string html = heading("Causes");
+    html += paragraph(
+        "Probability of each cause, given the data, over its physical range. " +
+        (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
+        " The best cause itself passes the test of the base model with p = " + probability(found.extended_p_value) + ".");
+    std::vector<std::vector<std::string>> rows;
+    std::size_t improbable = 0;
+    for (const Cause& cause : found.causes) {
+        if (cause.posterior < shown_from && rows.size() >= 3) {
+            ++improbable;
+            continue;
+        }
+        const auto& set = found.credible_set;
+        const bool inside = std::find(set.begin(), set.end(), cause.name) != set.end();
+        rows.push_back({"<span class=\"name\">" + escaped(cause.name) + "</span>",
+                        std::string("<div class=\"") + (inside ? "inside" : "outside") +
+                            "\"><div class=\"bar\"><span style=\"width:" +
+                            replaced(printed(100 * std::max(cause.posterior, 0.002)), "−", "-") + "%\"></span></div></div>",
+                        "<span class=\"number\">" + percent(cause.posterior) + "</span>", escaped(cause.words)});
+    }
+    html += html_table({"cause", "", "probability", "what it changes"}, rows, "bars");
+    return html + (improbable == 0 ? std::string{} : paragraph(std::to_string(improbable) + " more below 0.1 % each.", "soft"));
+}
+
+std::string parameters(const Diagnosis& found) {
+    std::string html = heading("Parameters");
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&](const Cause& cause) {
+        for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
+            rows.push_back({"<span class=\"name\">" + escaped(cause.name) + "</span>", readable(parameter.name),
+                            "<span class=\"number\">" + printed(parameter.value, parameter.unit) + "</span>",
+                            printed(parameter.low, parameter.unit) + " to " + printed(parameter.high, parameter.unit)});
+        }
+    };
+    add(found.base);
+    for (const Cause& cause : found.causes) {
+        const auto& set = found.credible_set;
+        if (std::find(set.begin(), set.end(), cause.name) != set.end() && cause.name != found.base.name) {
+            add(cause);
+        }
+    }
+    return html + html_table({"model", "parameter", "most probable", "90 % interval"}, rows);
+}
+
+std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+    const diagnose::Gain& gain = record.diagnosis.gain;
+    std::string html = heading("Gain on data held out");
+    if (gain.held_out == 0) {
+        return html + paragraph("There are too few rows to hold some out.");
+    }
+    html += paragraph(std::to_string(gain.held_out) +
+                      " moduli were held out before the models were fitted to the rest. Their "
+                      "prediction misses by " +
+                      percent(gain.rmse_base) + " of |G*| (rms) with the base model, by " + percent(gain.rmse_flexible) +
+                      " with a smooth correction of it, and by <b>" + percent(gain.rmse_extended) +
+                      "</b> with the extended model: a factor of " + printed(gain.rmse_ratio) +
+                      ". The log predictive density changes by " + printed(gain.elpd_difference) + " (90 % interval " +
+                      printed(gain.elpd_low) + " to " + printed(gain.elpd_high) + ").");
+    for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
+        const diagnose::Measurement& table = record.experiment.measurements[k];
+        html += figure(draw_gain(gnuplot, table, k, record.diagnosis),
+                       escaped(table.label) + ", rows held out: error of the prediction by models that have not seen them.");
+    }
+    return html;
+}
+
+std::string proposals(const Diagnosis& found) {
+    if (found.proposals.empty()) {
+        return {};
+    }
+    std::vector<std::vector<std::string>> rows;
+    for (const diagnose::Proposal& proposal : found.proposals) {
+        rows.push_back({escaped(proposal.what), "<span class=\"number\">" + percent(proposal.resolution) + "</span>",
+                        "<span class=\"number\">" + printed(proposal.information) + " bit</span>"});
+    }
+    return heading("What to measure next") +
+           paragraph("Measurements that would tell the causes of the 95 % set apart, the most informative first.") +
+           html_table({"measurement", "decides with probability", "expected information"}, rows);
+}
+
+std::string interval(const diagnose::Estimate& estimate, double unit, const std::string& name) {
+    const auto text = [&](double value) { return name == "%" ? printed(value / unit) + " %" : printed(value, name); };
+    return text(estimate.value) +
+           (estimate.low < estimate.high ? " (" + text(estimate.low) + " to " + text(estimate.high) + ")" : std::string{});
+}
+
+std::string noise(const DiagnosisRecord& record) {
+    std::string html = heading("Noise and samples");
+    std::vector<std::vector<std::string>> rows;
+    std::map<std::string, std::vector<std::string>> effects;
+    for (const diagnose::NoiseModel& model : record.noise) {
+        rows.push_back({symbol_of(model.observable) + ", " + std::string(diagnose::name_of(model.kind)),
+                        interval(model.relative, 0.01, "%"),
+                        interval(model.floor, 1, model.unit) + (model.floor_of_stress ? " of the stress" : ""),
+                        interval(model.sample, 0.01, "%"), printed(model.autocorrelation), escaped(model.statement)});
+        for (const diagnose::SampleEffect& effect : model.sample_effects) {
+            effects[effect.sample].push_back(symbol_of(model.observable) + " " + signed_percent(effect.effect));
+        }
+    }
+    html += html_table({"observable", "per row", "floor", "per sample", "neighbours correlate by", "where this is from"}, rows);
+    if (!effects.empty()) {
+        html += paragraph("Replicates differ by an effect of each sample, not of the model:");
+        html += "<ul class=\"findings\">\n";
+        for (const auto& [sample, values] : effects) {
+            std::string text;
+            for (const std::string& value : values) {
+                text += (text.empty() ? "" : ", ") + value;
+            }
+            html += "<li>" + escaped(sample) + ": " + text + "</li>\n";
+        }
+        html += "</ul>\n";
+    }
+    return html;
+}
+
+/// Row numbers as "1–3, 7".
+std::string row_list(const std::set<std::size_t>& rows) {
+    std::string text;
+    for (auto row = rows.begin(); row != rows.end();) {
+        const std::size_t first = *row;
+        std::size_t last = first;
+        while (++row != rows.end() && *row == last + 1) {
+            last = *row;
+        }
+        text += (text.empty() ? "" : ", ") + std::to_string(first + 1) + (last > first ? "–" + std::to_string(last + 1) : "");
+    }
+    return text;
+}
+
+std::string left_out(const diagnose::Experiment& experiment) {
+    std::string html = heading("Cells left out");
+    std::vector<std::vector<std::string>> rows;
+    for (const diagnose::Measurement& table : experiment.measurements) {
+        std::map<std::string, std::set<std::size_t>> cells;
+        std::map<std::string, std::string> reasons;
+        for (const diagnose::LeftOutCell& cell : table.left_out) {
+            cells[cell.column].insert(cell.row);
+            reasons.emplace(cell.column, "‘" + cell.value + "’ " + cell.reason);
+        }
+        for (const auto& [column, numbers] : cells) {
+            rows.push_back({escaped(table.label), readable(column), std::to_string(numbers.size()), row_list(numbers),
+                            escaped(reasons[column])});
+        }
+    }
+    if (rows.empty()) {
+        return html + paragraph("None: every cell is readable, possible and agrees with the others of its row.");
+    }
+    return html +
+           paragraph(
+               "Cells that cannot be read, are impossible or contradict the others of their row are not used and never "
+               "repaired.") +
+           html_table({"table", "column", "cells", "rows", "the first and why"}, rows);
+}
+
+std::string made(const DiagnosisRecord& record) {
+    std::string html = heading("How this was made") + "<dl class=\"made\">\n";
+    const auto line = [&](const std::string& name, const std::string& value) {
+        html += "<dt>" + name + "</dt><dd>" + value + "</dd>\n";
+    };
+    line("command", "<code>" + escaped(record.provenance.command_line) + "</code>");
+    line("version", "coagula " + escaped(record.provenance.version));
+    line("seed", std::to_string(record.provenance.seed));
+    line("time", record.provenance.time + ", " + printed(record.provenance.seconds) + " s");
+    for (const std::string& structure : record.structures) {
+        line("structure", escaped(structure));
+    }
+    line("numbers", "<code>diagnosis.json</code>, and everything behind them in <code>diagnosis.h5</code>" +
+                        (record.model.empty() ? std::string{}
+                                              : "; the contact of the best cause for <code>coagula shear --model</code> in "
+                                                "<code>extended_model.toml</code>"));
+    return html + "</dl>\n";
+}
+
+}  // namespace
+
+const Cause* extended_cause(const Diagnosis& diagnosis) {
+    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(), [&](const Cause& cause) {
+        return !cause.parameters.empty() && cause.name != diagnosis.base.name;
+    });
+    return diagnosis.detected && best != diagnosis.causes.end() ? &*best : nullptr;
+}
+
+namespace {
+
+std::string gained(const diagnose::Gain& gain) {
+    return gain.held_out == 0 ? std::string{}
+                              : " On rows that no model has seen its error is " + printed(100 * gain.rmse_extended) +
+                                    " % instead of " + printed(100 * gain.rmse_base) + " %.";
+}
+
+}  // namespace
+
+std::string verdict_sentence(const Diagnosis& found) {
+    const bool extreme = found.p_value * static_cast<double>(found.bootstrap.size() + 1) < 1.5;  // none as large was drawn
+    const std::string chance = std::string(" (p ") + (extreme ? "≤ " : "= ") + probability(found.p_value) + ")";
+    if (found.verdict == Verdict::no_discrepancy) {
+        return "The base model explains the data: these " + std::to_string(found.observations) +
+               " moduli show nothing that it gets wrong" + chance + ".";
+    }
+    const std::string fails = "The base model fails" + chance;
+    if (found.verdict == Verdict::none_of_catalogue) {
+        return fails + ", and no cause of the catalogue explains how.";
+    }
+    const std::string next = found.proposals.empty() ? "" : " To decide, measure " + found.proposals.front().what + ".";
+    if (found.verdict == Verdict::tied) {
+        return fails + "; these data cannot tell whether the cause is " + joined(found.credible_set) + "." + next;
+    }
+    const Cause& cause = found.causes.front();
+    return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + printed(100 * cause.posterior) +
+           " %)." + gained(found.gain);
+}
+
+std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+    const Diagnosis& found = record.diagnosis;
+    std::string body = data_and_models(record, gnuplot) + detection(record, gnuplot);
+    if (found.detected) {
+        body += causes(found);
+    }
+    body += parameters(found);
+    if (found.detected) {
+        body += gain(record, gnuplot) + proposals(found);
+    }
+    body += noise(record) + left_out(record.experiment) + made(record);
+    std::string head = header(record);
+    if (!gnuplot.problem().empty()) {
+        const std::string& problem = gnuplot.problem();
+        head += "<p class=\"missing\">" + escaped("T" + problem.substr(1)) + ".</p>\n";
+    }
+    return html_page((record.experiment.title.empty() ? "Diagnosis" : record.experiment.title) + " – coagula", head + body);
+}
+
+}  // namespace coagula::tools

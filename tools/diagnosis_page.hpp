@@ -1,0 +1,34 @@
+// report.html: what a diagnosis found, as one page that needs no other file.
+#pragma once
+
+#include "gnuplot.hpp"
+
+#include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/diagnose/noise.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+/// All that the page and the HDF5 file are made from.
+struct DiagnosisRecord {
+    const diagnose::Experiment& experiment;
+    const diagnose::Diagnosis& diagnosis;
+    const std::vector<diagnose::NoiseModel>& noise;
+    io::Provenance provenance;
+    std::vector<std::string> structures;  ///< one sentence each
+    double level;                         ///< of the test
+    std::string model;                    ///< path of the extended model; empty: none
+};
+
+/// The cause that the extended model has; null when there is none (nothing detected).
+const diagnose::Cause* extended_cause(const diagnose::Diagnosis& diagnosis);
+
+/// What was found, in a sentence or two.
+std::string verdict_sentence(const diagnose::Diagnosis& diagnosis);
+
+std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot);
+
+}  // namespace coagula::tools

@@ -1,0 +1,337 @@
+#include "diagnosis_plots.hpp"
+
+#include <coagula/common/checks.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace coagula::tools {
+
+namespace {
+
+using diagnose::Diagnosis;
+using diagnose::Measurement;
+using diagnose::PredictedRow;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double log_from = 8;  ///< ratio of largest to smallest value from which on an axis is logarithmic
+
+/// Colours of Okabe and Ito (2008).
+const std::string palette = R"(
+set pointintervalbox 0
+base = "#d55e00"; extended = "#0072b2"; smooth = "#8a8f94"; ink = "#1d2329"
+set border 3 linecolor rgb "#5b6770" linewidth 0.8
+set tics nomirror out textcolor rgb ink scale 0.6
+set grid linecolor rgb "#e4e8eb" linetype 1 linewidth 0.7
+)";
+
+/// One axis of a picture: what it shows, in which unit, over which range.
+struct PlotAxis {
+    std::string label;
+    double unit = 1;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    void include(double value) {
+        if (std::isfinite(value)) {
+            low = std::min(low, value / unit);
+            high = std::max(high, value / unit);
+        }
+    }
+    bool logarithmic() const { return low > 0 && high > log_from * low; }
+    /// Commands for axis "x" or "y", a little wider than the values.
+    std::string commands(const std::string& name) const {
+        double from = low;
+        double to = high;
+        if (logarithmic()) {
+            const double margin = std::pow(high / low, 0.04);
+            from = low / margin;
+            to = high * margin;
+        } else {
+            const double margin = high > low ? 0.06 * (high - low) : std::max(0.1 * std::abs(high), 1e-12);
+            from = low - margin;
+            to = high + margin;
+        }
+        return (logarithmic() ? "set logscale " : "unset logscale ") + name + "\nset " + name + "range [" + to_text(from) + ":" +
+               to_text(to) + "]\nset format " + name + " \"%g\"\n";
+    }
+};
+
+PlotAxis axis_named(const std::string& name) {
+    static const std::map<std::string, std::pair<std::string, double>> known{
+        {"strain", {"strain amplitude {/Symbol g}_0 [%]", 0.01}},
+        {"angular_frequency", {"angular frequency ω [rad/s]", 1.0}},
+        {"time", {"time t [s]", 1.0}},
+        {"gap", {"gap h [mm]", 1e-3}}};
+    const auto found = known.find(name);
+    return found == known.end() ? PlotAxis{.label = "row"} : PlotAxis{.label = found->second.first, .unit = found->second.second};
+}
+
+/// The unit that a modulus is shown in.
+PlotAxis modulus_axis(double largest) {
+    static constexpr std::array units{std::pair{1e9, "GPa"}, std::pair{1e6, "MPa"}, std::pair{1e3, "kPa"}};
+    for (const auto& [unit, name] : units) {
+        if (largest >= unit) {
+            return {.label = std::string("G', G'' [") + name + "]", .unit = unit};
+        }
+    }
+    return {.label = "G', G'' [Pa]"};
+}
+
+double factor_of(const std::vector<diagnose::SampleEffect>& effects, const std::string& sample) {
+    const auto found = std::find_if(effects.begin(), effects.end(), [&](const auto& effect) { return effect.sample == sample; });
+    return found == effects.end() ? 1.0 : 1 + found->effect;
+}
+
+/// The rows of one table of moduli with the place of each along the axis.
+struct Shown {
+    PlotAxis x;
+    std::vector<const PredictedRow*> rows = {};
+    std::vector<double> places = {};  ///< in the unit of the axis
+    double base_factor = 1;           ///< of the sample
+    double extended_factor = 1;
+};
+
+Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& diagnosis) {
+    const diagnose::Column* column = diagnose::axis_of(table);
+    Shown shown{.x = axis_named(column == nullptr ? "" : column->name)};
+    shown.base_factor = factor_of(diagnosis.base_effects, table.sample);
+    shown.extended_factor = factor_of(diagnosis.extended_effects, table.sample);
+    for (const PredictedRow& row : diagnosis.rows) {
+        if (row.measurement == number) {
+            const double place = shown.x.label == "row" ? static_cast<double>(row.row + 1) : column->values[row.row];
+            shown.x.include(place);
+            shown.rows.push_back(&row);
+            shown.places.push_back(place / shown.x.unit);
+        }
+    }
+    return shown;
+}
+
+std::string number_text(double value) {
+    return std::isfinite(value) ? to_text(value) : "NaN";
+}
+
+std::string line_of(const std::vector<double>& values) {
+    std::string line;
+    for (const double value : values) {
+        line += (line.empty() ? "" : " ") + number_text(value);
+    }
+    return line + "\n";
+}
+
+/// Data blocks $storage_0, $storage_1 (held out), $loss_0, $loss_1: place, measured, deviation, base, extended, both residuals.
+std::string blocks_of(const Shown& shown, const PlotAxis& y) {
+    std::string text;
+    for (const std::string observable : {"storage", "loss"}) {
+        for (const bool held : {false, true}) {
+            text += "$" + observable + (held ? "_1" : "_0") + " << EOD\n";
+            std::size_t lines = 0;
+            for (std::size_t k = 0; k < shown.rows.size(); ++k) {
+                const PredictedRow& row = *shown.rows[k];
+                if (row.held_out == held && row.observable == observable + "_modulus") {
+                    text += line_of({shown.places[k], row.measured / y.unit, row.standard_deviation / y.unit,
+                                     shown.base_factor * row.base / y.unit, shown.extended_factor * row.extended / y.unit,
+                                     row.base_residual, row.extended_residual});
+                    ++lines;
+                }
+            }
+            text += (lines == 0 ? line_of(std::vector<double>(7, not_a_number)) : "") + "EOD\n";
+        }
+        // Both parts together, for the lines of the models.
+        text += "$" + observable + " << EOD\n";
+        std::size_t lines = 0;
+        for (std::size_t k = 0; k < shown.rows.size(); ++k) {
+            if (shown.rows[k]->observable == observable + "_modulus") {
+                text += line_of({shown.places[k], shown.base_factor * shown.rows[k]->base / y.unit,
+                                 shown.extended_factor * shown.rows[k]->extended / y.unit});
+                ++lines;
+            }
+        }
+        text += (lines == 0 ? line_of(std::vector<double>(3, not_a_number)) : "") + "EOD\n";
+    }
+    return text;
+}
+
+bool has(const Shown& shown, const std::string& observable, bool held) {
+    return std::any_of(shown.rows.begin(), shown.rows.end(),
+                       [&](const PredictedRow* row) { return row->observable == observable && row->held_out == held; });
+}
+
+/// Plot of the moduli: points for what was measured, lines for the models.
+std::string moduli_plot(const Shown& shown, const std::string& cause) {
+    std::string plot = R"(plot $storage using 1:2 with lines linecolor rgb base linewidth 2 dashtype (9,5) title "base model")";
+    if (!cause.empty()) {
+        plot += R"(, $storage using 1:3 with lines linecolor rgb extended linewidth 2.4 title "with )" + cause + "\"";
+        plot += R"(, $loss using 1:3 with lines linecolor rgb extended linewidth 2.4 notitle)";
+    }
+    plot += R"(, $loss using 1:2 with lines linecolor rgb base linewidth 2 dashtype (9,5) notitle)";
+    for (const bool held : {false, true}) {
+        for (const bool loss : {false, true}) {
+            if (has(shown, loss ? "loss_modulus" : "storage_modulus", held)) {
+                const std::string kind = loss ? (held ? "8" : "9") : (held ? "6" : "7");
+                plot += std::string(", $") + (loss ? "loss" : "storage") + (held ? "_1" : "_0") +
+                        " using 1:2:3 with yerrorbars linecolor rgb ink linewidth 1.1 pointsize 0.55 pointtype " + kind +
+                        " title \"" + (loss ? "G''" : "G'") + (held ? " held out" : "") + "\"";
+            }
+        }
+    }
+    return plot + "\n";
+}
+
+std::string residual_plot(const std::string& column, const std::string& colour) {
+    std::string plot = "plot 0 with lines linecolor rgb ink linewidth 0.8 notitle";
+    for (const std::string part : {"storage_0", "storage_1", "loss_0", "loss_1"}) {
+        const bool loss = part.starts_with("loss");
+        const std::string kind = loss ? (part.back() == '1' ? "8" : "9") : (part.back() == '1' ? "6" : "7");
+        plot += ", $" + part + " using 1:" + column + " with points linecolor rgb " + colour + " pointsize 0.5 pointtype " + kind +
+                " notitle";
+    }
+    return plot + "\n";
+}
+
+/// Range of residuals that shows those of one model, at least four standard deviations.
+double residual_range(const Shown& shown, double PredictedRow::*residual) {
+    double largest = 4;
+    for (const PredictedRow* row : shown.rows) {
+        largest = std::max(largest, 1.1 * std::abs(row->*residual));
+    }
+    return largest;
+}
+
+std::string residual_panel(const Shown& shown, double PredictedRow::*residual, const std::string& place, const std::string& title,
+                           const std::string& label, const std::string& plot) {
+    const std::string range = to_text(residual_range(shown, residual));
+    return "set lmargin at screen 0.66; set rmargin at screen 0.985\n" + place + "\nset title \"" + title +
+           "\" offset 0,-0.7\nset ylabel \"\"\nset xlabel \"" + label + "\"\nunset logscale y\nset yrange [-" + range + ":" +
+           range +
+           "]\nunset key\nset object 1 rectangle from graph 0, first -2 to graph 1, first 2 fillcolor rgb \"#eef1f4\" fillstyle "
+           "solid "
+           "noborder behind\n" +
+           plot + "unset object 1\n";
+}
+
+PlotAxis moduli_axis(const Shown& shown) {
+    double largest = 0;
+    for (const PredictedRow* row : shown.rows) {
+        largest = std::max(largest, row->measured);
+    }
+    PlotAxis y = modulus_axis(largest);
+    for (const PredictedRow* row : shown.rows) {
+        const double low = row->measured - row->standard_deviation;
+        y.include(low > 0 ? low : row->measured > 0 ? row->measured : not_a_number);
+        y.include(row->measured + row->standard_deviation);
+        y.include(row->base > 0 ? shown.base_factor * row->base : not_a_number);
+    }
+    return y;
+}
+
+}  // namespace
+
+std::string symbol_of(const std::string& observable) {
+    return observable == "storage_modulus" ? "G'" : observable == "loss_modulus" ? "G''" : "all moduli";
+}
+
+std::string draw_table(Gnuplot& gnuplot, const Measurement& table, std::size_t number, const Diagnosis& diagnosis,
+                       const std::string& cause) {
+    const Shown shown = rows_of(table, number, diagnosis);
+    if (shown.rows.empty()) {
+        return {};
+    }
+    const PlotAxis y = moduli_axis(shown);
+    const bool both = !cause.empty();
+    std::string commands =
+        palette + blocks_of(shown, y) + "set multiplot\n" + shown.x.commands("x") + y.commands("y") +
+        "set lmargin at screen 0.075; set rmargin at screen 0.585; set tmargin at screen 0.88; set bmargin at "
+        "screen 0.16\nset xlabel \"" +
+        shown.x.label + "\"\nset ylabel \"" + y.label +
+        "\"\nset key at screen 0.33,0.985 center top horizontal Left reverse samplen 2.2 maxrows 2 textcolor rgb ink\n" +
+        moduli_plot(shown, cause);
+    const std::string top = both ? "set tmargin at screen 0.90; set bmargin at screen 0.61" : "";
+    commands += residual_panel(shown, &PredictedRow::base_residual, top, "residuals of the base model [standard deviations]",
+                               both ? "" : shown.x.label, residual_plot("6", "base"));
+    if (both) {
+        commands +=
+            residual_panel(shown, &PredictedRow::extended_residual, "set tmargin at screen 0.465; set bmargin at screen 0.16",
+                           "with " + cause + " [standard deviations]", shown.x.label, residual_plot("7", "extended"));
+    }
+    return gnuplot.draw(commands + "unset multiplot\n", 1080, 440, table.label + ": measured moduli against the models");
+}
+
+std::string draw_gain(Gnuplot& gnuplot, const Measurement& table, std::size_t number, const Diagnosis& diagnosis) {
+    const Shown shown = rows_of(table, number, diagnosis);
+    std::map<const PredictedRow*, double> level;  // |G*| of the row
+    for (const PredictedRow* one : shown.rows) {
+        for (const PredictedRow* other : shown.rows) {
+            level[one] = other->row == one->row ? std::hypot(level[one], other->measured) : level[one];
+        }
+    }
+    std::map<bool, std::string> blocks;
+    PlotAxis x{.label = shown.x.label, .unit = 1};
+    for (const diagnose::HeldOutPrediction& held : diagnosis.gain.predictions) {
+        const PredictedRow* row = &diagnosis.rows.at(held.row);
+        const auto found = std::find(shown.rows.begin(), shown.rows.end(), row);
+        if (found != shown.rows.end()) {
+            const double place = shown.places[static_cast<std::size_t>(found - shown.rows.begin())];
+            x.include(place);
+            const auto percent = [&](double predicted) { return 100 * (predicted - row->measured) / level[row]; };
+            blocks[row->observable == "loss_modulus"] +=
+                line_of({place, percent(held.base), percent(held.extended), percent(held.flexible)});
+        }
+    }
+    if (blocks.empty()) {
+        return {};
+    }
+    std::string commands = palette + x.commands("x") + "set xlabel \"" + x.label +
+                           "\"\nset ylabel \"predicted less measured [% of |G*|]\"\n" +
+                           "set key outside top center horizontal Left reverse samplen 2.2 textcolor rgb ink\n";
+    std::string plot = "plot 0 with lines linecolor rgb ink linewidth 0.8 notitle";
+    for (const auto& [loss, lines] : blocks) {
+        const std::string name = loss ? "$loss" : "$storage";
+        commands += name + " << EOD\n" + lines + "EOD\n";
+        const std::string kind = loss ? "8" : "6";
+        const std::string symbol = loss ? "G''" : "G'";
+        plot += ", " + name + " using 1:2 with linespoints linecolor rgb base dashtype (9,5) pointtype " + kind +
+                " pointsize 0.55 title \"" + symbol + " base model\", " + name +
+                " using 1:4 with linespoints linecolor rgb smooth dashtype (2,3) pointtype " + kind + " pointsize 0.4 title \"" +
+                symbol + " smooth correction\", " + name +
+                " using 1:3 with linespoints linecolor rgb extended linewidth 1.6 pointtype " + kind + " pointsize 0.55 title \"" +
+                symbol + " extended\"";
+    }
+    return gnuplot.draw(commands + plot + "\n", 1080, 330, table.label + ": errors of the predictions of held-out rows");
+}
+
+std::string draw_detection(Gnuplot& gnuplot, const Diagnosis& diagnosis) {
+    if (diagnosis.bootstrap.empty() || diagnosis.statistics.empty()) {
+        return {};
+    }
+    const double observed = diagnosis.statistics.front().score;
+    const auto [low, high] = std::minmax_element(diagnosis.bootstrap.begin(), diagnosis.bootstrap.end());
+    constexpr int bins = 40;
+    const double width = std::max((*high - *low) / bins, 1e-9);
+    std::vector<int> counts(bins, 0);
+    for (const double score : diagnosis.bootstrap) {
+        ++counts[static_cast<std::size_t>(std::min(bins - 1, static_cast<int>((score - *low) / width)))];
+    }
+    std::string block = "$drawn << EOD\n";
+    for (int bin = 0; bin < bins; ++bin) {
+        block += line_of({*low + (bin + 0.5) * width, static_cast<double>(counts[static_cast<std::size_t>(bin)])});
+    }
+    const double most = *std::max_element(counts.begin(), counts.end());
+    const std::string place = to_text(observed);
+    const double right = std::max(*high, observed) + 4 * width;
+    const bool at_right = observed > *low + 0.6 * (right - *low);
+    return gnuplot.draw(
+        palette + block + "EOD\nset boxwidth " + to_text(0.92 * width) + "\nset style fill solid 1 noborder\nset yrange [0:" +
+            to_text(1.15 * most) + "]\nset xrange [" + to_text(*low - width) + ":" + to_text(right) +
+            "]\nset xlabel \"largest standardised misfit\"\nset ylabel \"drawn data sets\"\nunset key\nset arrow from " + place +
+            ",0 to " + place + ",graph 0.94 nohead linecolor rgb base linewidth 2.4\nset label \"the data\" at " + place +
+            ",graph 0.96 " + (at_right ? "right offset -0.6,0" : "left offset 0.6,0") +
+            " textcolor rgb base\nplot $drawn using 1:2 with boxes linecolor rgb \"#b9c2c9\"\n",
+        1080, 260, "Misfit of the data beside that of data sets drawn from the base model");
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,29 @@
+// The pictures of a diagnosis, as commands for gnuplot.
+#pragma once
+
+#include "gnuplot.hpp"
+
+#include <coagula/diagnose/diagnosis.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+/// Measured data of one table against both models, beside them the residuals; <svg>.
+/// @param cause name of the best cause; empty: there is none, and the base model stands alone.
+std::string draw_table(Gnuplot& gnuplot, const diagnose::Measurement& table, std::size_t number,
+                       const diagnose::Diagnosis& diagnosis, const std::string& cause);
+
+/// Errors of the predictions of held-out rows of one table, by models that were fitted to the other rows; empty where no row of the
+/// table is held out.
+std::string draw_gain(Gnuplot& gnuplot, const diagnose::Measurement& table, std::size_t number,
+                      const diagnose::Diagnosis& diagnosis);
+
+/// The largest misfit among data sets drawn from the base model, and that of the data.
+std::string draw_detection(Gnuplot& gnuplot, const diagnose::Diagnosis& diagnosis);
+
+/// "G'" or "G''" for the name of an observable.
+std::string symbol_of(const std::string& observable);
+
+}  // namespace coagula::tools
