@@ -41,6 +41,11 @@ std::string probability(double p) {
     return printed(p);
 }
 
+std::string chance_text(const Diagnosis& found) {
+    const bool none_as_large = found.p_value * static_cast<double>(found.bootstrap.size() + 1) < 1.5;
+    return (none_as_large ? "p ≤ " : "p = ") + probability(found.p_value);
+}
+
 std::string joined(const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t k = 0; k < names.size(); ++k) {
@@ -69,7 +74,7 @@ std::string header(const DiagnosisRecord& record) {
         html += "<div><dt>" + name + "</dt><dd>" + value + "</dd></div>\n";
     };
     fact("verdict", diagnose::name_of(found.verdict));
-    fact("chance that the base model fails so", "p = " + probability(found.p_value));
+    fact("chance that the base model fails so", chance_text(found));
     fact("moduli", std::to_string(found.observations));
     if (found.detected && found.gain.held_out > 0) {
         fact("error on held-out rows", percent(found.gain.rmse_base) + " → " + percent(found.gain.rmse_extended));
@@ -101,11 +106,11 @@ std::string detection(const DiagnosisRecord& record, Gnuplot& gnuplot) {
                   (found.statistics.front().axis == "none"
                        ? ""
                        : " of " + symbol_of(found.statistics.front().observable) + " along " + found.statistics.front().axis);
-    return html + figure(draw_detection(gnuplot, found),
-                         "The largest of " + std::to_string(found.statistics.size()) + " standardised misfit statistics (here: " +
-                             readable(what) + ") beside that of " + std::to_string(found.bootstrap.size()) +
-                             " data sets drawn from the fitted base model: p = " + probability(found.p_value) +
-                             "; the test decides at " + percent(record.level) + ".");
+    return html + figure(draw_detection(gnuplot, found), "The largest of " + std::to_string(found.statistics.size()) +
+                                                             " standardised misfit statistics (here: " + readable(what) +
+                                                             ") beside that of " + std::to_string(found.bootstrap.size()) +
+                                                             " data sets drawn from the fitted base model: " + chance_text(found) +
+                                                             "; the test decides at " + percent(record.level) + ".");
 }
 
 /// Numbers that a logarithmic axis cannot show.
@@ -345,8 +350,7 @@ std::string gained(const diagnose::Gain& gain) {
 }  // namespace
 
 std::string verdict_sentence(const Diagnosis& found) {
-    const bool extreme = found.p_value * static_cast<double>(found.bootstrap.size() + 1) < 1.5;  // none as large was drawn
-    const std::string chance = std::string(" (p ") + (extreme ? "≤ " : "= ") + probability(found.p_value) + ")";
+    const std::string chance = " (" + chance_text(found) + ")";
     if (found.verdict == Verdict::no_discrepancy) {
         return "The base model explains the data: these " + std::to_string(found.observations) +
                " moduli show nothing that it gets wrong" + chance + ".";

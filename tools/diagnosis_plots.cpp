@@ -21,7 +21,6 @@ constexpr double log_from = 8;  ///< ratio of largest to smallest value from whi
 
 /// Colours of Okabe and Ito (2008).
 const std::string palette = R"(
-set pointintervalbox 0
 base = "#d55e00"; extended = "#0072b2"; smooth = "#8a8f94"; ink = "#1d2329"
 set border 3 linecolor rgb "#5b6770" linewidth 0.8
 set tics nomirror out textcolor rgb ink scale 0.6
@@ -173,9 +172,11 @@ std::string moduli_plot(const Shown& shown, const std::string& cause) {
         for (const bool loss : {false, true}) {
             if (has(shown, loss ? "loss_modulus" : "storage_modulus", held)) {
                 const std::string kind = loss ? (held ? "8" : "9") : (held ? "6" : "7");
-                plot += std::string(", $") + (loss ? "loss" : "storage") + (held ? "_1" : "_0") +
-                        " using 1:2:3 with yerrorbars linecolor rgb ink linewidth 1.1 pointsize 0.55 pointtype " + kind +
-                        " title \"" + (loss ? "G''" : "G'") + (held ? " held out" : "") + "\"";
+                const std::string block = std::string(", $") + (loss ? "loss" : "storage") + (held ? "_1" : "_0");
+                // Bars by themselves: gnuplot leaves a white gap between a point and its bar.
+                plot += block + " using 1:($2-$3):(0):(2*$3) with vectors nohead linecolor rgb ink linewidth 1 notitle" + block +
+                        " using 1:2 with points linecolor rgb ink linewidth 1.1 pointsize 0.55 pointtype " + kind + " title \"" +
+                        (loss ? "G''" : "G'") + (held ? " held out" : "") + "\"";
             }
         }
     }

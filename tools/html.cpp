@@ -56,6 +56,8 @@ dl.made dt { color: var(--soft); } dl.made dd { margin: 0; overflow-wrap: anywhe
 @media (max-width: 46rem) { table { display: block; overflow-x: auto; } }
 )css";
 
+const std::string no_break = "\u00a0";  ///< a space that no line ends at
+
 /// Digits of an exponent, raised.
 std::string raised(int exponent) {
     static constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -81,7 +83,7 @@ std::string number(double value) {
     if (exponent >= -3 && exponent < 5) {
         return formatted(exponent >= 2 ? "%.0f" : "%.3g", value);
     }
-    return formatted("%.3g", value / std::pow(10.0, exponent)) + " × 10" + raised(exponent);
+    return formatted("%.3g", value / std::pow(10.0, exponent)) + no_break + "×" + no_break + "10" + raised(exponent);
 }
 
 std::string printed_unit(std::string unit) {
@@ -132,7 +134,8 @@ std::string printed(double value, const std::string& unit) {
     if ((unit == "Pa" || unit == "m") && value != 0 && std::isfinite(value)) {
         power = std::min(std::max(static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-9)), -3), 3);
     }
-    return number(value / std::pow(1000.0, power)) + " " + prefixes.at(static_cast<std::size_t>(power + 3)) + printed_unit(unit);
+    return number(value / std::pow(1000.0, power)) + no_break + prefixes.at(static_cast<std::size_t>(power + 3)) +
+           printed_unit(unit);
 }
 
 std::string html_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
