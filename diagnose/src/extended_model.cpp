@@ -7,6 +7,12 @@
 
 namespace coagula::diagnose {
 
+namespace {
+
+constexpr double particle_poisson_ratio = 0.2;  // alumina 0.22, silica 0.17
+
+}  // namespace
+
 ContactModel contact_model_of(const Settings& settings, double radius) {
     ContactModel model;
     model.normal_stiffness = settings.normal_stiffness;
@@ -24,6 +30,12 @@ ContactModel contact_model_of(const Settings& settings, double radius) {
     }
     if (std::isfinite(settings.critical_strain)) {
         model.normal_strength = model.shear_strength = settings.critical_strain * normal * radius;
+    }
+    if (settings.contact_preload > 0) {
+        // Two equal spheres: the contact's stiffness is 2 E* sqrt(r0 / 2 x overlap), E* = E / (2 (1 - nu^2)).
+        const double overlap = settings.contact_preload * radius;
+        model.poisson_ratio = particle_poisson_ratio;
+        model.young_modulus = (1 - std::pow(particle_poisson_ratio, 2)) * normal / std::sqrt(0.5 * radius * overlap);
     }
     if (settings.ageing_per_decade > 0) {
         model.ageing_rate = settings.ageing_per_decade / std::numbers::ln10;

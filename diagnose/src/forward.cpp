@@ -158,6 +158,9 @@ Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         Complex modulus = linear * broken[k];
+        if (std::isfinite(observation.strain)) {
+            modulus *= simulator_.contact_response(settings, observation.strain);
+        }
         if (settings.springpot_ratio > 0) {
             // A springpot in the same proportion to both springs scales the whole stiffness matrix.
             modulus *= 1.0 + settings.springpot_ratio *

@@ -6,11 +6,11 @@
 #include <coagula/mechanics/linear.hpp>
 #include <coagula/mechanics/rheometer.hpp>
 
+#include "cache_key.hpp"
 #include "interpolation.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace coagula::diagnose {
 
@@ -28,16 +28,6 @@ constexpr double load_step = 0.25;
 constexpr int load_nodes = 32;
 /// Of the explicit run behind it.
 constexpr int steps_per_oscillation = 3000;
-
-std::string key_of(const std::string& what, const std::vector<double>& values) {
-    std::ostringstream key;
-    key << what;
-    key.precision(17);
-    for (const double value : values) {
-        key << ' ' << value;
-    }
-    return key.str();
-}
 
 mechanics::LinearResponse solve(const Packing& packing, const ContactNetwork& bonds, double ratio, double bending, double radius,
                                 const Progress& progress) {

@@ -2,16 +2,6 @@
 
 namespace coagula::diagnose::mechanisms {
 
-namespace {
-
-bool sweeps_amplitude(const Experiment& experiment) {
-    return any_measurement(experiment, [](const Measurement& table) {
-        return table.kind == MeasurementKind::amplitude_sweep || find_column(table, "strain") != nullptr;
-    });
-}
-
-}  // namespace
-
 Mechanism bond_strength() {
     return {.name = "bond-strength",
             .term = "bonds break at a finite force",

@@ -12,6 +12,7 @@ Mechanism shear_stiffness();
 Mechanism bond_bending();
 Mechanism bond_range();
 Mechanism bond_strength();
+Mechanism contact_nonlinearity();
 Mechanism contact_loss();
 Mechanism ageing();
 Mechanism wall_slip();
@@ -35,6 +36,12 @@ inline bool knows_plates(const Experiment& experiment) {
 inline bool knows_gap(const Experiment& experiment) {
     return std::isfinite(experiment.instrument.gap) ||
            any_measurement(experiment, [](const Measurement& table) { return find_column(table, "gap") != nullptr; });
+}
+
+inline bool sweeps_amplitude(const Experiment& experiment) {
+    return any_measurement(experiment, [](const Measurement& table) {
+        return table.kind == MeasurementKind::amplitude_sweep || find_column(table, "strain") != nullptr;
+    });
 }
 
 }  // namespace coagula::diagnose::mechanisms

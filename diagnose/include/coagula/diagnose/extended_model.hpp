@@ -6,7 +6,8 @@
 
 namespace coagula::diagnose {
 
-/// Contact model with the terms that the settings switch on. @param radius mean radius of the particles [m].
+/// Contact model with the terms that the settings switch on; of Hertz contacts without their load at rest, which a force that no
+/// solver has would balance. @param radius mean radius of the particles [m].
 ContactModel contact_model_of(const Settings& settings, double radius);
 
 }  // namespace coagula::diagnose

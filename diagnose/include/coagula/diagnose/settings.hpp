@@ -19,6 +19,9 @@ struct Settings {
     double critical_strain =
         std::numeric_limits<double>::infinity();  ///< bond strength, normal and shear, over k_n r0 of a contact
 
+    double contact_preload = 0;  ///< Hertz contacts that are as stiff as the springs at this overlap over r0, which they have under
+                                 ///< the load at rest; 0: linear springs
+
     double ageing_per_decade = 0;  ///< stiffness grows by this share of its first value in a decade of time
     double ageing_start = 1;       ///< age of the sample when the first run begins [s]
 

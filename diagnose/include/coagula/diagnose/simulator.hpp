@@ -35,6 +35,11 @@ public:
     /// The same for all amplitudes of one sweep in their order.
     std::vector<std::complex<double>> exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes);
 
+    /// G' / G at amplitude gamma_0 of Hertz contacts that are loaded at rest, G that of linear springs: equilibrium under the
+    /// strain by secant stiffnesses, which depends on strain over overlap at rest alone. What unloading loses by micro-slip is not
+    /// in it.
+    double contact_response(const Settings& settings, double amplitude);
+
     double radius() const { return radius_; }
 
 private:
@@ -42,12 +47,15 @@ private:
     std::vector<std::complex<double>> sweep(std::size_t structure, const Settings& settings, double strength,
                                             const std::vector<double>& amplitudes);
     const std::vector<double>& strength_curve();
+    double secant_modulus(std::size_t structure, double load);
+    const std::vector<double>& secant_curve();
 
     std::vector<Packing> structures_;
     std::vector<std::string> names_;
     SimulationCache& cache_;
     Progress progress_;
     double radius_;
+    std::vector<double> secant_curve_;  ///< once it has been asked for
 };
 
 }  // namespace coagula::diagnose

@@ -1,0 +1,16 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+Mechanism contact_nonlinearity() {
+    return {.name = "contact-nonlinearity",
+            .term = "the contacts follow Hertz's law instead of linear springs",
+            .signature =
+                "the storage modulus rises as the square root of the strain where that exceeds the strain of the load at rest, "
+                "the same on the way down as up, whatever the age",
+            .parameters = {{"preload_overlap", "1", 1e-6, 3e-2, true, &Settings::contact_preload}},
+            .in_contact = true,
+            .applies = sweeps_amplitude};
+}
+
+}  // namespace coagula::diagnose::mechanisms

@@ -1,0 +1,43 @@
+// Structures, tables and noise for tests that hide an effect: what the diagnosis is given and what it is not.
+#pragma once
+
+#include <coagula/common/random.hpp>
+#include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/generators/void_expansion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+inline Packing structure(Index particles, std::uint64_t seed, double target_coordination = unset) {
+    generators::VoidExpansionOptions options;
+    options.particles = particles;
+    options.voids = particles / 2;
+    options.volume_fraction = 0.4;
+    options.radii = Eigen::VectorXd::Constant(particles, 0.25e-6);
+    options.seed = seed;
+    if (std::isfinite(target_coordination)) {
+        options.target_coordination = target_coordination;
+    }
+    return generators::expand_voids(options).packing;
+}
+
+inline double drawn_normal(std::uint64_t seed, std::uint64_t number) {
+    const auto u = random_uniform(seed, RandomPurpose::test, 3, number);
+    return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * std::numbers::pi * u[1]);
+}
+
+inline std::vector<double> logarithmic(double from, double to, int count) {
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k) {
+        values.push_back(from * std::pow(to / from, static_cast<double>(k) / (count - 1)));
+    }
+    return values;
+}
+
+}  // namespace coagula::diagnose

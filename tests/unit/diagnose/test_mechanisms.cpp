@@ -1,0 +1,88 @@
+// Each mechanism, switched on in the simulation, shows the signature that the catalogue claims.
+#include "hidden_effects.hpp"
+
+#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/simulator.hpp>
+
+#include <coagula/mechanics/linear.hpp>
+#include <coagula/mechanics/rheometer.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coagula::diagnose {
+namespace {
+
+Simulator& simulator() {
+    static SimulationCache cache;
+    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
+    return made;
+}
+
+TEST(ContactNonlinearity, StiffensAsTheSquareRootOfTheStrain) {
+    Settings settings;
+    settings.contact_preload = 1e-5;
+    const auto at = [&](double load) { return simulator().contact_response(settings, load * settings.contact_preload); };
+    const double fifty = at(50);
+    EXPECT_NEAR(at(0.1) / at(0.2), 1, 0.01);              // linear below the overlap at rest
+    EXPECT_LT(at(1), at(0.1));                            // where half of the contacts are relieved
+    EXPECT_NEAR(at(1000) / at(100), std::sqrt(10), 0.1);  // the load at rest is not quite forgotten
+    EXPECT_NEAR(at(100000) / at(1000), 10, 0.1);
+    settings.contact_preload = 2e-5;
+    EXPECT_DOUBLE_EQ(at(50), fifty);
+    settings.contact_preload = 0;
+    EXPECT_EQ(simulator().contact_response(settings, 1e-3), 1);
+}
+
+TEST(ContactNonlinearity, IsTheLinearSolversModulusAtSmallStrain) {
+    Settings settings;
+    settings.contact_preload = 1e-4;
+    ContactModel model = contact_model_of(settings, 0.25e-6);
+    const double overlap = 1e-4 * 0.25e-6;
+    model.prestress = 2.0 / 3 * 50 * overlap;  // stiffness 3/2 force / overlap
+    double hertz = 0;
+    double springs = 0;
+    for (const std::uint64_t seed : {1U, 2U}) {
+        const Packing packing = structure(200, seed);
+        const ContactNetwork bonds = find_contacts(packing, 0.01);
+        mechanics::LinearOptions options;
+        springs += mechanics::solve_linear(packing, bonds, options).elastic_tensor(3, 3);
+        options.bond_tangents = mechanics::bond_tangents(packing, bonds, model);
+        for (ContactTangent& tangent : options.bond_tangents) {
+            EXPECT_NEAR(tangent.normal, 50, 1e-9);
+            tangent.tension = 0;  // the force that balances the load bears the opposite
+        }
+        hertz += mechanics::solve_linear(packing, bonds, options).elastic_tensor(3, 3);
+    }
+    EXPECT_NEAR(simulator().contact_response(settings, 1e-6) / (hertz / springs), 1, 0.005);
+}
+
+/// Hertz contacts without load at rest in the explicit rheometer: what its rate costs is in both strains.
+TEST(ContactNonlinearity, AgreesWithExplicitSteps) {
+    const Packing packing = structure(100, 3);
+    const ContactNetwork bonds = find_contacts(packing, 0.01);
+    mechanics::RheometerOptions run;
+    Settings settings;
+    settings.contact_preload = 1e-5;
+    run.model = contact_model_of(settings, 0.25e-6);
+    run.model.prestress = unset;
+    run.boundary = mechanics::RheometerBoundary::periodic;
+    run.growing = false;
+    run.oscillations = 2;
+    run.steps_per_oscillation = 20000;
+    run.compare_with_rest = false;
+    const auto storage = [&](double amplitude) {
+        run.amplitude = amplitude;
+        return mechanics::run_rheometer(packing, bonds, run, {{2, 1}}).runs[0].oscillations[1].fundamental_storage;
+    };
+    SimulationCache cache;
+    Simulator alone({packing}, {"alone"}, cache);
+    const double linear = mechanics::solve_linear(packing, bonds).elastic_tensor(3, 3);
+    const double small = storage(1e-3);
+    const double large = storage(1e-2);
+    // Unloading keeps the shear displacement and so loses shear force, which the secants of loading do not.
+    EXPECT_NEAR(large / linear / alone.contact_response(settings, 1e-2), 0.9, 0.1);
+    EXPECT_NEAR(large / small, std::sqrt(10), 0.25);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose
