@@ -1,4 +1,5 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
+#include "diagnose_power.hpp"
 #include "diagnosis_run.hpp"
 #include "experiment_file.hpp"
 #include "report.hpp"
@@ -159,6 +160,10 @@ std::vector<CheckedMeasurement> check_all(const diagnose::Experiment& experiment
 }
 
 void run(const Arguments& arguments) {
+    if (arguments.flag("power")) {
+        run_power(arguments);
+        return;
+    }
     if (!arguments.flag("check") && !arguments.has("output")) {
         throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
     }
@@ -197,12 +202,16 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Verb diagnose_verb() {
-    Verb verb{.name = "diagnose",
-              .summary = "what the simulation gets wrong about measured moduli, and the cause",
-              .input = "EXPERIMENT.toml",
-              .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise")},
-              .run = run,
-              .notes = {"Tables of G' and G'' against frequency, strain, time or gap are diagnosed; see docs/diagnosis.md."}};
+    Verb verb{
+        .name = "diagnose",
+        .summary = "what the simulation gets wrong about measured moduli, and the cause",
+        .input = "EXPERIMENT.toml",
+        .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
+                    flag("power", "before anyone measures: which causes this experiment could find, and from which strength on"),
+                    count("data-sets", "of --power: simulated at each strength near a threshold", "200", within(20, 100000)),
+                    count("diagnoses", "of --power: full diagnoses of simulated data for each cause", "4", within(0, 10000))},
+        .run = run,
+        .notes = {"Tables of G' and G'' against frequency, strain, time or gap are diagnosed; see docs/diagnosis.md."}};
     const std::vector<Option> own = diagnosis_options();
     verb.options.insert(verb.options.end(), own.begin(), own.end());
     return verb;

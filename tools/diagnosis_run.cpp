@@ -3,6 +3,7 @@
 #include "diagnosis_datasets.hpp"
 #include "diagnosis_page.hpp"
 #include "diagnosis_results.hpp"
+#include "experiment_structures.hpp"
 #include "progress_bar.hpp"
 #include "provenance.hpp"
 #include "result_folder.hpp"
@@ -10,14 +11,12 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/extended_model.hpp>
-#include <coagula/generators/void_expansion.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 namespace coagula::tools {
 
@@ -25,51 +24,6 @@ namespace {
 
 using diagnose::Experiment;
 namespace fs = std::filesystem;
-
-struct Structures {
-    std::vector<Packing> packings;
-    std::vector<std::string> hashes;
-};
-
-Packing generate(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
-                 const Progress& progress) {
-    if (recipe.generator != "vem") {
-        throw InputError("the experiment asks for structures by '" + recipe.generator +
-                         "', which diagnose cannot make yet: generate them and name the files under structures");
-    }
-    generators::VoidExpansionOptions options;
-    options.particles = recipe.particles;
-    options.voids = recipe.voids;
-    options.volume_fraction = sample.volume_fraction;
-    options.radii = Eigen::VectorXd::Constant(recipe.particles, sample.particle_radius);
-    options.seed = seed;
-    if (std::isfinite(recipe.target_coordination)) {
-        options.target_coordination = recipe.target_coordination;
-    }
-    return generators::expand_voids(options, progress).packing;
-}
-
-Structures structures_of(const Experiment& experiment, const Progress& progress) {
-    Structures found;
-    for (const std::string& path : experiment.structures) {
-        found.packings.push_back(io::read_structure(path).packing);
-        if (!found.packings.back().cell.is_periodic()) {
-            throw InputError(path + ": a structure for a diagnosis must have a periodic cell");
-        }
-    }
-    if (found.packings.empty() && experiment.recipe) {
-        for (const std::size_t seed : experiment.recipe->seeds) {
-            found.packings.push_back(generate(*experiment.recipe, experiment.sample, seed, progress));
-        }
-    }
-    if (found.packings.empty()) {
-        throw InputError("the experiment names no structures: give files, or a recipe that makes them");
-    }
-    for (const Packing& packing : found.packings) {
-        found.hashes.push_back(io::positions_sha256(packing));
-    }
-    return found;
-}
 
 /// Gives every modulus without a standard error that of the noise model of its kind.
 void state_errors(Experiment& experiment, const std::vector<diagnose::NoiseModel>& noise, diagnose::NoiseSettings& settings) {
@@ -89,49 +43,6 @@ void state_errors(Experiment& experiment, const std::vector<diagnose::NoiseModel
             }
         }
     }
-}
-
-/// What was simulated before, one line per result: key, tab, numbers.
-diagnose::SimulationCache read_cache(const fs::path& path) {
-    diagnose::SimulationCache cache;
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
-        const std::size_t tab = line.find('\t');
-        if (tab == std::string::npos) {
-            continue;  // a line cut off by an interruption
-        }
-        std::vector<double> values;
-        for (const std::string& word : split(line.substr(tab + 1), ' ')) {
-            values.push_back(std::strtod(word.c_str(), nullptr));
-        }
-        cache[line.substr(0, tab)] = std::move(values);
-    }
-    return cache;
-}
-
-std::string cache_text(const diagnose::SimulationCache& cache) {
-    std::string text;
-    for (const auto& [key, values] : cache) {
-        text += key + "\t";
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            text += (k > 0 ? " " : "") + to_text(values[k]);
-        }
-        text += "\n";
-    }
-    return text;
-}
-
-/// The structures as the page names them.
-std::vector<std::string> structure_sentences(const Experiment& experiment, const Structures& structures) {
-    std::vector<std::string> sentences;
-    for (std::size_t k = 0; k < structures.packings.size(); ++k) {
-        const std::string from = experiment.structures.empty()
-                                     ? experiment.recipe->generator + ", seed " + std::to_string(experiment.recipe->seeds[k])
-                                     : experiment.structures[k];
-        sentences.push_back(from + ": " + std::to_string(structures.packings[k].size()) + " particles, SHA-256 of the positions " +
-                            structures.hashes[k]);
-    }
-    return sentences;
 }
 
 /// The contact of the best cause as a TOML file; empty when there is none.
@@ -164,7 +75,7 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     options.bootstrap = static_cast<int>(arguments.count("bootstrap"));
     options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
     state_errors(file.experiment, noise, options.noise);
-    Structures structures = structures_of(file.experiment, progress);
+    ExperimentStructures structures = structures_of(file.experiment, progress);
 
     diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
     const double radius = mean_radius(structures.packings.front());

@@ -7,6 +7,7 @@
 #include <coagula/io/measured_file.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -28,8 +29,9 @@ public:
         read_instrument();
         read_structures();
         read_noise();
+        read_expectation();
         read_measurements();
-        for (const char* table : {"sample", "instrument", "structures", "noise", "measurement"}) {
+        for (const char* table : {"sample", "instrument", "structures", "noise", "expected", "measurement"}) {
             keys.ignore(table);
         }
         keys.refuse_other_keys();
@@ -59,8 +61,10 @@ private:
     void read_instrument();
     void read_structures();
     void read_noise();
+    void read_expectation();
     void read_measurements();
     void read_measurement(const toml::table& table, std::size_t number);
+    diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const;
     ColumnRules column_rules(TomlKeys& keys) const;
     std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file,
                                                      diagnose::MeasurementKind kind) const;
@@ -158,7 +162,66 @@ void ExperimentReader::read_noise() {
         }
         result_.noise.stated_floor = *value;
     }
+    if (const auto value = keys.quantity("stated_phase", "rad")) {
+        if (!(*value > 0 && *value < 1)) {
+            keys.fail("stated_phase", "must lie between 0 and 1 rad");
+        }
+        result_.noise.stated_phase = *value;
+    }
     keys.refuse_other_keys();
+}
+
+void ExperimentReader::read_expectation() {
+    TomlKeys keys(part("expected"), where("expected"));
+    if (const auto value = keys.quantity("storage_modulus", "Pa")) {
+        if (!(*value > 0)) {
+            keys.fail("storage_modulus", "must be > 0 Pa");
+        }
+        result_.expected_storage_modulus = *value;
+    }
+    keys.refuse_other_keys();
+}
+
+/// A table that nobody has measured yet: its axis from an end to the other, and what is constant.
+diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const {
+    const diagnose::TableRule rule = diagnose::rule_of(kind);
+    if (rule.axes.empty()) {
+        keys.fail("planned", std::string(diagnose::name_of(kind)) + " has no axis that could be planned");
+    }
+    const diagnose::Quantity& axis = *diagnose::find_quantity(rule.axes.front());
+    double from = unset;
+    double to = unset;
+    double points = unset;
+    for (const auto& [name, node] : keys.entries("planned")) {
+        if (name == "from" || name == "to") {
+            (name == "from" ? from : to) = keys.quantity_of(*node, "planned." + name, std::string(axis.unit));
+        } else if (name == "points") {
+            points = keys.quantity_of(*node, "planned.points", "1");
+        } else {
+            keys.fail("planned", "'" + name + "' is none of from, to, points");
+        }
+    }
+    if (!(from > 0 && to > 0 && from != to)) {
+        keys.fail("planned", "needs 'from' and 'to', two values of " + std::string(axis.name) + " > 0");
+    }
+    if (!(points >= static_cast<double>(rule.fewest_rows) && points <= 10000 && points == std::floor(points))) {
+        keys.fail("planned", "needs 'points', a whole number from " + std::to_string(rule.fewest_rows) + " to 10000");
+    }
+    diagnose::Measurement table;
+    table.kind = kind;
+    table.label = "measurement " + std::to_string(number) + " (planned)";
+    const auto rows = static_cast<std::size_t>(points);
+    diagnose::Column column{std::string(axis.name), std::string(axis.unit), std::vector<double>(rows)};
+    for (std::size_t row = 0; row < rows; ++row) {
+        const double way = static_cast<double>(row) / (points - 1);
+        const bool even = axis.name == "time" || axis.name == "gap";
+        column.values[row] = even ? from + (to - from) * way : from * std::pow(to / from, way);
+    }
+    table.columns.push_back(std::move(column));
+    for (const auto& [name, value] : column_rules(keys).constants) {
+        table.columns.push_back({name, std::string(diagnose::find_quantity(name)->unit), std::vector<double>(rows, value)});
+    }
+    return table;
 }
 
 void ExperimentReader::read_measurements() {
@@ -259,10 +322,18 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         }
         keys.fail("kind", "'" + kind_name + "' is none of " + names);
     }
-    const std::string name = keys.required_text("file");
-    const io::MeasuredFile file = io::read_measured_file(resolved(name));
     const std::string sample = keys.text("sample").value_or("measurement " + std::to_string(number));
     const int run_order = small_count(keys, "run_order", 0);
+    if (table.contains("planned")) {
+        diagnose::Measurement measurement = planned_table(keys, *kind, number);
+        keys.refuse_other_keys();
+        measurement.sample = sample;
+        measurement.run_order = run_order;
+        result_.experiment.measurements.push_back(std::move(measurement));
+        return;
+    }
+    const std::string name = keys.required_text("file");
+    const io::MeasuredFile file = io::read_measured_file(resolved(name));
     const std::vector<const io::PlainTable*> tables = chosen_tables(keys, file, *kind);
     const ColumnRules rules = column_rules(keys);
     keys.refuse_other_keys();

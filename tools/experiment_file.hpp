@@ -12,7 +12,8 @@ namespace coagula::tools {
 struct ExperimentFile {
     diagnose::Experiment experiment;
     diagnose::NoiseOptions noise;
-    std::vector<std::string> notes;  ///< what is worth knowing but no error, such as fewer points than announced
+    double expected_storage_modulus = unset;  ///< at small strain, of planned measurements [Pa]
+    std::vector<std::string> notes;           ///< what is worth knowing but no error, such as fewer points than announced
 };
 
 /// Reads the file and the tables it names, in SI units; unreadable cells are listed in `left_out`. Paths are relative to the folder

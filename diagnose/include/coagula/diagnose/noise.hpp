@@ -48,7 +48,8 @@ struct NoiseOptions {
     /// What is assumed where there are no replicates to tell.
     double stated_relative = 0.05;
     double stated_sample = 0.1;
-    double stated_floor = 0;  ///< unit of the observable; of the stress where the strain is known
+    double stated_floor = 0;      ///< unit of the observable; of the stress where the strain is known
+    double stated_phase = 0.005;  ///< error of the phase [rad], that of G'' over |G*|; of planned measurements only
     /// Largest over smallest ratio of level to w below which floor and relative part cannot be told apart, and the floor is left
     /// out.
     double least_range = 3;

@@ -1,0 +1,30 @@
+// The structures that an experiment file names or describes, and what has been simulated of them.
+#pragma once
+
+#include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
+#include <coagula/diagnose/measurement.hpp>
+#include <coagula/diagnose/simulator.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+struct ExperimentStructures {
+    std::vector<Packing> packings;
+    std::vector<std::string> hashes;  ///< SHA-256 of the positions
+};
+
+/// Reads or generates them. Throws InputError when there are none, or one has no periodic cell.
+ExperimentStructures structures_of(const diagnose::Experiment& experiment, const Progress& progress);
+
+/// Each in one sentence: where it is from, its particles and hash.
+std::vector<std::string> structure_sentences(const diagnose::Experiment& experiment, const ExperimentStructures& structures);
+
+/// What was simulated before: one line per result, key, tab, numbers. Empty when there is no such file.
+diagnose::SimulationCache read_cache(const std::filesystem::path& path);
+std::string cache_text(const diagnose::SimulationCache& cache);
+
+}  // namespace coagula::tools
