@@ -1,0 +1,184 @@
+// What a planned experiment is said to find is held against diagnoses of data that another code path makes.
+#include <coagula/common/random.hpp>
+#include <coagula/diagnose/power.hpp>
+#include <coagula/generators/void_expansion.hpp>
+#include <coagula/mechanics/frequency.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace coagula::diagnose {
+namespace {
+
+using std::numbers::pi;
+
+const Packing& structure() {
+    static const Packing made = [] {
+        generators::VoidExpansionOptions options;
+        options.particles = 200;
+        options.voids = 100;
+        options.volume_fraction = 0.4;
+        options.radii = Eigen::VectorXd::Constant(200, 0.25e-6);
+        options.seed = 1;
+        return generators::expand_voids(options).packing;
+    }();
+    return made;
+}
+
+Simulator& simulator() {
+    static SimulationCache cache;
+    static Simulator made({structure()}, {"one"}, cache);
+    return made;
+}
+
+std::vector<double> frequencies() {
+    std::vector<double> values;
+    for (int k = 0; k < 16; ++k) {
+        values.push_back(0.1 * std::pow(1000.0, k / 15.0));
+    }
+    return values;
+}
+
+/// A frequency sweep that somebody plans.
+Experiment planned() {
+    Measurement table;
+    table.label = "planned";
+    table.sample = "sample";
+    std::vector<double> angular = frequencies();
+    std::for_each(angular.begin(), angular.end(), [](double& value) { value *= 2 * pi; });
+    table.columns = {{"angular_frequency", "rad/s", angular}};
+    Experiment experiment;
+    experiment.measurements = {table};
+    return experiment;
+}
+
+PowerOptions options_for(const std::string& cause) {
+    PowerOptions options;
+    options.causes = {cause};
+    options.noise.stated_relative = 0.03;
+    options.diagnosis.bootstrap = 199;
+    options.diagnoses = 0;
+    return options;
+}
+
+double normal_number(std::uint64_t seed, std::uint64_t number) {
+    const auto u = random_uniform(seed, RandomPurpose::test, 11, number);
+    return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * pi * u[1]);
+}
+
+/// Measured moduli with errors and the effect of a sample.
+Experiment measured(const mechanics::FrequencyResponse& truth, const NoiseOptions& noise, std::uint64_t seed) {
+    const double sample = 1 + noise.stated_sample * normal_number(seed, 1000);
+    Column storage{"storage_modulus", "Pa", {}, {}};
+    Column loss{"loss_modulus", "Pa", {}, {}};
+    for (std::size_t k = 0; k < truth.points.size(); ++k) {
+        const std::complex<double> modulus = sample * truth.points[k].mean_shear_modulus();
+        storage.standard_errors.push_back(noise.stated_relative * modulus.real());
+        loss.standard_errors.push_back(std::hypot(noise.stated_relative * modulus.imag(), noise.stated_phase * std::abs(modulus)));
+        storage.values.push_back(modulus.real() + storage.standard_errors[k] * normal_number(seed, 2 * k));
+        loss.values.push_back(modulus.imag() + loss.standard_errors[k] * normal_number(seed, 2 * k + 1));
+    }
+    Experiment experiment = planned();
+    experiment.measurements[0].columns.push_back(storage);
+    experiment.measurements[0].columns.push_back(loss);
+    return experiment;
+}
+
+/// Share of data sets from the frequency solver, contacts with a springpot, in which a diagnosis finds something.
+double found_share(const PowerOptions& options, double springpot_over_spring, double exponent, int data_sets) {
+    ContactModel model{.normal_stiffness = 100, .shear_stiffness = 10};
+    model.normal_springpot_stiffness = springpot_over_spring * 50;
+    model.shear_springpot_stiffness = springpot_over_spring * 5;
+    model.normal_springpot_time = model.shear_springpot_time = 1 / (2 * pi);
+    model.normal_springpot_exponent = model.shear_springpot_exponent = exponent;
+    const auto truth = mechanics::solve_frequency_sweep(structure(), find_contacts(structure(), 0.01), model, frequencies());
+    DiagnosisOptions diagnosis = options.diagnosis;
+    diagnosis.noise.sample = options.noise.stated_sample;
+    diagnosis.level = 0;  // nothing is asked but the p-value of the base model
+    int found = 0;
+    for (int set = 1; set <= data_sets; ++set) {
+        diagnosis.seed = static_cast<std::uint64_t>(set);
+        const Experiment experiment = measured(truth, options.noise, diagnosis.seed);
+        found += diagnose(experiment, simulator(), diagnosis).p_value <= options.diagnosis.level ? 1 : 0;
+    }
+    return static_cast<double>(found) / data_sets;
+}
+
+TEST(Power, AgreesWithDiagnosesOfDataMadeInAnotherWay) {
+    const PowerOptions options = options_for("contact-loss");
+    const Power power = find_power(planned(), simulator(), options);
+    ASSERT_EQ(power.causes.size(), 1U);
+    const CausePower& loss = power.causes.front();
+    EXPECT_EQ(loss.parameter, "springpot_over_spring");
+    ASSERT_TRUE(std::isfinite(loss.half.value) && std::isfinite(loss.most.value));
+    EXPECT_LT(loss.half.low, loss.half.value);
+    EXPECT_LT(loss.half.value, loss.half.high);
+    EXPECT_LT(loss.half.value, loss.most.value);
+    constexpr int data_sets = 200;
+    const double exponent = loss.others.at("exponent");
+    // Four standard deviations of the count, and of the threshold itself.
+    EXPECT_NEAR(found_share(options, loss.half.value, exponent, data_sets), 0.5, 0.2);
+    EXPECT_NEAR(found_share(options, loss.most.value, exponent, data_sets), 0.95, 0.08);
+    EXPECT_LT(found_share(options, loss.half.value / 3, exponent, data_sets), 0.25);
+    EXPECT_EQ(power.by_chance.of, options.data_sets);
+    EXPECT_LT(power.by_chance.low, 0.05);
+    EXPECT_GT(power.by_chance.high, 0.05);
+}
+
+TEST(Power, SaysWhenNothingCanBeFound) {
+    // One structure and a free stiffness: what scales all moduli alike leaves no trace.
+    const Power power = find_power(planned(), simulator(), options_for("bond-bending"));
+    ASSERT_EQ(power.causes.size(), 1U);
+    const CausePower& bending = power.causes.front();
+    EXPECT_TRUE(std::isnan(bending.half.value));
+    EXPECT_TRUE(std::isnan(bending.most.value));
+    EXPECT_LT(bending.curve.back().found.count, 0.15 * bending.curve.back().found.of);
+    EXPECT_EQ(bending.naming.runs, 0);
+}
+
+TEST(Power, FindsWeakerCausesWithLessNoise) {
+    PowerOptions options = options_for("tool-inertia");
+    Experiment experiment = planned();
+    experiment.instrument.geometry = Geometry::plate_plate;
+    experiment.instrument.plate_radius = 0.0125;
+    experiment.instrument.gap = 1e-3;
+    const double noisy = find_power(experiment, simulator(), options).causes.front().half.value;
+    options.noise.stated_relative = 0.015;
+    const double clean = find_power(experiment, simulator(), options).causes.front().half.value;
+    EXPECT_NEAR(noisy / clean, 2, 0.4);  // the size of a linear effect that is found goes with the noise
+}
+
+TEST(Power, NamingRunsAddUp) {
+    PowerOptions options = options_for("ageing");
+    options.data_sets = 40;
+    options.diagnoses = 3;
+    const NamingRuns naming = find_power(planned(), simulator(), options).causes.front().naming;
+    EXPECT_EQ(naming.runs, 3);
+    EXPECT_EQ(naming.named + naming.tied + naming.misnamed + naming.none + naming.missed, 3);
+    EXPECT_GE(naming.named + naming.tied, 2);
+}
+
+TEST(Power, RefusesWhatPlansNothing) {
+    Experiment experiment = planned();
+    EXPECT_THROW(find_power(experiment, simulator(), options_for("magic")), InputError);
+    experiment.measurements[0].kind = MeasurementKind::coordinates;
+    EXPECT_THROW(find_power(experiment, simulator(), options_for("ageing")), InputError);
+}
+
+TEST(Share, HasTheIntervalOfWilson) {
+    const Share share = share_of(10, 100);
+    // Roots p of (p - 0.1)^2 = z^2 p (1 - p) / 100, the definition.
+    for (const double end : {share.low, share.high}) {
+        EXPECT_NEAR(std::pow(end - 0.1, 2), std::pow(1.959964, 2) * end * (1 - end) / 100, 1e-12);
+    }
+    EXPECT_LT(share.low, 0.1);
+    EXPECT_GT(share.high, 0.1);
+    EXPECT_EQ(share_of(0, 20).low, 0);
+    EXPECT_EQ(share_of(20, 20).high, 1);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose
