@@ -7,7 +7,7 @@ namespace coagula::tools {
 
 namespace {
 
-using mechanics::Cluster;
+using coagula::Cluster;
 using mechanics::Fabric;
 using mechanics::LoadStructure;
 using mechanics::ShearLoad;

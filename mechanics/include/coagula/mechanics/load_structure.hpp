@@ -1,8 +1,8 @@
 // What carries the load of a sheared network: fabric, contact forces, backbone, non-affinity. Definitions: docs/load-structure.md.
 #pragma once
 
+#include <coagula/common/percolation.hpp>
 #include <coagula/mechanics/linear.hpp>
-#include <coagula/mechanics/percolation.hpp>
 
 #include <Eigen/Core>
 

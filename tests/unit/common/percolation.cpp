@@ -1,4 +1,4 @@
-#include <coagula/mechanics/percolation.hpp>
+#include <coagula/common/percolation.hpp>
 
 #include "networks.hpp"
 #include "support/lattices.hpp"
@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace coagula::mechanics {
+namespace coagula {
 namespace {
 
 using coagula::testing::bonds_between;
@@ -146,4 +146,4 @@ TEST(Percolation, AgreesWithTheRepeatedBox) {
 }
 
 }  // namespace
-}  // namespace coagula::mechanics
+}  // namespace coagula

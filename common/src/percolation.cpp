@@ -1,4 +1,4 @@
-#include <coagula/mechanics/percolation.hpp>
+#include <coagula/common/percolation.hpp>
 
 #include <coagula/common/checks.hpp>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace coagula::mechanics {
+namespace coagula {
 
 namespace {
 
@@ -155,4 +155,4 @@ std::vector<Cluster> find_clusters(const Packing& packing, const ContactNetwork&
     return by_root;
 }
 
-}  // namespace coagula::mechanics
+}  // namespace coagula

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace coagula::mechanics {
+namespace coagula {
 
 /// Particles joined by bonds.
 struct Cluster {
@@ -29,4 +29,4 @@ struct Cluster {
 /// Throws std::invalid_argument when bonds or flags do not belong to the packing.
 std::vector<Cluster> find_clusters(const Packing& packing, const ContactNetwork& bonds, const std::vector<bool>& selected = {});
 
-}  // namespace coagula::mechanics
+}  // namespace coagula
