@@ -24,14 +24,37 @@ auto vectors_of(Checkpoint& checkpoint) {
 
 template <class Series>
 auto numbers_of(Series& series) {
-    return std::array{std::pair{"/series/time", &series.time}, std::pair{"/series/coordination", &series.coordination},
-                      std::pair{"/series/energy", &series.energy}, std::pair{"/series/mean_gap", &series.mean_gap}};
+    return std::array{std::pair{"/series/time", &series.time},
+                      std::pair{"/series/coordination", &series.coordination},
+                      std::pair{"/series/energy", &series.energy},
+                      std::pair{"/series/mean_gap", &series.mean_gap},
+                      std::pair{"/series/sliding_energy", &series.sliding_energy},
+                      std::pair{"/series/rolling_energy", &series.rolling_energy}};
 }
 
 template <class Series>
 auto counts_of(Series& series) {
     return std::array{std::pair{"/series/clusters", &series.clusters}, std::pair{"/series/largest", &series.largest},
-                      std::pair{"/series/formed", &series.formed}, std::pair{"/series/broken", &series.broken}};
+                      std::pair{"/series/percolating", &series.percolating}, std::pair{"/series/formed", &series.formed},
+                      std::pair{"/series/broken", &series.broken}};
+}
+
+using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>;
+
+Integers flat(const Pairs& pairs) {
+    return {pairs.data(), pairs.data() + pairs.size()};
+}
+
+Pairs read_pairs(const CheckpointReader& file, const std::string& name, std::size_t particles) {
+    const Integers& numbers = file.get<Integers>(name);
+    Pairs pairs(2, static_cast<Index>(numbers.size() / 2));
+    for (std::size_t entry = 0; entry < 2 * (numbers.size() / 2); ++entry) {
+        if (numbers[entry] < 0 || numbers[entry] >= static_cast<std::int64_t>(particles)) {
+            file.fail("names particle " + std::to_string(numbers[entry]) + ", which does not exist: the checkpoint is damaged");
+        }
+        pairs.data()[entry] = static_cast<std::int32_t>(numbers[entry]);
+    }
+    return pairs;
 }
 
 Numbers flat(const Eigen::Matrix3Xd& vectors) {
@@ -55,7 +78,13 @@ void write_checkpoint(const std::string& path, const std::string& signature, con
     for (const auto& [name, vectors] : vectors_of(checkpoint)) {
         put(all, name, flat(*vectors));
     }
-    put(all, "/state/contacts", Integers(checkpoint.contacts.data(), checkpoint.contacts.data() + checkpoint.contacts.size()));
+    put(all, "/state/contacts", flat(checkpoint.contacts));
+    if (checkpoint.rotations.cols() > 0) {
+        put(all, "/state/rotations", flat(checkpoint.rotations));
+        put(all, "/state/touching", flat(checkpoint.memories.ends));
+        put(all, "/state/sliding", flat(checkpoint.memories.sliding));
+        put(all, "/state/rolling", flat(checkpoint.memories.rolling));
+    }
     for (const auto& [name, values] : numbers_of(checkpoint.series)) {
         put(all, name, *values);
     }
@@ -79,13 +108,13 @@ BrownianCheckpoint read_brownian_checkpoint(const std::string& path, const std::
     for (const auto& [name, vectors] : vectors_of(checkpoint)) {
         *vectors = read_vectors(file, name, particles);
     }
-    const Integers& contacts = file.get<Integers>("/state/contacts");
-    checkpoint.contacts.resize(2, static_cast<Index>(contacts.size() / 2));
-    for (std::size_t entry = 0; entry < 2 * (contacts.size() / 2); ++entry) {
-        if (contacts[entry] < 0 || contacts[entry] >= static_cast<std::int64_t>(particles)) {
-            file.fail("names particle " + std::to_string(contacts[entry]) + ", which does not exist: the checkpoint is damaged");
-        }
-        checkpoint.contacts.data()[entry] = static_cast<std::int32_t>(contacts[entry]);
+    checkpoint.contacts = read_pairs(file, "/state/contacts", particles);
+    if (file.has("/state/rotations")) {
+        checkpoint.rotations = read_vectors(file, "/state/rotations", particles);
+        checkpoint.memories.ends = read_pairs(file, "/state/touching", particles);
+        const auto touching = static_cast<std::size_t>(checkpoint.memories.ends.cols());
+        checkpoint.memories.sliding = read_vectors(file, "/state/sliding", touching);
+        checkpoint.memories.rolling = read_vectors(file, "/state/rolling", touching);
     }
     const std::size_t samples = file.get<Numbers>("/series/time").size();
     if (samples == 0) {

@@ -1,5 +1,6 @@
 #include "brownian_results.hpp"
 
+#include <coagula/characterize/heterogeneity.hpp>
 #include <coagula/io/structure_file.hpp>
 
 namespace coagula::tools {
@@ -20,10 +21,13 @@ void add_series(Results& results, const BrownianSeries& series) {
     };
     numbers("time", series.time, "s", "times of the samples");
     numbers("coordination", series.coordination, "1", "mean number of contacts");
-    numbers("energy", series.energy, "J", "energy of all pairs");
+    numbers("energy", series.energy, "J", "energy of all pairs, without sliding and rolling");
+    numbers("sliding_energy", series.sliding_energy, "J", "elastic energy of the tangential displacements of the contacts");
+    numbers("rolling_energy", series.rolling_energy, "J", "elastic energy of the rolling displacements of the contacts");
     numbers("mean_gap", series.mean_gap, "m", "mean gap of the contacts");
     counts("clusters", series.clusters, "particles joined by contacts, single ones included");
     counts("largest_cluster", series.largest, "particles in the largest cluster");
+    counts("percolating_axes", series.percolating, "axes along which contacts reach around the box");
     counts("contacts_formed", series.formed, "contacts that are new since the sample before");
     counts("contacts_broken", series.broken, "contacts that are gone since the sample before");
 }
@@ -37,6 +41,7 @@ Results datasets_of(const BrownianRun& run, const PairPotential& potential, cons
     Results results = {
         io::scalar(group + "time", run.time, "s", "simulated time"),
         io::integer(group + "steps", run.steps, "time steps"),
+        io::text(group + "ended_by", run.ended_by, "what ended the run: time, coordination or plateau"),
         io::scalar(group + "coordination", run.coordination, "1", "mean number of contacts at the end"),
         io::scalar(group + "contact_tolerance", options.contact_tolerance, "1", "pairs nearer than (1 + x) (r_i + r_j) touch"),
         io::scalar(group + "diffusion_time", step.diffusion_time, "s", "R^2/D of a particle of mean radius"),
@@ -56,6 +61,31 @@ Results datasets_of(const BrownianRun& run, const PairPotential& potential, cons
     return results;
 }
 
+Results heterogeneity_of(const BrownianRun& run, const Packing& start, const BrownianOptions& options, const Progress& progress) {
+    std::vector<double> time;
+    std::vector<double> width;
+    std::vector<double> coordination;
+    const auto measure = [&](double at, const Eigen::Matrix3Xd& positions) {
+        progress.update("degree of heterogeneity",
+                        static_cast<double>(time.size()) / static_cast<double>(run.snapshots.size() + 2));
+        const Packing packing{run.packing.cell, positions, run.packing.radii};
+        const characterize::PoreSizes pores = characterize::measure_pores(packing);
+        time.push_back(at);
+        width.push_back(characterize::fit_degree_of_heterogeneity(pores, mean_radius(packing)).a);
+        coordination.push_back(coordination_number(find_contacts(packing, options.contact_tolerance)));
+    };
+    measure(0, start.positions);
+    for (const Snapshot& snapshot : run.snapshots) {
+        measure(snapshot.time, snapshot.positions);
+    }
+    measure(run.time, run.packing.positions);
+    const std::vector<std::size_t> shape = {time.size()};
+    const std::string series = group + "heterogeneity/";
+    return {{series + "time", shape, time, "s", "start, snapshots and end"},
+            {series + "a", shape, width, "1", "degree of heterogeneity"},
+            {series + "coordination", shape, coordination, "1", "mean number of contacts"}};
+}
+
 Table table_of(const BrownianRun& run) {
     const TimeStep& step = run.time_step;
     return {{"particles", std::to_string(run.packing.size())},
@@ -64,6 +94,7 @@ Table table_of(const BrownianRun& run) {
             {"simulated", with_unit(run.time, "s") + " in " + std::to_string(run.steps) + " steps"},
             {"time step", with_unit(step.time_step, "s") + " (" + std::to_string(step.stages) + " stages), set by " + step.reason +
                               "; stable up to " + with_unit(step.stability_bound, "s")},
+            {"ended by", run.ended_by},
             {"coordination number", with_unit(run.coordination, "1")},
             {"largest cluster", std::to_string(run.series.largest.back()) + " particles"}};
 }

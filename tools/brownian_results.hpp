@@ -11,6 +11,10 @@ namespace coagula::tools {
 Results datasets_of(const generators::BrownianRun& run, const generators::PairPotential& potential,
                     const generators::BrownianOptions& options);
 
+/// The degree of heterogeneity at the start, at the snapshots and at the end: data sets below /generation/brownian/heterogeneity.
+Results heterogeneity_of(const generators::BrownianRun& run, const Packing& start, const generators::BrownianOptions& options,
+                         const Progress& progress);
+
 Table table_of(const generators::BrownianRun& run);
 
 }  // namespace coagula::tools

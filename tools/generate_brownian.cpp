@@ -26,11 +26,23 @@ BrownianOptions brownian_options(const Arguments& arguments) {
     options.temperature = arguments.quantity("temperature");
     options.viscosity = arguments.quantity("viscosity");
     options.slowing = arguments.quantity("slowing");
+    options.resistance = {.tangential_stiffness = arguments.optional_quantity("tangential-stiffness").value_or(unset),
+                          .friction = arguments.optional_quantity("friction").value_or(unset),
+                          .rolling_stiffness = arguments.optional_quantity("rolling-stiffness").value_or(unset),
+                          .rolling_friction = arguments.optional_quantity("rolling-friction").value_or(unset)};
     options.cutoff_gap = arguments.optional_quantity("cutoff-gap").value_or(unset);
     options.integrator = arguments.text("integrator") == "euler" ? Integrator::euler : Integrator::stabilised;
+    options.sedimentation = {.gravity = arguments.optional_quantity("gravity").value_or(unset),
+                             .density_difference = arguments.optional_quantity("density-difference").value_or(unset)};
     options.time_step = arguments.optional_quantity("time-step").value_or(unset);
     options.stop_time = arguments.optional_quantity("stop-time").value_or(unset);
     options.stop_coordination = arguments.optional_quantity("stop-coordination").value_or(unset);
+    const std::string plateau = arguments.text("stop-plateau");
+    options.stop_plateau = plateau == "coordination" ? PlateauOf::coordination
+                           : plateau == "mean-gap"   ? PlateauOf::mean_gap
+                                                     : PlateauOf::nothing;
+    options.plateau_time = arguments.optional_quantity("plateau-time").value_or(unset);
+    options.plateau_change = arguments.quantity("plateau-change");
     options.contact_tolerance = arguments.quantity("contact-tolerance");
     options.sample_interval = arguments.optional_quantity("sample-interval").value_or(unset);
     for (const std::string& time : split(arguments.text("snapshots", ""))) {
@@ -55,6 +67,9 @@ Packing stabilised_suspension(const Arguments& arguments, const BrownianOptions&
     equilibration.time_step = unset;
     equilibration.integrator = Integrator::stabilised;
     equilibration.stop_coordination = unset;
+    equilibration.stop_plateau = PlateauOf::nothing;
+    equilibration.resistance = {};
+    equilibration.sedimentation = {};
     equilibration.sample_interval = unset;
     equilibration.snapshot_times.clear();
     equilibration.noise = RandomPurpose::equilibration;
@@ -125,9 +140,12 @@ void run(const Arguments& arguments) {
     }
     const std::string output = arguments.text("output");
     check_output(output, arguments.flag("force"));
-    const BrownianOptions options = brownian_options(arguments);
-    if (std::isnan(options.stop_time) && std::isnan(options.stop_coordination)) {
-        throw InputError("coagula generate brownian needs --stop-time or --stop-coordination");
+    BrownianOptions options = brownian_options(arguments);
+    if (std::isnan(options.stop_time) && std::isnan(options.stop_coordination) && options.stop_plateau == PlateauOf::nothing) {
+        throw InputError("coagula generate brownian needs --stop-time, --stop-coordination or --stop-plateau");
+    }
+    if (arguments.text("hydrodynamics") == "mean-field" && (start || arguments.has("volume-fraction"))) {
+        options.slowing *= mean_field_slowing(start ? volume_fraction(*start) : arguments.quantity("volume-fraction"));
     }
     const std::optional<Packing> input = start;
     if (!start) {
@@ -145,7 +163,11 @@ void run(const Arguments& arguments) {
     for (const Snapshot& snapshot : made.snapshots) {
         structure.earlier.push_back({snapshot.time, snapshot.positions});
     }
-    const Results results = datasets_of(made, potential, options);
+    Results results = datasets_of(made, potential, options);
+    if (arguments.flag("heterogeneity")) {
+        const Results measured = heterogeneity_of(made, *start, options, progress);
+        results.insert(results.end(), measured.begin(), measured.end());
+    }
     io::write_structure(output, structure, {}, results, describe_call(arguments, input ? &*input : nullptr, clock),
                         arguments.flag("force"));
     Json json = to_json(results, "/generation/brownian");
@@ -179,13 +201,26 @@ Verb generate_brownian_verb() {
     const std::vector<Option> rest = {
         quantity("viscosity", "Pa s", "of the liquid", "1e-3", above(0)),
         quantity("slowing", "1", "share of the free diffusion that hydrodynamics leave on average", "1", within(0, 1)),
+        choice("hydrodynamics", {"none", "mean-field"}, "mean-field: slowed by (1 - 1.56 phi)(1 - 0.27 phi) besides", "none"),
+        quantity("tangential-stiffness", "N/m", "of contacts; they slide freely when not given", "", above(0)),
+        quantity("friction", "1", "contacts slip beyond this times their elastic normal force; never when not given", "",
+                 at_least(0)),
+        quantity("rolling-stiffness", "N/m", "of contacts; they roll freely when not given", "", above(0)),
+        quantity("rolling-friction", "1", "the same limit of the rolling resistance; none when not given", "", at_least(0)),
+        quantity("gravity", "m/s2", "particles settle towards a floor; not when not given", "", above(0)),
+        quantity("density-difference", "kg/m3", "of particles and liquid, with --gravity", "", Range{}),
         choice("integrator", {"stabilised", "euler"}, "SK-ROCK or Euler-Maruyama", "stabilised"),
         quantity("time-step", "s", "chosen from the potential when not given", "", above(0)),
         quantity("stop-time", "s", "simulated time at the end", "", at_least(0)),
         quantity("stop-coordination", "1", "or mean number of contacts at the end, at a sample", "", between(0, 12)),
+        choice("stop-plateau", {"none", "coordination", "mean-gap"}, "or as soon as this is level", "none"),
+        quantity("plateau-time", "s", "its means over the two halves of this time are compared; R^2/D/10 when not given", "",
+                 above(0)),
+        quantity("plateau-change", "1", "relative difference below which it is level", "0.01", above(0)),
         quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01", within(0, 0.1)),
         quantity("sample-interval", "s", "of the time series; stop time/200 when not given", "", above(0)),
         text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),
+        flag("heterogeneity", "measure the degree of heterogeneity at the start, at the snapshots and at the end"),
         text("checkpoint", "FILE", "state of the run; a run that finds the file goes on from it"),
         quantity("checkpoint-interval", "s", "between checkpoints, of wall-clock time", "60s", at_least(0)),
         count("seed", "of the random numbers", "1", at_least(0)),

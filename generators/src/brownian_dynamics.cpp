@@ -5,6 +5,7 @@
 
 #include "brownian_sampler.hpp"
 #include "brownian_system.hpp"
+#include "plateau.hpp"
 #include "reduced_units.hpp"
 
 #include <algorithm>
@@ -23,12 +24,20 @@ constexpr double near_spacing = 5e-4;           // of the force tables, in mean 
 constexpr double far_spacing = 5e-3;
 constexpr double longest_run = 1e15;              // steps
 constexpr double default_sample_interval = 5e-4;  // in units of R^2/D, when no stop time is given
+constexpr double default_plateau_time = 0.1;      // in units of R^2/D
 
 void check(const Packing& start, const BrownianOptions& options) {
     coagula::check(start);
     require(start.cell.is_periodic(), "Brownian dynamics needs a periodic box, but that of the start is open");
-    require(!std::isnan(options.stop_time) || !std::isnan(options.stop_coordination),
-            "Brownian dynamics needs a stop time or a stop coordination");
+    const bool plateau = options.stop_plateau != PlateauOf::nothing;
+    require(!std::isnan(options.stop_time) || !std::isnan(options.stop_coordination) || plateau,
+            "Brownian dynamics needs a stop time, a stop coordination or a plateau to stop at");
+    if (plateau) {
+        require_positive(options.plateau_change, "the change that counts as a plateau");
+        if (!std::isnan(options.plateau_time)) {
+            require_positive(options.plateau_time, "the time of the plateau", "s");
+        }
+    }
     if (!std::isnan(options.stop_time)) {
         require_non_negative(options.stop_time, "the stop time", "s");
     }
@@ -39,6 +48,13 @@ void check(const Packing& start, const BrownianOptions& options) {
         require_positive(options.sample_interval, "the sample interval", "s");
     }
     require_between(options.contact_tolerance, 0, 0.1, "the contact tolerance");
+    const Sedimentation& weight = options.sedimentation;
+    require(std::isnan(weight.gravity) == std::isnan(weight.density_difference),
+            "gravity and a density difference need each other");
+    if (!std::isnan(weight.gravity)) {
+        require_positive(weight.gravity, "gravity", "m/s^2");
+        require(std::isfinite(weight.density_difference), "the density difference must be a finite number");
+    }
     for (const double time : options.snapshot_times) {
         require_non_negative(time, "the time of a snapshot", "s");
     }
@@ -63,6 +79,21 @@ double closest_gap(const Packing& packing) {
     return closest;
 }
 
+bool settles(const BrownianOptions& options) {
+    return !std::isnan(options.sedimentation.gravity);
+}
+
+/// Between floor and ceiling; see Sedimentation.
+Packing put_in_vessel(const Packing& packing, double cutoff) {
+    const double largest = packing.radii.maxCoeff();
+    Packing inside = packing;
+    inside.cell = Cell::periodic(packing.cell.lengths() + Eigen::Vector3d(0, 0, 2 * largest + cutoff));
+    for (Index particle = 0; particle < packing.size(); ++particle) {
+        inside.positions.col(particle) = packing.cell.wrap(packing.positions.col(particle)) + Eigen::Vector3d(0, 0, largest);
+    }
+    return inside;
+}
+
 BrownianSetup make_setup(const Packing& start, const PairPotential& potential, const BrownianOptions& options,
                          const TimeStep& time_step, const ReducedUnits& units) {
     const ForceRanges ranges = choose_ranges(potential, units, options);
@@ -72,6 +103,8 @@ BrownianSetup make_setup(const Packing& start, const PairPotential& potential, c
         return force(gap) * (1 - smooth_switch(gap, ranges.near_start, ranges.near_end)) *
                smooth_switch(gap, 0.8 * ranges.cutoff, ranges.cutoff);
     };
+    const double weight_unit = 4 * std::numbers::pi / 3 * std::pow(units.length, 4) / units.energy;
+    const Sedimentation& weight = options.sedimentation;
     return {.period = start.cell.lengths() / units.length,
             .radii = start.radii / units.length,
             // The first interval of the one is elastic contact, that of the other without force.
@@ -81,7 +114,33 @@ BrownianSetup make_setup(const Packing& start, const PairPotential& potential, c
             .time_step = time_step.time_step / units.time,
             .far_interval = time_step.far_interval,
             .seed = options.seed,
-            .noise = options.noise};
+            .noise = options.noise,
+            .weight = settles(options) ? weight.gravity * weight.density_difference * weight_unit : 0,
+            .ceiling = settles(options) ? start.cell.lengths()[2] / units.length - ranges.cutoff : 0,
+            .wall_stiffness = potential.contact().stiffness * units.length * units.length / units.energy,
+            .springs = spring_rules(potential, options.resistance, units)};
+}
+
+std::vector<ContactSpring> to_springs(const ContactMemories& memories) {
+    std::vector<ContactSpring> springs;
+    for (Index contact = 0; contact < memories.ends.cols(); ++contact) {
+        springs.push_back(
+            {memories.ends(0, contact), memories.ends(1, contact), memories.sliding.col(contact), memories.rolling.col(contact)});
+    }
+    return springs;
+}
+
+ContactMemories to_memories(const std::vector<ContactSpring>& springs) {
+    const auto count = static_cast<Index>(springs.size());
+    ContactMemories memories{Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>(2, count), Eigen::Matrix3Xd(3, count),
+                             Eigen::Matrix3Xd(3, count)};
+    for (Index contact = 0; contact < count; ++contact) {
+        const ContactSpring& spring = springs[static_cast<std::size_t>(contact)];
+        memories.ends.col(contact) << spring.first, spring.second;
+        memories.sliding.col(contact) = spring.sliding;
+        memories.rolling.col(contact) = spring.rolling;
+    }
+    return memories;
 }
 
 /// One run.
@@ -89,18 +148,20 @@ class Simulation {
 public:
     Simulation(const Packing& start, const PairPotential& potential, const BrownianOptions& options, const Progress& progress,
                const BrownianControl& control)
-        : start_(start),
+        : units_(start.radii.mean(), options),
+          cutoff_(choose_ranges(potential, units_, options).cutoff * units_.length),
+          start_(settles(options) ? put_in_vessel(start, cutoff_) : start),
           options_(options),
           progress_(progress),
           control_(control),
-          units_(start.radii.mean(), options),
           time_step_(choose_time_step(potential, start.radii.mean(), closest_gap(start), options)),
-          system_(make_setup(start, potential, options, time_step_, units_), first_state()),
-          sampler_(potential, units_, choose_ranges(potential, units_, options).cutoff * units_.length, options.contact_tolerance) {
+          system_(make_setup(start_, potential, options, time_step_, units_), first_state()),
+          sampler_(potential, units_, cutoff_, options.contact_tolerance) {
         const bool timed = !std::isnan(options.stop_time);
         last_step_ = steps_until(timed ? options.stop_time : longest_run * time_step_.time_step);
         const double by_default = timed && options.stop_time > 0 ? options.stop_time / 200 : default_sample_interval * units_.time;
         const double interval = std::isnan(options.sample_interval) ? by_default : options.sample_interval;
+        plateau_time_ = std::isnan(options.plateau_time) ? default_plateau_time * units_.time : options.plateau_time;
         sample_steps_ = std::max<std::int64_t>(1, steps_until(interval));
         for (const double time : options.snapshot_times) {
             snapshot_steps_.push_back(steps_until(time));
@@ -111,7 +172,7 @@ public:
 
     BrownianRun run() {
         try {
-            while (!at_end()) {
+            while (ended_by().empty()) {
                 system_.step();
                 observe();
                 watch();
@@ -130,7 +191,8 @@ private:
         }
         const BrownianCheckpoint& from = *control_.resume;
         require(from.positions.cols() == start_.size(), "the checkpoint is that of another number of particles");
-        return {from.step, from.positions, from.list_reference, from.near_reference, from.far_forces};
+        return {from.step,       from.positions, from.list_reference,      from.near_reference,
+                from.far_forces, from.rotations, to_springs(from.memories)};
     }
 
     std::int64_t steps_until(double time) const {
@@ -148,10 +210,22 @@ private:
 
     double time() const { return static_cast<double>(system_.steps()) * time_step_.time_step; }
 
-    bool at_end() const {
-        const std::vector<double>& coordination = sampler_.series().coordination;
-        return system_.steps() >= last_step_ ||
-               (!std::isnan(options_.stop_coordination) && coordination.back() >= options_.stop_coordination);
+    /// Empty as long as the run goes on.
+    std::string ended_by() const {
+        if (system_.steps() >= last_step_) {
+            return "time";
+        }
+        const BrownianSeries& series = sampler_.series();
+        if (!std::isnan(options_.stop_coordination) && series.coordination.back() >= options_.stop_coordination) {
+            return "coordination";
+        }
+        const bool sampled = series.time.back() == time();
+        const bool together = 2 * series.largest.back() >= start_.size();
+        if (options_.stop_plateau != PlateauOf::nothing && sampled && together) {
+            const auto& values = options_.stop_plateau == PlateauOf::coordination ? series.coordination : series.mean_gap;
+            return is_plateau(series.time, values, plateau_time_, options_.plateau_change) ? "plateau" : "";
+        }
+        return "";
     }
 
     Packing packing() const {
@@ -166,7 +240,7 @@ private:
     void observe() {
         const std::int64_t now = system_.steps();
         if (now % sample_steps_ == 0 || now == last_step_) {
-            sampler_.sample(packing(), time());
+            sampler_.sample(packing(), time(), system_.observed_energy());
         }
         if (now < last_step_ && std::binary_search(snapshot_steps_.begin(), snapshot_steps_.end(), now)) {
             snapshots_.push_back({time(), packing().positions});
@@ -196,8 +270,8 @@ private:
         }
         BrownianState state = system_.state();
         control_.on_checkpoint({state.step, std::move(state.positions), std::move(state.list_reference),
-                                std::move(state.near_reference), std::move(state.far_forces), sampler_.contacts(),
-                                sampler_.series(), snapshots_});
+                                std::move(state.near_reference), std::move(state.far_forces), std::move(state.rotations),
+                                to_memories(state.springs), sampler_.contacts(), sampler_.series(), snapshots_});
     }
 
     BrownianRun describe() const {
@@ -207,22 +281,25 @@ private:
         run.time = time();
         run.coordination = coordination_number(run.contacts);
         run.steps = system_.steps();
+        run.ended_by = ended_by();
         run.time_step = time_step_;
         run.series = sampler_.series();
         run.snapshots = snapshots_;
         return run;
     }
 
-    const Packing& start_;
+    ReducedUnits units_;
+    double cutoff_;  ///< of the forces [m]
+    Packing start_;
     const BrownianOptions& options_;
     const Progress& progress_;
     const BrownianControl& control_;
-    ReducedUnits units_;
     TimeStep time_step_;
     BrownianSystem system_;
     BrownianSampler sampler_;
     std::int64_t last_step_ = 0;
     std::int64_t sample_steps_ = 1;
+    double plateau_time_ = unset;
     std::vector<std::int64_t> snapshot_steps_;
     std::vector<Snapshot> snapshots_;
     std::string note_;

@@ -3,6 +3,7 @@
 
 #include <coagula/generators/brownian_dynamics.hpp>
 
+#include "contact_springs.hpp"
 #include "reduced_units.hpp"
 
 namespace coagula::generators {
@@ -12,8 +13,8 @@ public:
     /// @param cutoff gap beyond which pairs have no energy [m].
     BrownianSampler(const PairPotential& potential, const ReducedUnits& units, double cutoff, double contact_tolerance);
 
-    /// Appends the values of this packing to the series.
-    void sample(const Packing& packing, double time);
+    /// Appends the values of this packing to the series. @param resistance energy of sliding and rolling, over kB T.
+    void sample(const Packing& packing, double time, const SpringEnergy& resistance);
 
     using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>;
     void resume(const BrownianSeries& series, const Pairs& contacts);
@@ -22,11 +23,11 @@ public:
     const Pairs& contacts() const { return contacts_; }
 
 private:
-    void count_clusters(Index particles);
+    void count_clusters(const Packing& packing, const ContactNetwork& contacts);
     void count_changes(const Pairs& now);
 
     const PairPotential& potential_;
-    double mean_radius_;
+    ReducedUnits units_;
     double cutoff_;
     double tolerance_;
     BrownianSeries series_;

@@ -3,6 +3,8 @@
 #include <coagula/common/cell_list.hpp>
 #include <coagula/common/checks.hpp>
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,7 +40,32 @@ void share_chunks(Chunks& chunks, Work&& work) {
 }  // namespace
 
 BrownianState initial_state(const Eigen::Matrix3Xd& positions) {
-    return {0, positions, positions, positions, Eigen::Matrix3Xd::Zero(3, positions.cols())};
+    const Eigen::Matrix3Xd none = Eigen::Matrix3Xd::Zero(3, positions.cols());
+    return {0, positions, positions, positions, none, none, {}};
+}
+
+void BrownianSystem::Motion::resize(std::size_t slots) {
+    for (std::vector<double>* values : {&start, &current, &previous, &noise, &force}) {
+        values->assign(4 * slots, 0.0);
+    }
+    mobility.assign(slots, 0.0);
+    noise_scale.assign(slots, 0.0);
+}
+
+StageArrays BrownianSystem::Motion::arrays() {
+    return {start.data(), noise.data(), force.data(), mobility.data(), current.data(), previous.data()};
+}
+
+std::vector<double> BrownianSystem::Motion::observed(const BrownianSetup& setup, std::int64_t step, RandomPurpose purpose,
+                                                     const std::vector<std::int32_t>& particles) const {
+    std::vector<double> shaken(start.size());
+    random_normals(setup.seed, purpose, static_cast<std::uint64_t>(step), particles, shaken.data());
+    for (std::size_t slot = 0; slot < particles.size(); ++slot) {
+        for (std::size_t part = 4 * slot; part < 4 * slot + 3; ++part) {
+            shaken[part] = start[part] + setup.scheme.observation * noise_scale[slot] * shaken[part];
+        }
+    }
+    return shaken;
 }
 
 /// Finds neighbours in slots.
@@ -59,7 +86,7 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
       equal_radii_(setup_.radii.minCoeff() == setup_.radii.maxCoeff()),
       list_skin_(wide_skin),
       near_skin_(narrow_skin),
-      reserve_(6 * std::sqrt(2 * setup_.mobility * setup_.time_step / setup_.radii.minCoeff())),
+      reserve_(6 * std::sqrt(2 * setup_.time_step / setup_.radii.minCoeff())),
       step_(state.step) {
     const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
     require(setup_.period.minCoeff() >= 2 * reach, "the box is " + to_text(setup_.period.minCoeff()) +
@@ -79,15 +106,18 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
     for (std::size_t slot = 0; slot < particles; ++slot) {
         particle_[slot] = static_cast<std::int32_t>(slot);
     }
-    for (std::vector<double>* values : {&current_, &previous_, &noise_, &force_}) {
-        values->assign(4 * particles, 0.0);
+    translation_.resize(particles);
+    if (setup_.springs.active()) {
+        rotation_.resize(particles);
+        rotation_.start = in_slots(state.rotations);
     }
-    position_ = in_slots(state.list_reference);
+    translation_.start = in_slots(state.list_reference);
     far_ = in_slots(state.far_forces);
     make_list();
     near_reference_ = in_slots(state.near_reference);
     choose_near();
-    position_ = in_slots(state.positions);
+    translation_.start = in_slots(state.positions);
+    place_springs(state.springs);
     for (Chunk& chunk : chunks_) {
         measure_paths(chunk);
     }
@@ -110,18 +140,13 @@ Eigen::Matrix3Xd BrownianSystem::in_order(const std::vector<double>& slots) cons
 }
 
 BrownianState BrownianSystem::state() const {
-    return {step_, in_order(position_), in_order(list_reference_), in_order(near_reference_), in_order(far_)};
+    return {
+        step_,    in_order(translation_.start), in_order(list_reference_), in_order(near_reference_), in_order(far_), rotations(),
+        springs()};
 }
 
 Eigen::Matrix3Xd BrownianSystem::observed_positions() const {
-    std::vector<double> shaken(position_.size());
-    random_normals(setup_.seed, RandomPurpose::brownian_observation, static_cast<std::uint64_t>(step_), particle_, shaken.data());
-    for (std::size_t slot = 0; slot < particle_.size(); ++slot) {
-        for (std::size_t part = 4 * slot; part < 4 * slot + 3; ++part) {
-            shaken[part] = position_[part] + setup_.scheme.observation * noise_scale_[slot] * shaken[part];
-        }
-    }
-    return in_order(shaken);
+    return in_order(translation_.observed(setup_, step_, RandomPurpose::brownian_observation, particle_));
 }
 
 std::size_t BrownianSystem::near_pairs() const {
@@ -134,27 +159,35 @@ std::size_t BrownianSystem::near_pairs() const {
 
 /// Sorts the slots in space and lists all pairs, both at the present positions.
 void BrownianSystem::make_list() {
-    const Eigen::Matrix3Xd positions = in_order(position_);
+    const Eigen::Matrix3Xd positions = in_order(translation_.start);
     const Eigen::Matrix3Xd far = in_order(far_);
+    const Eigen::Matrix3Xd turned = rotations();
+    const std::vector<ContactSpring> remembered = springs();
     const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
     const PairFinder finder(Cell::periodic(setup_.period), positions, reach);
     particle_.assign(finder.cells.order().begin(), finder.cells.order().end());
-    position_ = in_slots(positions);
+    translation_.start = in_slots(positions);
     far_ = in_slots(far);
-    list_reference_ = position_;
-    const std::size_t particles = particle_.size();
-    radius_.resize(particles);
-    mobility_.resize(particles);
-    noise_scale_.resize(particles);
-    for (std::size_t slot = 0; slot < particles; ++slot) {
+    list_reference_ = translation_.start;
+    radius_.resize(particle_.size());
+    for (std::size_t slot = 0; slot < particle_.size(); ++slot) {
         radius_[slot] = setup_.radii[particle_[slot]];
-        mobility_[slot] = setup_.mobility / radius_[slot];
-        noise_scale_[slot] = std::sqrt(2 * mobility_[slot] * setup_.time_step);
+        translation_.mobility[slot] = 1 / radius_[slot];
+        translation_.noise_scale[slot] = std::sqrt(2 * translation_.mobility[slot] * setup_.time_step);
+    }
+    if (setup_.springs.active()) {
+        rotation_.start = in_slots(turned);
+        for (std::size_t slot = 0; slot < particle_.size(); ++slot) {
+            // Stokes: 8 pi viscosity R^3 against 6 pi viscosity R.
+            rotation_.mobility[slot] = 0.75 / (radius_[slot] * radius_[slot] * radius_[slot]);
+            rotation_.noise_scale[slot] = std::sqrt(2 * rotation_.mobility[slot] * setup_.time_step);
+        }
     }
 #pragma omp parallel
     share_chunks(chunks_, [&](Chunk& chunk) { list_pairs(chunk, finder); });
-    near_reference_ = position_;
+    near_reference_ = translation_.start;
     choose_near();
+    place_springs(remembered);
     ++lists_made_;
 }
 
@@ -162,7 +195,7 @@ void BrownianSystem::list_pairs(Chunk& chunk, const PairFinder& finder) const {
     chunk.all.inside.clear();
     chunk.all.across.clear();
     for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
-        const Eigen::Vector3d here = Eigen::Vector3d::Map(&position_[4 * slot]);
+        const Eigen::Vector3d here = Eigen::Vector3d::Map(&translation_.start[4 * slot]);
         const double own_reach = setup_.far.last() + list_skin_ + radius_[slot];
         const auto first = static_cast<std::int32_t>(slot);
         finder.cells.for_each_near(here, [&](int particle, const Eigen::Vector3d& separation) {
@@ -216,16 +249,12 @@ void BrownianSystem::measure_paths(Chunk& chunk) const {
     chunk.list_path_squared = 0;
     chunk.near_path_squared = 0;
     for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
-        const double* const here = &position_[4 * slot];
+        const double* const here = &translation_.start[4 * slot];
         const double from_list = squared_distance(here, &list_reference_[4 * slot]);
         const double from_near = squared_distance(here, &near_reference_[4 * slot]);
         chunk.list_path_squared = std::max(chunk.list_path_squared, from_list);
         chunk.near_path_squared = std::max(chunk.near_path_squared, from_near);
     }
-}
-
-StageArrays BrownianSystem::arrays() {
-    return {position_.data(), noise_.data(), force_.data(), mobility_.data(), current_.data(), previous_.data()};
 }
 
 void BrownianSystem::add_forces(const Pairs& pairs, const ForceTable& table, const std::vector<double>& positions,
@@ -239,40 +268,79 @@ void BrownianSystem::add_forces(const Pairs& pairs, const ForceTable& table, con
     add_forces_on_first(loop, table, pairs.across.data(), pairs.across.size());
 }
 
-/// Noise, the point where the first force is taken, and the far forces.
-void BrownianSystem::begin_step(Chunk& chunk, bool refresh_far) {
-    const std::size_t count = chunk.end - chunk.begin;
-    random_normals(setup_.seed, setup_.noise, static_cast<std::uint64_t>(step_), std::span(particle_).subspan(chunk.begin, count),
-                   &noise_[4 * chunk.begin]);
+void BrownianSystem::draw_noise(Motion& motion, const Chunk& chunk, RandomPurpose purpose) const {
+    random_normals(setup_.seed, purpose, static_cast<std::uint64_t>(step_),
+                   std::span(particle_).subspan(chunk.begin, chunk.end - chunk.begin), &motion.noise[4 * chunk.begin]);
     for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
         for (std::size_t part = 4 * slot; part < 4 * slot + 4; ++part) {
-            noise_[part] *= noise_scale_[slot];
-            current_[part] = position_[part] + setup_.scheme.evaluation * noise_[part];
+            motion.noise[part] *= motion.noise_scale[slot];
+            motion.current[part] = motion.start[part] + setup_.scheme.evaluation * motion.noise[part];
         }
     }
+}
+
+/// Noise, the point where the first force is taken, the far forces and the contacts.
+void BrownianSystem::begin_step(Chunk& chunk, bool refresh_far) {
+    draw_noise(translation_, chunk, setup_.noise);
     if (refresh_far) {
-        std::fill(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * count, 0.0);
-        add_forces(chunk.all, setup_.far, position_, far_);
+        std::fill(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), 0.0);
+        for (std::size_t slot = chunk.begin; setup_.weight != 0 && slot < chunk.end; ++slot) {
+            far_[4 * slot + 2] = -setup_.weight * radius_[slot] * radius_[slot] * radius_[slot];
+        }
+        add_forces(chunk.all, setup_.far, translation_.start, far_);
+    }
+    if (setup_.springs.active()) {
+        draw_noise(rotation_, chunk, RandomPurpose::brownian_rotation);
+        refresh_springs(spring_loop(), chunk.near.inside, chunk.springs.inside);
+        refresh_springs(spring_loop(), chunk.near.across, chunk.springs.across);
+    }
+}
+
+void BrownianSystem::add_walls(const Chunk& chunk) {
+    for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
+        const double height = translation_.current[4 * slot + 2];
+        const double below = std::max(0.0, radius_[slot] - height);
+        const double above = std::max(0.0, height + radius_[slot] - setup_.ceiling);
+        translation_.force[4 * slot + 2] += setup_.wall_stiffness * (below - above);
     }
 }
 
 void BrownianSystem::sum_forces(const Chunk& chunk) {
-    std::copy(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), &force_[4 * chunk.begin]);
-    add_forces(chunk.near, setup_.near, current_, force_);
+    std::copy(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), &translation_.force[4 * chunk.begin]);
+    add_forces(chunk.near, setup_.near, translation_.current, translation_.force);
+    if (setup_.ceiling > 0) {
+        add_walls(chunk);
+    }
+    if (setup_.springs.active()) {
+        std::fill(&rotation_.force[4 * chunk.begin], &rotation_.force[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), 0.0);
+        SpringLoop loop = spring_loop();
+        loop.force = translation_.force.data();
+        loop.torque = rotation_.force.data();
+        add_spring_forces(loop, chunk.springs.inside, true);
+        add_spring_forces(loop, chunk.springs.across, false);
+    }
 }
 
-void BrownianSystem::move(Chunk& chunk, std::size_t stage) {
+void BrownianSystem::move(Motion& motion, const Chunk& chunk, std::size_t stage) const {
     const StageWeights& weights = setup_.scheme.stages[stage];
     if (stage == 0) {
-        first_stage(arrays(), chunk.begin, chunk.end, weights, setup_.time_step);
+        first_stage(motion.arrays(), chunk.begin, chunk.end, weights, setup_.time_step);
     } else {
-        later_stage(arrays(), chunk.begin, chunk.end, weights, setup_.time_step);
+        later_stage(motion.arrays(), chunk.begin, chunk.end, weights, setup_.time_step);
     }
-    if (stage + 1 == setup_.scheme.stages.size()) {
-        std::copy(&current_[4 * chunk.begin], &current_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin),
-                  &position_[4 * chunk.begin]);
-        measure_paths(chunk);
+}
+
+/// The last stage is the new position.
+void BrownianSystem::end_step(Chunk& chunk) {
+    const auto accept = [&](Motion& motion) {
+        std::copy(&motion.current[4 * chunk.begin], &motion.current[4 * chunk.begin] + 4 * (chunk.end - chunk.begin),
+                  &motion.start[4 * chunk.begin]);
+    };
+    accept(translation_);
+    if (setup_.springs.active()) {
+        accept(rotation_);
     }
+    measure_paths(chunk);
 }
 
 void BrownianSystem::step() {
@@ -287,16 +355,31 @@ void BrownianSystem::step() {
     if (std::sqrt(list_path) > (list_skin_ + slack) / 2 - reserve_) {
         make_list();
     } else if (std::sqrt(near_path) > near_skin_ / 2 - reserve_) {
-        near_reference_ = position_;
+        near_reference_ = translation_.start;
         choose_near();
     }
     const bool refresh_far = step_ % setup_.far_interval == 0;
-#pragma omp parallel
+    const bool turning = setup_.springs.active();
+    // More threads than chunks would only wait.
+    const int threads = std::min(omp_get_max_threads(), static_cast<int>(chunks_.size()));
+#pragma omp parallel num_threads(threads)
     {
         share_chunks(chunks_, [&](Chunk& chunk) { begin_step(chunk, refresh_far); });
         for (std::size_t stage = 0; stage < setup_.scheme.stages.size(); ++stage) {
             share_chunks(chunks_, [&](const Chunk& chunk) { sum_forces(chunk); });
-            share_chunks(chunks_, [&](Chunk& chunk) { move(chunk, stage); });
+            const bool last = stage + 1 == setup_.scheme.stages.size();
+            share_chunks(chunks_, [&](Chunk& chunk) {
+                move(translation_, chunk, stage);
+                if (turning) {
+                    move(rotation_, chunk, stage);
+                } else if (last) {
+                    end_step(chunk);
+                }
+            });
+        }
+        if (turning) {
+            share_chunks(chunks_, [&](Chunk& chunk) { advance_contacts(chunk); });
+            share_chunks(chunks_, [&](Chunk& chunk) { end_step(chunk); });
         }
     }
     ++step_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "brownian_kernels.hpp"
+#include "contact_springs.hpp"
 #include "force_table.hpp"
 #include "step_scheme.hpp"
 
@@ -26,7 +27,10 @@ struct BrownianSetup {
     std::int64_t far_interval = 1;
     std::uint64_t seed = 1;
     RandomPurpose noise = RandomPurpose::brownian_force;
-    double mobility = 1;  ///< of a particle of mean radius
+    double weight = 0;   ///< of a sphere of mean radius, along -z
+    double ceiling = 0;  ///< height of an elastic wall above another one at z = 0; no walls if 0
+    double wall_stiffness = 0;
+    SpringRules springs = {};  ///< what contacts oppose to sliding and rolling; particles turn only where something does
 };
 
 /// All that a run needs to go on to the same bits; vectors are 3 x N in the caller's order.
@@ -36,6 +40,8 @@ struct BrownianState {
     Eigen::Matrix3Xd list_reference;  ///< positions when the list of all pairs was made
     Eigen::Matrix3Xd near_reference;  ///< the same of the list of near pairs
     Eigen::Matrix3Xd far_forces;
+    Eigen::Matrix3Xd rotations;          ///< sum of the rotation vectors of all steps; empty where particles do not turn
+    std::vector<ContactSpring> springs;  ///< sorted by their particles
 };
 
 /// A state to start from.
@@ -52,9 +58,15 @@ public:
     std::int64_t steps() const { return step_; }
     double time() const { return static_cast<double>(step_) * setup_.time_step; }
     /// As the scheme has them, not wrapped.
-    Eigen::Matrix3Xd positions() const { return in_order(position_); }
+    Eigen::Matrix3Xd positions() const { return in_order(translation_.start); }
+    /// Sums of rotation vectors; empty where particles do not turn.
+    Eigen::Matrix3Xd rotations() const { return setup_.springs.active() ? in_order(rotation_.start) : Eigen::Matrix3Xd(); }
     /// To be measured: after the postprocessor of the scheme. Does not change the run.
     Eigen::Matrix3Xd observed_positions() const;
+    /// The energy of the springs in contacts, measured likewise.
+    SpringEnergy observed_energy() const;
+    /// What the contacts remember, as the scheme has it, sorted by their particles.
+    std::vector<ContactSpring> springs() const;
     BrownianState state() const;
     std::int64_t lists_made() const { return lists_made_; }
     std::size_t near_pairs() const;
@@ -65,28 +77,51 @@ private:
         std::vector<SlotPair> inside;
         std::vector<SlotPair> across;
     };
+    /// Springs of the pairs that touch, in the same two lists.
+    struct Springs {
+        std::vector<LoadedSpring> inside;
+        std::vector<LoadedSpring> across;
+    };
     /// Consecutive slots. The number of chunks depends on the number of particles only.
     struct Chunk {
         std::size_t begin = 0;
         std::size_t end = 0;
         Pairs all;
         Pairs near;
+        Springs springs;
         double list_path_squared = 0;  ///< largest squared distance from the references
         double near_path_squared = 0;
     };
 
-    void sort_slots();
+    /// Arrays of the stages of one step. Four numbers per slot, but one per slot of mobility and noise_scale.
+    struct Motion {
+        std::vector<double> start, current, previous, noise, force, mobility, noise_scale;
+
+        void resize(std::size_t slots);
+        StageArrays arrays();
+        /// The start with the noise of the postprocessor.
+        std::vector<double> observed(const BrownianSetup& setup, std::int64_t step, RandomPurpose purpose,
+                                     const std::vector<std::int32_t>& particles) const;
+    };
+
     void make_list();
     void list_pairs(Chunk& chunk, const class PairFinder& finder) const;
     void choose_near();
     void choose_near(const std::vector<SlotPair>& from, std::vector<SlotPair>& to) const;
     void measure_paths(Chunk& chunk) const;
     void begin_step(Chunk& chunk, bool refresh_far);
+    void draw_noise(Motion& motion, const Chunk& chunk, RandomPurpose purpose) const;
     void sum_forces(const Chunk& chunk);
-    void move(Chunk& chunk, std::size_t stage);
+    void add_walls(const Chunk& chunk);
+    void move(Motion& motion, const Chunk& chunk, std::size_t stage) const;
+    void advance_contacts(Chunk& chunk) const;
+    void end_step(Chunk& chunk);
+    template <class Call>
+    void for_each_contact(Call&& call) const;
+    void place_springs(const std::vector<ContactSpring>& springs);
+    SpringLoop spring_loop() const;
     void add_forces(const Pairs& pairs, const ForceTable& table, const std::vector<double>& positions,
                     std::vector<double>& forces) const;
-    StageArrays arrays();
     std::vector<double> in_slots(const Eigen::Matrix3Xd& values) const;
     Eigen::Matrix3Xd in_order(const std::vector<double>& slots) const;
 
@@ -99,10 +134,11 @@ private:
     std::int64_t lists_made_ = 0;
     std::vector<Chunk> chunks_;
     std::vector<std::int32_t> particle_;  ///< of each slot
+    Motion translation_;
+    Motion rotation_;  ///< empty where particles do not turn
     // Four numbers per slot:
-    std::vector<double> position_, list_reference_, near_reference_, current_, previous_, noise_, force_, far_;
-    // One number per slot:
-    std::vector<double> radius_, mobility_, noise_scale_;
+    std::vector<double> list_reference_, near_reference_, far_;
+    std::vector<double> radius_;  ///< of each slot
 };
 
 }  // namespace coagula::generators

@@ -1,6 +1,8 @@
 // The units of the inner loops: mean radius, kB T and the diffusion time of a particle of mean radius.
 #pragma once
 
+#include "contact_springs.hpp"
+
 #include <coagula/generators/brownian_dynamics.hpp>
 
 #include <numbers>
@@ -26,6 +28,9 @@ struct ForceRanges {
 };
 
 ForceRanges choose_ranges(const PairPotential& potential, const ReducedUnits& units, const BrownianOptions& options);
+
+/// Refuses values out of range and a rolling resistance on contacts that slide freely.
+SpringRules spring_rules(const PairPotential& potential, const ContactResistance& resistance, const ReducedUnits& units);
 
 /// dF/dgap in reduced units.
 double force_slope(const PairPotential& potential, const ReducedUnits& units, double gap);

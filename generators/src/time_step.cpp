@@ -35,16 +35,26 @@ void check(const BrownianOptions& options) {
     }
 }
 
+/// Bound of the rates that sliding and rolling contacts add, for the twelve contacts that a sphere can have: tangential springs act
+/// on translations (8 k per contact and direction, as network_factor has it) and on rotations, where mobility 3/4 and the sum over
+/// twelve contacts of 1 - n n^T (8 in each direction) make 8 * 3/4 * 2 of particles that turn in the same sense; rolling springs
+/// likewise, at the reduced radius 1/2.
+double resistance_rate(const SpringRules& rules) {
+    return (2 * network_factor + 12) * rules.tangential_stiffness + 12 * rules.rolling_stiffness / 4;
+}
+
 /// Largest gradient of the force that particles meet.
-double largest_steepness(const PairPotential& potential, const ReducedUnits& units, double closest_gap, double cutoff) {
+/// @param pressed whether a weight may press particles over the barrier.
+double largest_steepness(const PairPotential& potential, const ReducedUnits& units, double closest_gap, double cutoff,
+                         bool pressed) {
     const double height = potential.barrier_height(cutoff * units.length) / units.energy;
     const auto top = potential.barrier(cutoff * units.length);
-    const bool contacts = height < impassable || (top && closest_gap < top->gap);
+    const bool contacts = pressed || height < impassable || (top && closest_gap < top->gap);
     double largest = contacts ? potential.contact().stiffness * units.length * units.length / units.energy : 0.0;
     const double lowest = contacts ? potential.cut_gap() / units.length : top->gap / units.length;
     for (double gap = lowest; gap < cutoff; gap += 1e-3) {
         // Attraction that grows towards contact, a negative stiffness, makes no step unstable.
-        if (potential.energy(gap * units.length) / units.energy < impassable) {
+        if (pressed || potential.energy(gap * units.length) / units.energy < impassable) {
             largest = std::max(largest, -force_slope(potential, units, gap));
         }
     }
@@ -62,6 +72,37 @@ StepScheme scheme_of(Integrator integrator, int stages) {
 }
 
 }  // namespace
+
+double mean_field_slowing(double volume_fraction) {
+    require(volume_fraction >= 0 && volume_fraction < 0.64,
+            "the volume fraction is " + to_text(volume_fraction) + ", but mean-field hydrodynamics hold for 0 to 0.64");
+    return (1 - 1.56 * volume_fraction) * (1 - 0.27 * volume_fraction);
+}
+
+SpringRules spring_rules(const PairPotential& potential, const ContactResistance& resistance, const ReducedUnits& units) {
+    const auto given = [](double value) { return !std::isnan(value); };
+    SpringRules rules;
+    rules.reach = potential.cut_gap() / units.length;
+    const double stiffness_unit = units.energy / (units.length * units.length);
+    rules.normal_stiffness = potential.contact().stiffness / stiffness_unit;
+    if (given(resistance.tangential_stiffness)) {
+        rules.tangential_stiffness =
+            require_positive(resistance.tangential_stiffness, "the tangential stiffness", "N/m") / stiffness_unit;
+    }
+    if (given(resistance.rolling_stiffness)) {
+        require(rules.active(), "contacts that resist rolling need a tangential stiffness: without one they slide and never roll");
+        rules.rolling_stiffness = require_positive(resistance.rolling_stiffness, "the rolling stiffness", "N/m") / stiffness_unit;
+    }
+    if (given(resistance.friction)) {
+        require(rules.active(), "a coefficient of friction needs a tangential stiffness");
+        rules.friction = require_non_negative(resistance.friction, "the coefficient of friction");
+    }
+    if (given(resistance.rolling_friction)) {
+        require(rules.rolling_stiffness > 0, "a coefficient of rolling friction needs a rolling stiffness");
+        rules.rolling_friction = require_non_negative(resistance.rolling_friction, "the coefficient of rolling friction");
+    }
+    return rules;
+}
 
 double force_slope(const PairPotential& potential, const ReducedUnits& units, double gap) {
     constexpr double half = 1e-5;
@@ -92,7 +133,10 @@ TimeStep choose_time_step(const PairPotential& potential, double mean_radius, do
                 " m, but that must be less than a tenth of the mean radius: take a stiffer contact or a smaller equilibrium gap");
     const ReducedUnits units(mean_radius, options);
     const double cutoff = choose_ranges(potential, units, options).cutoff;
-    const double rate = network_factor * largest_steepness(potential, units, closest_gap, cutoff);
+    const bool pressed = !std::isnan(options.sedimentation.gravity);
+    const SpringRules rules = spring_rules(potential, options.resistance, units);
+    const double rate = network_factor * largest_steepness(potential, units, closest_gap, cutoff, pressed) +
+                        resistance_rate(rules) + (pressed ? rules.normal_stiffness : 0.0);  // of the walls
     const double height = potential.barrier_height(cutoff * units.length) / units.energy;
     TimeStep chosen;
     chosen.diffusion_time = units.time;

@@ -66,6 +66,29 @@ class Runs(ProgramTest):
         for name in one:
             self.assertEqual(one[name], two[name], name)
 
+    def test_rough_contacts_levels_and_heterogeneity(self):
+        rough = ["--tangential-stiffness", "6mN/m", "--friction", "0.3", "--rolling-stiffness", "3mN/m", "--rolling-friction", "0.1"]
+        made = self.succeed_json(*SUSPENSION, *rough, "--surface-potential", "0", "--stop-plateau", "coordination", "--plateau-time",
+                                 "0.3ms", "--plateau-change", "0.1", "--stop-time", "20ms", "--snapshots", "0.2ms",
+                                 "--heterogeneity", "-o", "b.h5")
+        self.assertEqual(made["ended_by"], "plateau")
+        self.assertEqual(made["series"]["percolating_axes"][-1], 3)
+        self.assertGreater(made["series"]["rolling_energy"][-1], 0)
+        found = self.succeed_json("characterize", "b.h5")
+        self.assertEqual(len(made["heterogeneity"]["a"]), 3)
+        self.assertAlmostEqual(made["heterogeneity"]["a"][-1], found["doh"]["a"])
+        self.assertEqual(made["heterogeneity"]["coordination"][-1], made["coordination"])
+        self.assertLess(made["heterogeneity"]["a"][0], made["heterogeneity"]["a"][-1])
+
+    def test_weight_and_hydrodynamics(self):
+        words = [*SUSPENSION, "--surface-potential", "50mV", "--stop-time", "0.3ms"]
+        plain = self.succeed_json(*words, "-o", "plain.h5")
+        made = self.succeed_json(*words, "--hydrodynamics", "mean-field", "--gravity", "9.81m/s2", "--density-difference",
+                                 "2690kg/m3", "-o", "b.h5")
+        self.assertAlmostEqual(plain["diffusion_time"] / made["diffusion_time"], (1 - 1.56 * 0.4) * (1 - 0.27 * 0.4))
+        self.assertLess(made["volume_fraction"], 0.38)
+        self.succeed_json("characterize", "b.h5")
+
     def test_goes_on_from_a_packing_of_another_generator(self):
         made = self.succeed_json("generate", "brownian", "--start", PACKING, "--surface-potential", "0", "--stop-time", "10us",
                                  "-o", "b.h5")
@@ -80,7 +103,8 @@ class Runs(ProgramTest):
 
 @unittest.skipIf(h5py is None, "needs python3-h5py")
 class Restart(ProgramTest):
-    LONG = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "3ms"]
+    LONG = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "3ms", "--tangential-stiffness", "6mN/m", "--friction", "0.3",
+            "--rolling-stiffness", "3mN/m"]
 
     def test_killed_runs_go_on_to_the_same_bytes(self):
         self.succeed(*self.LONG, "-o", "whole.h5")
@@ -122,6 +146,9 @@ class Refusals(ProgramTest):
                            (["--integrator", "euler", "--time-step", "1us"], "stable up to"),
                            (["--volume-fraction", "0.7"], "--volume-fraction"),
                            (["--equilibrium-gap", "90nm"], "contact"),
+                           (["--friction", "0.3"], "tangential stiffness"),
+                           (["--gravity", "9.81m/s2"], "density difference"),
+                           (["--stop-plateau", "energy"], "--stop-plateau"),
                            (["--yukawa-energy", "1e-20J"], "--yukawa-length"),
                            (["--potential-table", "absent.csv"], "absent.csv"),
                            (["--snapshots", "1nm"], "1nm")):

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "plateau.hpp"
 #include "support/brownian_pairs.hpp"
 
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -30,10 +33,22 @@ BrownianOptions short_run() {
     return options;
 }
 
+/// Contacts that stick, slip and roll.
+BrownianOptions rough_run() {
+    BrownianOptions options = short_run();
+    const double unit = examples::thermal / (radius * radius);
+    options.resistance = {
+        .tangential_stiffness = 1e5 * unit, .friction = 0.2, .rolling_stiffness = 1e5 * unit, .rolling_friction = 0.05};
+    return options;
+}
+
 void expect_same(const BrownianRun& one, const BrownianRun& other) {
     EXPECT_TRUE((one.packing.positions.array() == other.packing.positions.array()).all());
     EXPECT_EQ(one.series.time, other.series.time);
     EXPECT_EQ(one.series.energy, other.series.energy);
+    EXPECT_EQ(one.series.sliding_energy, other.series.sliding_energy);
+    EXPECT_EQ(one.series.rolling_energy, other.series.rolling_energy);
+    EXPECT_EQ(one.series.percolating, other.series.percolating);
     EXPECT_EQ(one.series.coordination, other.series.coordination);
     EXPECT_EQ(one.series.formed, other.series.formed);
     EXPECT_EQ(one.series.broken, other.series.broken);
@@ -44,23 +59,38 @@ void expect_same(const BrownianRun& one, const BrownianRun& other) {
     }
 }
 
-TEST(BrownianDynamics, DoesNotDependOnTheNumberOfThreads) {
-    Packing start = suspension(4500);
+void expect_same_with_threads(const Packing& start, const BrownianOptions& options) {
     const int threads = omp_get_max_threads();
     omp_set_num_threads(1);
-    const BrownianRun one = simulate_brownian(start, dlvo(0), short_run());
+    const BrownianRun one = simulate_brownian(start, dlvo(0), options);
     omp_set_num_threads(2);
-    const BrownianRun two = simulate_brownian(start, dlvo(0), short_run());
+    const BrownianRun two = simulate_brownian(start, dlvo(0), options);
     omp_set_num_threads(threads);
     EXPECT_GT(one.coordination, 0.5);
     expect_same(one, two);
 }
 
-TEST(BrownianDynamics, GoesOnToTheSameBits) {
-    const Packing start = suspension(1000);
-    const BrownianOptions options = short_run();
-    const BrownianRun whole = simulate_brownian(start, dlvo(0.012), options);
-    // Cancelled again and again, each time a little later.
+TEST(BrownianDynamics, DoesNotDependOnTheNumberOfThreads) {
+    expect_same_with_threads(suspension(4500), short_run());
+}
+
+TEST(BrownianDynamics, DoesNotDependOnTheNumberOfThreadsWithRoughContacts) {
+    expect_same_with_threads(suspension(4500), rough_run());
+}
+
+Packing mixture(Index particles) {
+    SuspensionOptions options;
+    options.volume_fraction = 0.3;
+    options.radii.resize(particles);
+    for (Index particle = 0; particle < particles; ++particle) {
+        options.radii[particle] = (particle % 2 == 0 ? 0.8 : 1.2) * radius;
+    }
+    return place_suspension(options);
+}
+
+/// Cancelled again and again, each time a little later.
+void expect_same_in_pieces(const Packing& start, const BrownianOptions& options) {
+    const BrownianRun whole = simulate_brownian(start, dlvo(0), options);
     std::optional<BrownianCheckpoint> kept;
     int resumed = 0;
     std::optional<BrownianRun> pieces;
@@ -72,7 +102,7 @@ TEST(BrownianDynamics, GoesOnToTheSameBits) {
         control.resume = from ? &*from : nullptr;
         control.on_checkpoint = [&](const BrownianCheckpoint& checkpoint) { kept = checkpoint; };
         try {
-            pieces = simulate_brownian(start, dlvo(0.012), options, impatient, control);
+            pieces = simulate_brownian(start, dlvo(0), options, impatient, control);
         } catch (const Cancelled&) {
             ++resumed;
         }
@@ -80,6 +110,75 @@ TEST(BrownianDynamics, GoesOnToTheSameBits) {
     EXPECT_GT(resumed, 2);
     expect_same(whole, *pieces);
     EXPECT_EQ(whole.snapshots.size(), 2U);
+}
+
+TEST(BrownianDynamics, GoesOnToTheSameBits) {
+    expect_same_in_pieces(suspension(1000), short_run());
+}
+
+TEST(BrownianDynamics, GoesOnToTheSameBitsWithRoughContactsOfUnequalParticles) {
+    // Two chunks, so that contacts have two memories.
+    expect_same_in_pieces(mixture(4000), rough_run());
+}
+
+TEST(BrownianDynamics, RoughCrystalIsStableBelowTheBound) {
+    // Twelve contacts each: what the bound is made for. A mode beyond it would grow a hundredfold within some steps.
+    constexpr int cells = 5;
+    constexpr double edge = 2.004 * std::numbers::sqrt2;
+    Packing crystal{Cell::periodic(Eigen::Vector3d::Constant(cells * edge * radius)),
+                    Eigen::Matrix3Xd(3, 4 * cells * cells * cells), Eigen::VectorXd::Constant(4 * cells * cells * cells, radius)};
+    for (Index particle = 0; particle < crystal.size(); ++particle) {
+        const Index cell = particle / 4;
+        Eigen::Vector3d place(static_cast<double>(cell % cells), static_cast<double>(cell / cells % cells),
+                              static_cast<double>(cell / cells / cells));
+        if (particle % 4 > 0) {
+            place += 0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(particle % 4 - 1));
+        }
+        crystal.positions.col(particle) = edge * radius * place;
+    }
+    BrownianOptions options;
+    const double unit = examples::thermal / (radius * radius);
+    options.resistance = {.tangential_stiffness = 8e5 * unit, .rolling_stiffness = 8e5 * unit};
+    options.integrator = Integrator::euler;
+    options.time_step = 0.98 * choose_time_step(dlvo(0), radius, 0, options).stability_bound;
+    options.stop_time = 1500 * options.time_step;
+    const BrownianRun run = simulate_brownian(crystal, dlvo(0), options);
+    EXPECT_EQ(run.coordination, 12);
+    // Equipartition: 500 spheres have 3000 modes, which share all energies.
+    EXPECT_LT(run.series.sliding_energy.back() + run.series.rolling_energy.back(), 10 * 1500 * examples::thermal);
+    EXPECT_GT(run.series.sliding_energy.back(), 0.1 * 1500 * examples::thermal);
+}
+
+TEST(BrownianDynamics, StopsWhenTheCoordinationIsLevel) {
+    BrownianOptions options;
+    options.stop_time = 0.1 * examples::diffusion_time();
+    options.sample_interval = 5e-4 * examples::diffusion_time();
+    options.stop_plateau = PlateauOf::coordination;
+    options.plateau_time = 0.01 * examples::diffusion_time();
+    options.plateau_change = 0.03;
+    const BrownianRun run = simulate_brownian(suspension(300), dlvo(0), options);
+    EXPECT_EQ(run.ended_by, "plateau");
+    EXPECT_GT(run.coordination, 3);
+    EXPECT_LT(run.time, options.stop_time);
+    EXPECT_EQ(run.series.percolating.back(), 3);
+    EXPECT_EQ(run.series.percolating.front(), 0);
+    options.plateau_change = 0.01;
+    EXPECT_GT(simulate_brownian(suspension(300), dlvo(0), options).time, run.time);
+}
+
+TEST(BrownianDynamics, PlateauIsThatOfTheMeans) {
+    std::vector<double> time(41);
+    std::iota(time.begin(), time.end(), 0.0);
+    std::vector<double> values(41, 2.0);
+    EXPECT_TRUE(is_plateau(time, values, 10, 1e-3));
+    EXPECT_FALSE(is_plateau(time, values, 50, 1e-3));  // longer than the series
+    EXPECT_FALSE(is_plateau(time, values, 4, 1e-3));   // too few samples
+    for (std::size_t sample = 0; sample < values.size(); ++sample) {
+        values[sample] = 2 + 0.01 * static_cast<double>(sample);
+    }
+    // Slope 0.01, halves of five samples: means 0.05 apart, the later 2.38.
+    EXPECT_TRUE(is_plateau(time, values, 10, 0.0211));
+    EXPECT_FALSE(is_plateau(time, values, 10, 0.0209));
 }
 
 TEST(BrownianDynamics, KeepsItsBooks) {
@@ -110,16 +209,32 @@ TEST(BrownianDynamics, StopsAtTheCoordination) {
 }
 
 TEST(BrownianDynamics, MovesUnequalParticles) {
-    Eigen::VectorXd sizes(300);
-    for (Index particle = 0; particle < 300; ++particle) {
-        sizes[particle] = (particle % 2 == 0 ? 0.8 : 1.2) * radius;
-    }
-    SuspensionOptions mixture;
-    mixture.volume_fraction = 0.3;
-    mixture.radii = sizes;
-    const BrownianRun run = simulate_brownian(place_suspension(mixture), dlvo(0), short_run());
+    const BrownianRun run = simulate_brownian(mixture(300), dlvo(0), short_run());
     EXPECT_GT(run.coordination, 0.3);
     EXPECT_NEAR(run.series.mean_gap.back() / radius, 0.004, 0.004);
+}
+
+TEST(BrownianDynamics, SettlesOntoTheFloor) {
+    const Packing start = suspension(300);
+    BrownianOptions options = short_run();
+    options.stop_time = 0.03 * examples::diffusion_time();
+    options.sedimentation = {.gravity = 1e5, .density_difference = 2690};  // 109 kB T/R
+    const BrownianRun run = simulate_brownian(start, dlvo(0.05), options);
+    EXPECT_GT(run.packing.cell.lengths()[2], start.cell.lengths()[2] + 2 * radius);
+    // No deeper in the walls than the noise of a step carries.
+    const double noise = std::sqrt(2 * run.time_step.time_step / run.time_step.diffusion_time) * radius;
+    EXPECT_GT(run.packing.positions.row(2).minCoeff(), radius - 6 * noise);
+    EXPECT_LT(run.packing.positions.row(2).mean(), 0.9 * 0.5 * start.cell.lengths()[2]);
+    options.sedimentation.density_difference *= -1;
+    const BrownianRun creamed = simulate_brownian(start, dlvo(0.05), options);
+    EXPECT_GT(creamed.packing.positions.row(2).mean() - radius, 1.1 * 0.5 * start.cell.lengths()[2]);
+    EXPECT_LT(creamed.packing.positions.row(2).maxCoeff(), start.cell.lengths()[2] + radius + 6 * noise);
+}
+
+TEST(BrownianDynamics, MeanFieldSlowing) {
+    EXPECT_EQ(mean_field_slowing(0), 1);
+    EXPECT_NEAR((1 - mean_field_slowing(1e-4)) / 1e-4, 1.83, 0.005);  // Batchelor 1976, dilute hard spheres
+    EXPECT_NEAR(mean_field_slowing(0.4), 0.3354, 1e-4);
 }
 
 template <class Call>
@@ -147,7 +262,25 @@ TEST(BrownianDynamics, RefusesWhatIsImpossible) {
     says(options, "the viscosity is -1 Pa s");
     options = short_run();
     options.stop_time = unset;
-    says(options, "stop time or a stop coordination");
+    says(options, "needs a stop time, a stop coordination or a plateau");
+    options = short_run();
+    options.resistance.friction = 0.3;
+    says(options, "a coefficient of friction needs a tangential stiffness");
+    options.resistance = {.rolling_stiffness = 1};
+    says(options, "resist rolling need a tangential stiffness");
+    options.resistance = {.tangential_stiffness = 1, .rolling_friction = 1};
+    says(options, "a coefficient of rolling friction needs a rolling stiffness");
+    options.resistance = {.tangential_stiffness = -1};
+    says(options, "the tangential stiffness is -1 N/m");
+    options = short_run();
+    options.sedimentation.gravity = 9.81;
+    says(options, "gravity and a density difference need each other");
+    options.sedimentation = {.gravity = -9.81, .density_difference = 1};
+    says(options, "gravity is -9.81 m/s^2");
+    options = short_run();
+    options.stop_plateau = PlateauOf::mean_gap;
+    options.plateau_change = 0;
+    says(options, "the change that counts as a plateau is 0");
     options = short_run();
     options.cutoff_gap = 5 * radius;
     says(options, "take more particles");

@@ -20,6 +20,8 @@ enum class RandomPurpose : std::uint64_t {
     diagnosis = 6,
     brownian_observation = 7,
     equilibration = 8,
+    brownian_rotation = 9,
+    rotation_observation = 10,
     test = 100,
 };
 

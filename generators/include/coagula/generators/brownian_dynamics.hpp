@@ -24,16 +24,51 @@ enum class Integrator {
     euler,       ///< Euler-Maruyama
 };
 
+/// Share of the free diffusion that particles keep on short times among others: (1 - 1.56 phi)(1 - 0.27 phi), a fit to hard spheres
+/// with hydrodynamic interactions (Lionberger and Russel, J. Rheol. 38 (1994) 1885).
+/// @param volume_fraction phi, 0 <= phi < 0.64, where it vanishes.
+double mean_field_slowing(double volume_fraction);
+
+/// What contacts oppose to sliding and rolling; nothing unless given. With any of it particles turn and have rotational Brownian
+/// motion, mobility 1/(8 pi viscosity R^3). A contact lasts while the gap is below PairPotential::cut_gap; the limits count against
+/// its elastic normal force, stiffness (cut gap - gap), which is the attraction and the load together. The elastic displacements
+/// follow the motion of the contact point (Cundall and Strack, Geotechnique 29 (1979) 47; Luding, Granular Matter 10 (2008) 235).
+/// For two spheres of mean radius; others scale as in simulate_brownian. Twisting is free.
+struct ContactResistance {
+    double tangential_stiffness = unset;  ///< [N/m]; sliding is free if unset
+    double friction = unset;  ///< a contact slips when its tangential force exceeds this times the normal one; never if unset
+    double rolling_stiffness = unset;  ///< force per rolling displacement at the reduced radius [N/m]; rolling is free if unset
+    double rolling_friction = unset;   ///< the same limit of the rolling force; none if unset
+};
+
+/// Weight along -z, between a floor and a ceiling. The packing is cut open at the bottom of its box, which grows by a largest
+/// radius below and above, where elastic walls of the stiffness of a contact are, and by an empty layer beyond the range of the
+/// forces, so that particles at the floor and at the ceiling do not meet.
+struct Sedimentation {
+    double gravity = unset;             ///< [m/s^2], > 0; none if unset
+    double density_difference = unset;  ///< of particles and liquid [kg/m^3]; below 0 particles rise
+};
+
+/// How a run ends by itself.
+enum class PlateauOf { nothing, coordination, mean_gap };
+
 /// What moves the particles. SI units.
 struct BrownianOptions {
-    double temperature = 293;   ///< [K]
-    double viscosity = 1e-3;    ///< of the liquid [Pa s]
-    double slowing = 1;         ///< share of the free diffusion that hydrodynamics leave on average, 0 < slowing <= 1
+    double temperature = 293;  ///< [K]
+    double viscosity = 1e-3;   ///< of the liquid [Pa s]
+    double slowing = 1;        ///< share of the free diffusion that hydrodynamics leave on average, 0 < slowing <= 1
+    ContactResistance resistance;
+    Sedimentation sedimentation;
     double cutoff_gap = unset;  ///< beyond it no force [m]; one mean radius if unset
     Integrator integrator = Integrator::stabilised;
-    double time_step = unset;            ///< [s]; chosen by choose_time_step if unset
-    double stop_time = unset;            ///< the run ends then [s]
-    double stop_coordination = unset;    ///< or as soon as the mean number of contacts reaches this
+    double time_step = unset;                     ///< [s]; chosen by choose_time_step if unset
+    double stop_time = unset;                     ///< the run ends then [s]
+    double stop_coordination = unset;             ///< or as soon as the mean number of contacts reaches this
+    PlateauOf stop_plateau = PlateauOf::nothing;  ///< or as soon as this hardly changes any more
+    /// Its means over the two halves of the last `plateau_time` differ by less than `plateau_change` of the later. Counted only
+    /// while half of the particles or more hang together.
+    double plateau_time = unset;         ///< [s]; a tenth of R^2/D if unset
+    double plateau_change = 0.01;        ///< > 0
     double contact_tolerance = 0.01;     ///< pairs nearer than (1 + tolerance) (r_i + r_j) count as contacts
     double sample_interval = unset;      ///< of the time series [s]; a two-hundredth of the stop time, or 5e-4 R^2/D, if unset
     std::vector<double> snapshot_times;  ///< when positions are kept, besides the end [s]
@@ -58,20 +93,30 @@ TimeStep choose_time_step(const PairPotential& potential, double mean_radius, do
 
 /// Values at the times of the samples; all of one length.
 struct BrownianSeries {
-    std::vector<double> time;            ///< [s]
-    std::vector<double> coordination;    ///< mean number of contacts
-    std::vector<double> energy;          ///< of all pairs [J]
-    std::vector<double> mean_gap;        ///< of the contacts [m]; 0 without contacts
-    std::vector<std::int64_t> clusters;  ///< particles joined by contacts, single ones included
-    std::vector<std::int64_t> largest;   ///< particles in the largest cluster
-    std::vector<std::int64_t> formed;    ///< contacts that are new since the sample before
-    std::vector<std::int64_t> broken;    ///< contacts that are gone since the sample before
+    std::vector<double> time;               ///< [s]
+    std::vector<double> coordination;       ///< mean number of contacts
+    std::vector<double> energy;             ///< of all pairs, without sliding and rolling [J]
+    std::vector<double> sliding_energy;     ///< elastic, of the tangential displacements [J]
+    std::vector<double> rolling_energy;     ///< elastic, of the rolling displacements [J]
+    std::vector<double> mean_gap;           ///< of the contacts [m]; 0 without contacts
+    std::vector<std::int64_t> clusters;     ///< particles joined by contacts, single ones included
+    std::vector<std::int64_t> largest;      ///< particles in the largest cluster
+    std::vector<std::int64_t> percolating;  ///< axes along which contacts reach around the box, 0 to 3
+    std::vector<std::int64_t> formed;       ///< contacts that are new since the sample before
+    std::vector<std::int64_t> broken;       ///< contacts that are gone since the sample before
 };
 
 /// Positions at a time.
 struct Snapshot {
     double time = unset;         ///< [s]
     Eigen::Matrix3Xd positions;  ///< inside the box [m]
+};
+
+/// What contacts that resist sliding or rolling remember, one column each, sorted by their particles.
+struct ContactMemories {
+    Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic> ends;  ///< lower particle first
+    Eigen::Matrix3Xd sliding;                             ///< [mean radii]
+    Eigen::Matrix3Xd rolling;                             ///< [rad]
 };
 
 /// All that a run needs to go on to the same bits. Positions in units of the mean radius.
@@ -81,6 +126,8 @@ struct BrownianCheckpoint {
     Eigen::Matrix3Xd list_reference;
     Eigen::Matrix3Xd near_reference;
     Eigen::Matrix3Xd far_forces;
+    Eigen::Matrix3Xd rotations;                               ///< sums of rotation vectors; empty where particles do not turn
+    ContactMemories memories;                                 ///< empty where nothing resists
     Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic> contacts;  ///< of the last sample
     BrownianSeries series;
     std::vector<Snapshot> snapshots;
@@ -99,6 +146,7 @@ struct BrownianRun {
     double time = unset;      ///< simulated [s]
     double coordination = unset;
     std::int64_t steps = 0;
+    std::string ended_by;  ///< what ended the run: "time", "coordination" or "plateau"
     TimeStep time_step;
     BrownianSeries series;
     std::vector<Snapshot> snapshots;  ///< before the end, in the order of time
