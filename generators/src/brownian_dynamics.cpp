@@ -25,6 +25,7 @@ constexpr double far_spacing = 5e-3;
 constexpr double longest_run = 1e15;              // steps
 constexpr double default_sample_interval = 5e-4;  // in units of R^2/D, when no stop time is given
 constexpr double default_plateau_time = 0.1;      // in units of R^2/D
+constexpr int plateau_samples = 16;               // at least, over the time of the plateau
 
 void check(const Packing& start, const BrownianOptions& options) {
     coagula::check(start);
@@ -159,10 +160,8 @@ public:
           sampler_(potential, units_, cutoff_, options.contact_tolerance) {
         const bool timed = !std::isnan(options.stop_time);
         last_step_ = steps_until(timed ? options.stop_time : longest_run * time_step_.time_step);
-        const double by_default = timed && options.stop_time > 0 ? options.stop_time / 200 : default_sample_interval * units_.time;
-        const double interval = std::isnan(options.sample_interval) ? by_default : options.sample_interval;
         plateau_time_ = std::isnan(options.plateau_time) ? default_plateau_time * units_.time : options.plateau_time;
-        sample_steps_ = std::max<std::int64_t>(1, steps_until(interval));
+        sample_steps_ = std::max<std::int64_t>(1, steps_until(sample_interval()));
         for (const double time : options.snapshot_times) {
             snapshot_steps_.push_back(steps_until(time));
         }
@@ -209,6 +208,19 @@ private:
     }
 
     double time() const { return static_cast<double>(system_.steps()) * time_step_.time_step; }
+
+    double sample_interval() const {
+        const bool plateau = options_.stop_plateau != PlateauOf::nothing;
+        if (!std::isnan(options_.sample_interval)) {
+            require(!plateau || plateau_samples * options_.sample_interval <= plateau_time_,
+                    "the sample interval is " + to_text(options_.sample_interval) + " s, but a plateau of " +
+                        to_text(plateau_time_) + " s needs at least " + std::to_string(plateau_samples) + " samples");
+            return options_.sample_interval;
+        }
+        const bool timed = options_.stop_time > 0;
+        const double interval = timed ? options_.stop_time / 200 : default_sample_interval * units_.time;
+        return plateau ? std::min(interval, plateau_time_ / plateau_samples) : interval;
+    }
 
     /// Empty as long as the run goes on.
     std::string ended_by() const {

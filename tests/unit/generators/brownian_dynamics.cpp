@@ -279,6 +279,9 @@ TEST(BrownianDynamics, RefusesWhatIsImpossible) {
     says(options, "gravity is -9.81 m/s^2");
     options = short_run();
     options.stop_plateau = PlateauOf::mean_gap;
+    options.plateau_time = 15 * options.sample_interval;
+    says(options, "s needs at least 16 samples");
+    options.plateau_time = unset;
     options.plateau_change = 0;
     says(options, "the change that counts as a plateau is 0");
     options = short_run();
