@@ -15,8 +15,8 @@ namespace coagula::generators {
 
 namespace {
 
-constexpr double wide_skin = 0.6;     // of the list of all pairs
-constexpr double narrow_skin = 0.25;  // of the list of near pairs
+constexpr double wide_skin = 0.6;        // of the list of all pairs
+constexpr double most_near_skin = 0.25;  // of the list of near pairs
 constexpr std::size_t particles_per_chunk = 2000;
 constexpr std::size_t most_chunks = 16;
 
@@ -85,8 +85,9 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
     : setup_(std::move(setup)),
       equal_radii_(setup_.radii.minCoeff() == setup_.radii.maxCoeff()),
       list_skin_(wide_skin),
-      near_skin_(narrow_skin),
       reserve_(6 * std::sqrt(2 * setup_.time_step / setup_.radii.minCoeff())),
+      // Shorter steps: fewer pairs too many, since less is lost to the reserve.
+      near_skin_(std::min(most_near_skin, 0.1 + 4 * reserve_)),
       step_(state.step) {
     const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
     require(setup_.period.minCoeff() >= 2 * reach, "the box is " + to_text(setup_.period.minCoeff()) +
@@ -225,7 +226,9 @@ void BrownianSystem::choose_near() {
 }
 
 void BrownianSystem::choose_near(const std::vector<SlotPair>& from, std::vector<SlotPair>& to) const {
+    constexpr double round = 0x1.8p52;  // the last bit is the unit
     const double reach = setup_.near.last() + near_skin_;
+    const Eigen::Vector3d turns_per_length = setup_.period.cwiseInverse();
     to.clear();
     for (const SlotPair& pair : from) {
         const auto first = static_cast<std::size_t>(pair.first);
@@ -233,9 +236,9 @@ void BrownianSystem::choose_near(const std::vector<SlotPair>& from, std::vector<
         double squared = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const auto part = static_cast<std::size_t>(axis);
-            const double period = setup_.period[axis];
             const double distance = near_reference_[4 * second + part] - near_reference_[4 * first + part];
-            const double nearest = distance - period * std::floor(distance / period + 0.5);
+            const double turns = (distance * turns_per_length[axis] + round) - round;
+            const double nearest = distance - turns * setup_.period[axis];
             squared += nearest * nearest;
         }
         const double limit = reach + radius_[first] + radius_[second];

@@ -128,8 +128,8 @@ private:
     BrownianSetup setup_;
     bool equal_radii_;
     double list_skin_;
-    double near_skin_;
     double reserve_;  ///< farther than this a particle hardly goes within a step
+    double near_skin_;
     std::int64_t step_ = 0;
     std::int64_t lists_made_ = 0;
     std::vector<Chunk> chunks_;

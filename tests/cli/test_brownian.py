@@ -137,6 +137,31 @@ class Restart(ProgramTest):
         self.assertEqual(done.returncode, 1)
         self.check_sentence(done.stderr, says="state.h5")
         self.assertEqual(os.listdir(self.folder), [])
+        # A good checkpoint outlives the disk that fills up behind it, and the run goes on from it.
+        program = subprocess.Popen([PROGRAM, *words], cwd=self.folder, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        while not (self.folder / "state.h5").exists() and program.poll() is None:
+            time.sleep(0.02)
+        program.send_signal(signal.SIGTERM)
+        program.wait()
+        before = checksum(self.folder / "state.h5")
+        done = subprocess.run(["bash", "-c", limit], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.check_sentence(done.stderr, says="state.h5")
+        self.assertEqual(os.listdir(self.folder), ["state.h5"])
+        self.assertEqual(checksum(self.folder / "state.h5"), before)
+        self.succeed(*words)
+        # A damaged one is refused and kept.
+        whole = (self.folder / "state.h5").read_bytes()
+        (self.folder / "state.h5").write_bytes(whole[:len(whole) // 2])
+        self.fail_with(2, *words, "--force", says="state.h5")
+        self.assertEqual((self.folder / "state.h5").read_bytes(), whole[:len(whole) // 2])
+
+    def test_overlapping_start(self):
+        self.write("points.csv", "x,y,z\n" + "".join(f"{x},{y},{z}\n" for x in (1, 4, 7) for y in (1, 4, 7) for z in (1, 2.8, 6)))
+        self.succeed("import", "points.csv", "--radius", "0.25um", "--length-unit", "0.25um", "--box", "2.25um", "-o", "points.h5")
+        self.fail_with(2, "generate", "brownian", "--start", "points.h5", "--surface-potential", "0", "--stop-time", "1us", "-o",
+                       "b.h5", says="overlap by")
+        self.assertFalse((self.folder / "b.h5").exists())
 
 
 class Refusals(ProgramTest):

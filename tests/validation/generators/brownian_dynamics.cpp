@@ -1,4 +1,6 @@
 // Brownian dynamics against closed forms: free diffusion, Boltzmann distributions, the rate over the barrier.
+#include <coagula/characterize/heterogeneity.hpp>
+#include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/generators/brownian_dynamics.hpp>
 
 #include <gtest/gtest.h>
@@ -86,6 +88,30 @@ TEST(BrownianPhysics, SecondaryMinimumHasItsBoltzmannDistribution) {
     }
     std::printf("total variation %.4f\n", distance);
     EXPECT_LT(distance, 0.01);
+}
+
+TEST(BrownianPhysics, StabilisedSuspensionHasItsHeterogeneity) {
+    // Schenker et al. 2012: 0.265 for their stabilised suspension; Brownian dynamics at 50 mV: 0.265 (N = 8000).
+    SuspensionOptions suspension;
+    suspension.volume_fraction = 0.4;
+    suspension.radii = Eigen::VectorXd::Constant(2000, radius);
+    BrownianOptions options;
+    const double tau = examples::diffusion_time();
+    options.stop_time = 0.5 * tau;
+    options.sample_interval = options.stop_time;
+    for (int time = 0; time < 8; ++time) {
+        options.snapshot_times.push_back((0.15 + 0.05 * time) * tau);
+    }
+    const BrownianRun run = simulate_brownian(place_suspension(suspension), dlvo(0.05), options);
+    double mean = 0;
+    for (const Snapshot& snapshot : run.snapshots) {
+        const Packing packing{run.packing.cell, snapshot.positions, run.packing.radii};
+        mean += characterize::fit_degree_of_heterogeneity(characterize::measure_pores(packing), radius).a /
+                static_cast<double>(run.snapshots.size());
+    }
+    std::printf("a = %.4f\n", mean);
+    EXPECT_EQ(run.coordination, 0);
+    EXPECT_NEAR(mean, 0.265, 0.005);
 }
 
 TEST(BrownianPhysics, ContactsRestAtTheirGapAndTemperature) {
