@@ -154,11 +154,10 @@ COAGULA_VARIANTS void first_stage(const StageArrays& slots, std::size_t begin, s
         Four position;
         Four noise;
         Four force;
-        load(slots.position + 4 * slot, position);
+        load(slots.before + 4 * slot, position);
         load(slots.noise + 4 * slot, noise);
         load(slots.force + 4 * slot, force);
-        store(slots.previous + 4 * slot, position);
-        store(slots.current + 4 * slot, position + scale * slots.mobility[slot] * force + weights.noise * noise);
+        store(slots.target + 4 * slot, position + scale * slots.mobility[slot] * force + weights.noise * noise);
     }
 }
 
@@ -166,15 +165,13 @@ COAGULA_VARIANTS void later_stage(const StageArrays& slots, std::size_t begin, s
                                   double time_step) {
     const double scale = weights.force * time_step;
     for (std::size_t slot = begin; slot < end; ++slot) {
-        Four current;
-        Four previous;
+        Four latest;
+        Four before;
         Four force;
-        load(slots.current + 4 * slot, current);
-        load(slots.previous + 4 * slot, previous);
+        load(slots.latest + 4 * slot, latest);
+        load(slots.before + 4 * slot, before);
         load(slots.force + 4 * slot, force);
-        store(slots.previous + 4 * slot, current);
-        store(slots.current + 4 * slot,
-              weights.current * current + weights.previous * previous + scale * slots.mobility[slot] * force);
+        store(slots.target + 4 * slot, weights.current * latest + weights.previous * before + scale * slots.mobility[slot] * force);
     }
 }
 

@@ -29,18 +29,18 @@ void add_forces_on_both(const PairLoop& loop, const ForceTable& table, const Slo
 /// The same, for the first particles only.
 void add_forces_on_first(const PairLoop& loop, const ForceTable& table, const SlotPair* pairs, std::size_t count);
 
-/// Arrays of four numbers per slot, as above, of the stages of one step.
+/// Arrays of four numbers per slot, as above, of one stage of a step.
 struct StageArrays {
-    const double* position;  ///< at the start of the step
-    const double* noise;     ///< displacement by the noise of the step
+    const double* before;  ///< K_(i-2); in the first stage X, the start of the step
+    const double* latest;  ///< K_(i-1), where the forces were taken
+    const double* noise;   ///< displacement by the noise of the step
     const double* force;
     const double* mobility;  ///< one number per slot
-    double* current;         ///< the latest stage
-    double* previous;        ///< the one before it
+    double* target;          ///< K_i; may be `before`
 };
 
-/// Weights of one stage: current <- force dt mobility F + current K_(i-1) + previous K_(i-2); in the first stage
-/// current <- X + force dt mobility F + noise Q, previous <- X.
+/// Weights of one stage: target <- force dt mobility F + current K_(i-1) + previous K_(i-2); in the first stage
+/// target <- X + force dt mobility F + noise Q.
 struct StageWeights {
     double force = 0;
     double current = 0;

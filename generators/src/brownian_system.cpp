@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -45,15 +44,23 @@ BrownianState initial_state(const Eigen::Matrix3Xd& positions) {
 }
 
 void BrownianSystem::Motion::resize(std::size_t slots) {
-    for (std::vector<double>* values : {&start, &current, &previous, &noise, &force}) {
+    for (std::vector<double>* values : {&start, &noise, &force, &stages[0], &stages[1]}) {
         values->assign(4 * slots, 0.0);
     }
     mobility.assign(slots, 0.0);
     noise_scale.assign(slots, 0.0);
 }
 
-StageArrays BrownianSystem::Motion::arrays() {
-    return {start.data(), noise.data(), force.data(), mobility.data(), current.data(), previous.data()};
+StageArrays BrownianSystem::Motion::arrays(std::size_t stage) {
+    std::vector<double>& latest = stages[stage % 2];
+    std::vector<double>& target = stages[(stage + 1) % 2];
+    // The second stage still needs the start; the target of the others holds the stage before the latest.
+    return {.before = stage < 2 ? start.data() : target.data(),
+            .latest = latest.data(),
+            .noise = noise.data(),
+            .force = force.data(),
+            .mobility = mobility.data(),
+            .target = target.data()};
 }
 
 std::vector<double> BrownianSystem::Motion::observed(const BrownianSetup& setup, std::int64_t step, RandomPurpose purpose,
@@ -277,7 +284,7 @@ void BrownianSystem::draw_noise(Motion& motion, const Chunk& chunk, RandomPurpos
     for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
         for (std::size_t part = 4 * slot; part < 4 * slot + 4; ++part) {
             motion.noise[part] *= motion.noise_scale[slot];
-            motion.current[part] = motion.start[part] + setup_.scheme.evaluation * motion.noise[part];
+            motion.stages[0][part] = motion.start[part] + setup_.scheme.evaluation * motion.noise[part];
         }
     }
 }
@@ -294,29 +301,30 @@ void BrownianSystem::begin_step(Chunk& chunk, bool refresh_far) {
     }
     if (setup_.springs.active()) {
         draw_noise(rotation_, chunk, RandomPurpose::brownian_rotation);
-        refresh_springs(spring_loop(), chunk.near.inside, chunk.springs.inside);
-        refresh_springs(spring_loop(), chunk.near.across, chunk.springs.across);
+        refresh_springs(spring_loop(0), chunk.near.inside, chunk.springs.inside);
+        refresh_springs(spring_loop(0), chunk.near.across, chunk.springs.across);
     }
 }
 
-void BrownianSystem::add_walls(const Chunk& chunk) {
+void BrownianSystem::add_walls(const Chunk& chunk, std::size_t stage) {
+    const std::vector<double>& position = translation_.stages[stage % 2];
     for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
-        const double height = translation_.current[4 * slot + 2];
+        const double height = position[4 * slot + 2];
         const double below = std::max(0.0, radius_[slot] - height);
         const double above = std::max(0.0, height + radius_[slot] - setup_.ceiling);
         translation_.force[4 * slot + 2] += setup_.wall_stiffness * (below - above);
     }
 }
 
-void BrownianSystem::sum_forces(const Chunk& chunk) {
+void BrownianSystem::sum_forces(const Chunk& chunk, std::size_t stage) {
     std::copy(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), &translation_.force[4 * chunk.begin]);
-    add_forces(chunk.near, setup_.near, translation_.current, translation_.force);
+    add_forces(chunk.near, setup_.near, translation_.stages[stage % 2], translation_.force);
     if (setup_.ceiling > 0) {
-        add_walls(chunk);
+        add_walls(chunk, stage);
     }
     if (setup_.springs.active()) {
         std::fill(&rotation_.force[4 * chunk.begin], &rotation_.force[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), 0.0);
-        SpringLoop loop = spring_loop();
+        SpringLoop loop = spring_loop(stage);
         loop.force = translation_.force.data();
         loop.torque = rotation_.force.data();
         add_spring_forces(loop, chunk.springs.inside, true);
@@ -327,17 +335,17 @@ void BrownianSystem::sum_forces(const Chunk& chunk) {
 void BrownianSystem::move(Motion& motion, const Chunk& chunk, std::size_t stage) const {
     const StageWeights& weights = setup_.scheme.stages[stage];
     if (stage == 0) {
-        first_stage(motion.arrays(), chunk.begin, chunk.end, weights, setup_.time_step);
+        first_stage(motion.arrays(stage), chunk.begin, chunk.end, weights, setup_.time_step);
     } else {
-        later_stage(motion.arrays(), chunk.begin, chunk.end, weights, setup_.time_step);
+        later_stage(motion.arrays(stage), chunk.begin, chunk.end, weights, setup_.time_step);
     }
 }
 
 /// The last stage is the new position.
 void BrownianSystem::end_step(Chunk& chunk) {
     const auto accept = [&](Motion& motion) {
-        std::copy(&motion.current[4 * chunk.begin], &motion.current[4 * chunk.begin] + 4 * (chunk.end - chunk.begin),
-                  &motion.start[4 * chunk.begin]);
+        const std::vector<double>& last = motion.stages[setup_.scheme.stages.size() % 2];
+        std::copy(&last[4 * chunk.begin], &last[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), &motion.start[4 * chunk.begin]);
     };
     accept(translation_);
     if (setup_.springs.active()) {
@@ -368,10 +376,11 @@ void BrownianSystem::step() {
 #pragma omp parallel num_threads(threads)
     {
         share_chunks(chunks_, [&](Chunk& chunk) { begin_step(chunk, refresh_far); });
+        // A stage reads what all chunks left in the one before and writes its own part of the other array.
         for (std::size_t stage = 0; stage < setup_.scheme.stages.size(); ++stage) {
-            share_chunks(chunks_, [&](const Chunk& chunk) { sum_forces(chunk); });
             const bool last = stage + 1 == setup_.scheme.stages.size();
             share_chunks(chunks_, [&](Chunk& chunk) {
+                sum_forces(chunk, stage);
                 move(translation_, chunk, stage);
                 if (turning) {
                     move(rotation_, chunk, stage);

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -95,10 +96,12 @@ private:
 
     /// Arrays of the stages of one step. Four numbers per slot, but one per slot of mobility and noise_scale.
     struct Motion {
-        std::vector<double> start, current, previous, noise, force, mobility, noise_scale;
+        std::vector<double> start, noise, force, mobility, noise_scale;
+        /// Forces of stage i are taken at [i % 2], which the stage before it left there; the first at the start with some noise.
+        std::array<std::vector<double>, 2> stages;
 
         void resize(std::size_t slots);
-        StageArrays arrays();
+        StageArrays arrays(std::size_t stage);
         /// The start with the noise of the postprocessor.
         std::vector<double> observed(const BrownianSetup& setup, std::int64_t step, RandomPurpose purpose,
                                      const std::vector<std::int32_t>& particles) const;
@@ -111,15 +114,16 @@ private:
     void measure_paths(Chunk& chunk) const;
     void begin_step(Chunk& chunk, bool refresh_far);
     void draw_noise(Motion& motion, const Chunk& chunk, RandomPurpose purpose) const;
-    void sum_forces(const Chunk& chunk);
-    void add_walls(const Chunk& chunk);
+    void sum_forces(const Chunk& chunk, std::size_t stage);
+    void add_walls(const Chunk& chunk, std::size_t stage);
     void move(Motion& motion, const Chunk& chunk, std::size_t stage) const;
     void advance_contacts(Chunk& chunk) const;
     void end_step(Chunk& chunk);
     template <class Call>
     void for_each_contact(Call&& call) const;
     void place_springs(const std::vector<ContactSpring>& springs);
-    SpringLoop spring_loop() const;
+    /// @param stage where the particles have moved to.
+    SpringLoop spring_loop(std::size_t stage) const;
     void add_forces(const Pairs& pairs, const ForceTable& table, const std::vector<double>& positions,
                     std::vector<double>& forces) const;
     std::vector<double> in_slots(const Eigen::Matrix3Xd& values) const;

@@ -38,7 +38,7 @@ SpringEnergy BrownianSystem::observed_energy() const {
     }
     const std::vector<double> moved = translation_.observed(setup_, step_, RandomPurpose::brownian_observation, particle_);
     const std::vector<double> turned = rotation_.observed(setup_, step_, RandomPurpose::rotation_observation, particle_);
-    SpringLoop loop = spring_loop();
+    SpringLoop loop = spring_loop(0);
     loop.moved = moved.data();
     loop.turned = turned.data();
     for_each_contact([&](const LoadedSpring& spring) {
@@ -58,7 +58,7 @@ void BrownianSystem::place_springs(const std::vector<ContactSpring>& springs) {
     for (std::size_t slot = 0; slot < particle_.size(); ++slot) {
         slot_of[static_cast<std::size_t>(particle_[slot])] = static_cast<std::int32_t>(slot);
     }
-    const SpringLoop loop = spring_loop();
+    const SpringLoop loop = spring_loop(0);
     for (Chunk& chunk : chunks_) {
         chunk.springs.inside.clear();
         chunk.springs.across.clear();
@@ -84,21 +84,22 @@ void BrownianSystem::place_springs(const std::vector<ContactSpring>& springs) {
     }
 }
 
-SpringLoop BrownianSystem::spring_loop() const {
+SpringLoop BrownianSystem::spring_loop(std::size_t stage) const {
     SpringLoop loop{.rules = &setup_.springs,
                     .period = {setup_.period[0], setup_.period[1], setup_.period[2]},
                     .particles = particle_.data(),
                     .radii = radius_.data(),
                     .position = translation_.start.data(),
-                    .moved = translation_.current.data(),
+                    .moved = translation_.stages[stage % 2].data(),
                     .rotation = rotation_.start.data(),
-                    .turned = rotation_.current.data()};
+                    .turned = rotation_.stages[stage % 2].data()};
     return loop;
 }
 
 void BrownianSystem::advance_contacts(Chunk& chunk) const {
-    advance_springs(spring_loop(), chunk.springs.inside);
-    advance_springs(spring_loop(), chunk.springs.across);
+    const SpringLoop loop = spring_loop(setup_.scheme.stages.size());
+    advance_springs(loop, chunk.springs.inside);
+    advance_springs(loop, chunk.springs.across);
 }
 
 }  // namespace coagula::generators
