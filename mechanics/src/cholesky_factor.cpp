@@ -164,6 +164,10 @@ void CholeskyFactor::solve(const Loads& b, Loads& x) const {
     x = implementation_->solve(b);
 }
 
+void CholeskyFactor::solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const {
+    x = implementation_->solve(b);
+}
+
 void CholeskyFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
     x = implementation_->solve(b);
 }

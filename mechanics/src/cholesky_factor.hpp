@@ -47,6 +47,8 @@ public:
 
     /// x = (K + shift I)^-1 b for six right-hand sides.
     void solve(const Loads& b, Loads& x) const;
+    /// The same for any number of right-hand sides.
+    void solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const;
     /// The same for one right-hand side.
     void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 

@@ -1,5 +1,7 @@
 #include "contact_stiffness.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 
 namespace coagula::mechanics {
@@ -22,6 +24,12 @@ Ends second_end() {
     return ends;
 }
 
+/// Nearest positive semi-definite matrix to a symmetric one.
+Slope without_negative_directions(const Slope& matrix) {
+    const Eigen::SelfAdjointEigenSolver<Slope> modes(matrix);
+    return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() * modes.eigenvectors().transpose();
+}
+
 }  // namespace
 
 ContactStiffness::ContactStiffness(const ShearedNetwork& network, const Trial& trial) : particles_(network.particles()) {
@@ -29,7 +37,8 @@ ContactStiffness::ContactStiffness(const ShearedNetwork& network, const Trial& t
     const auto& contacts = network.contacts();
     for (std::size_t k = 0; k < contacts.size(); ++k) {
         if (!slopes[k].isZero(0)) {
-            links_.push_back({contacts[k].first, contacts[k].second, slopes[k], network.strain_rate(trial.memory[k])});
+            links_.push_back({static_cast<Index>(k), trial.memory[k].bonded, contacts[k].first, contacts[k].second, slopes[k],
+                              network.strain_rate(trial.memory[k])});
         }
     }
     ContactNetwork pairs;
@@ -85,9 +94,26 @@ Motion ContactStiffness::gather(const Change& change_of) const {
     return sum;
 }
 
-BlockMatrix ContactStiffness::symmetric_part() const {
+Slope ContactStiffness::part_of(const Link& link, Convex convex) {
+    const Slope part = 0.5 * (link.slope + link.slope.transpose());
+    return link.bonded && convex != Convex::all ? part : without_negative_directions(part);
+}
+
+void ContactStiffness::for_each_part(Convex convex, const std::function<void(Index, const Slope&)>& visit) const {
+    for (const Link& link : links_) {
+        visit(link.contact, part_of(link, convex));
+    }
+}
+
+BlockMatrix ContactStiffness::symmetric_part(Convex convex) const {
     static const Ends first = first_end();
     static const Ends second = second_end();
+    std::vector<Slope> parts(links_.size());
+    const auto count = static_cast<Index>(links_.size());
+#pragma omp parallel for schedule(static)
+    for (Index k = 0; k < count; ++k) {
+        parts[static_cast<std::size_t>(k)] = part_of(links_[static_cast<std::size_t>(k)], convex);
+    }
     BlockMatrix matrix;
     matrix.start.push_back(0);
     for (Index particle = 0; particle < particles_; ++particle) {
@@ -95,18 +121,18 @@ BlockMatrix ContactStiffness::symmetric_part() const {
         const auto at = static_cast<std::size_t>(particle);
         for (Index entry = groups_.start[at]; entry < groups_.start[at + 1]; ++entry) {
             const Link& link = links_[static_cast<std::size_t>(groups_.contact[static_cast<std::size_t>(entry)])];
-            const Eigen::Matrix<double, 9, 9> symmetric = 0.5 * (link.slope + link.slope.transpose());
+            const Slope& part = parts[static_cast<std::size_t>(groups_.contact[static_cast<std::size_t>(entry)])];
             if (link.first == link.second) {
-                row.front().second += 0.5 * (first + second).transpose() * symmetric * (first + second);
+                row.front().second += 0.5 * (first + second).transpose() * part * (first + second);
                 continue;
             }
             const bool is_first = link.first == particle;
             const Ends& here = is_first ? first : second;
             const Ends& there = is_first ? second : first;
             const Index other = is_first ? link.second : link.first;
-            row.front().second += here.transpose() * symmetric * here;
+            row.front().second += here.transpose() * part * here;
             if (other > particle) {
-                row.emplace_back(other, here.transpose() * symmetric * there);
+                row.emplace_back(other, here.transpose() * part * there);
             }
         }
         std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

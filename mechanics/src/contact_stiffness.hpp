@@ -3,6 +3,7 @@
 
 #include "sheared_network.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace coagula::mechanics {
@@ -17,17 +18,26 @@ public:
     /// Change of all forces and moments per strain when all particles follow it affinely.
     Motion strain_load() const;
 
+    /// Which contacts lose the directions in which their symmetric part has negative stiffness, by slip or compression (projected
+    /// Newton: Teran, Sifakis, Irving, Fedkiw, Symp. Computer Animation 2005, 181).
+    enum class Convex { contacts_without_bond, all };
+
     /// Symmetric part, upper triangle.
-    BlockMatrix symmetric_part() const;
+    BlockMatrix symmetric_part(Convex convex) const;
+    /// Calls with every contact that has any stiffness and what it adds to that.
+    void for_each_part(Convex convex, const std::function<void(Index contact, const Slope& part)>& visit) const;
 
 private:
     struct Link {
+        Index contact;
+        bool bonded;
         Index first;
         Index second;
-        Eigen::Matrix<double, 9, 9> slope;
+        Slope slope;
         Eigen::Vector3d strain_rate;  ///< affine change of the branch per strain, reduced
     };
 
+    static Slope part_of(const Link& link, Convex convex);
     template <class Change>
     Motion gather(const Change& change_of) const;
 

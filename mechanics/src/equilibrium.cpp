@@ -1,6 +1,5 @@
 #include "equilibrium.hpp"
 
-#include "blas_threads.hpp"
 #include "residual_minimisation.hpp"
 
 #include <algorithm>
@@ -11,9 +10,6 @@ namespace coagula::mechanics {
 
 namespace {
 
-constexpr int blas_threads = 1;          // the bits of a factor depend on it; a solution with one load gains nothing from more
-constexpr double smallest_shift = 1e-8;  // of the preconditioner, in contact stiffnesses
-constexpr double largest_shift = 10;
 constexpr double rounding = 5e-15;  // of forces, in contact stiffnesses times mean radii
 constexpr int most_newton_iterations = 25;
 constexpr int most_krylov_iterations = 60;
@@ -22,11 +18,46 @@ constexpr double krylov_tolerance = 1e-2;
 constexpr int stale_iterations = 15;   // beyond these a new factor is cheaper
 constexpr double longest_step = 0.05;  // of a particle in one iteration, in mean radii and radians
 constexpr int most_descents = 300;
+constexpr int most_corrections = 30;
+constexpr std::size_t trust = 8;     // corrections within which they must halve
+constexpr int most_updates = 10;     // of the factor, before the contacts are left as they are
+constexpr int easy_corrections = 4;  // solutions with a good factor
+constexpr int worth_a_factor = 30;   // a factorisation takes as long as so many solutions
 constexpr std::size_t patience = 4;  // Newton iterations within which the correction must halve
 
 double longest(const Motion& motion) {
     return motion.size() == 0 ? 0.0 : motion.cwiseAbs().maxCoeff();
 }
+
+/// Improves each correction by those before it so that what is left of their linear model is least (Anderson 1965; Walker and Ni,
+/// SIAM J. Numer. Anal. 49 (2011) 1715).
+class Acceleration {
+public:
+    Motion step(const Motion& correction) const {
+        Motion all = correction;
+        for (std::size_t k = 0; k < moved_.size(); ++k) {
+            all -= change_[k].dot(correction) * (moved_[k] + change_[k]);
+        }
+        return all;
+    }
+    /// @param change of the correction by the motion.
+    void learn(Motion motion, Motion change) {
+        for (std::size_t k = 0; k < moved_.size(); ++k) {
+            const double share = change_[k].dot(change);
+            change -= share * change_[k];
+            motion -= share * moved_[k];
+        }
+        const double length = change.norm();
+        if (length > 0) {
+            change_.emplace_back(change / length);
+            moved_.emplace_back(motion / length);
+        }
+    }
+
+private:
+    std::vector<Motion> moved_;
+    std::vector<Motion> change_;  // orthonormal
+};
 
 }  // namespace
 
@@ -40,31 +71,26 @@ bool EquilibriumSolver::is_balanced(const Trial& trial) {
     return balanced;
 }
 
-/// Factor of the symmetric part with the smallest shift that makes it positive definite.
-void EquilibriumSolver::factorise(const BlockMatrix& stiffness, double least_shift) {
-    const BlasThreads threads(blas_threads);
-    const EliminationOrder order(stiffness, Ordering::nested_dissection);
-    for (shift_ = least_shift;; shift_ *= 10) {
-        ++effort_.factorisations;
-        try {
-            factor_ = std::make_unique<CholeskyFactor>(stiffness, shift_, order);
-            break;
-        } catch (const NotPositiveDefinite&) {
-            if (shift_ > largest_shift) {
-                throw;
-            }
-        }
-    }
+void EquilibriumSolver::factorise(const ShearedNetwork& network, const Trial& trial) {
+    factor_ = std::make_unique<UpdatedFactor>(network, trial);
+    effort_.factorisations += factor_->factorisations();
     fresh_ = true;
+    wasted_ = 0;
+}
+
+/// Brings the factor up to date with the contacts that open, close, slip or are broken. Returns whether anything has changed.
+bool EquilibriumSolver::refresh(const ShearedNetwork& network, const Trial& trial) {
+    if (!factor_ || factor_->generation() != network.generation() || factor_->is_full() || wasted_ > worth_a_factor) {
+        factorise(network, trial);
+        return true;
+    }
+    return factor_->update(network, trial);
 }
 
 Motion EquilibriumSolver::precondition(const Motion& load) {
-    const BlasThreads threads(blas_threads);
     ++effort_.solutions;
     ++last_solutions_;
-    Motion motion;
-    factor_->solve(load, motion);
-    return motion;
+    return factor_->solve(load);
 }
 
 /// @param correction P^-1 residual; renewed with the factor.
@@ -72,7 +98,7 @@ std::optional<Motion> EquilibriumSolver::newton_step(const ShearedNetwork& netwo
     const ContactStiffness stiffness(network, trial);
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!factor_ || (attempt > 0 && !fresh_)) {
-            factorise(stiffness.symmetric_part(), smallest_shift);
+            factorise(network, trial);
             correction = precondition(trial.residual);
         }
         const KrylovSolution solution =
@@ -107,10 +133,50 @@ bool EquilibriumSolver::search_line(const ShearedNetwork& network, const Motion&
 
 Motion EquilibriumSolver::predict(const ShearedNetwork& network, const Trial& rest) {
     const ContactStiffness stiffness(network, rest);
-    factorise(stiffness.symmetric_part(), smallest_shift);
+    factorise(network, rest);
     return minimise_residual([&](const Motion& motion) { return precondition(stiffness * motion); },
                              precondition(stiffness.strain_load()), predictor_tolerance, most_krylov_iterations)
         .solution;
+}
+
+/// Corrections with the factor at hand, accelerated. Returns whether it came to balance; else `trial` is the best.
+bool EquilibriumSolver::correct(const ShearedNetwork& network, Trial& trial) {
+    Acceleration acceleration;
+    Trial now = trial;
+    Motion correction = precondition(now.residual);
+    std::vector<double> left{correction.norm()};
+    double least = left.front();
+    int updates = 0;
+    for (int iteration = 0; iteration < most_corrections; ++iteration) {
+        const Motion step = acceleration.step(correction);
+        if (!(longest(step) <= longest_step)) {
+            return false;
+        }
+        ++effort_.evaluations;
+        network.evaluate(trial.strain_increment, Motion(now.motion + step), now);
+        if (is_balanced(now)) {
+            trial = std::move(now);
+            return true;
+        }
+        const Motion before = correction;
+        correction = precondition(now.residual);
+        left.push_back(correction.norm());
+        if (left.size() > trust && !(left.back() < 0.5 * left[left.size() - 1 - trust])) {
+            return false;
+        }
+        if (updates < most_updates && refresh(network, now)) {
+            ++updates;
+            acceleration = {};
+            correction = precondition(now.residual);
+        } else {
+            acceleration.learn(step, correction - before);
+        }
+        if (left.back() < least) {
+            least = left.back();
+            trial = now;
+        }
+    }
+    return false;
 }
 
 bool EquilibriumSolver::find(const ShearedNetwork& network, double strain_increment, const Motion& start, Trial& trial) {
@@ -118,6 +184,20 @@ bool EquilibriumSolver::find(const ShearedNetwork& network, double strain_increm
     fresh_ = false;
     ++effort_.evaluations;
     network.evaluate(strain_increment, start, trial);
+    if (is_balanced(trial) || !std::isfinite(trial.rms_residual)) {
+        last_residual_ = trial.rms_residual;
+        return is_balanced(trial);
+    }
+    refresh(network, trial);
+    if (!correct(network, trial) && !follow_newton(network, trial)) {
+        return false;
+    }
+    last_residual_ = trial.rms_residual;
+    wasted_ += std::max(0, last_solutions_ - easy_corrections);
+    return true;
+}
+
+bool EquilibriumSolver::follow_newton(const ShearedNetwork& network, Trial& trial) {
     Motion correction;
     std::vector<double> left;
     for (int iteration = 0; iteration < most_newton_iterations; ++iteration) {
@@ -125,7 +205,7 @@ bool EquilibriumSolver::find(const ShearedNetwork& network, double strain_increm
         if (is_balanced(trial) || !std::isfinite(trial.rms_residual)) {
             return is_balanced(trial);
         }
-        if (factor_ && correction.size() == 0) {
+        if (refresh(network, trial) || correction.size() == 0) {
             correction = precondition(trial.residual);
         }
         const auto step = newton_step(network, trial, correction);
@@ -149,11 +229,11 @@ bool EquilibriumSolver::find(const ShearedNetwork& network, double strain_increm
 Motion EquilibriumSolver::downhill(const ShearedNetwork& network, const Trial& trial) {
     const ContactStiffness stiffness(network, trial);
     if (!factor_ || !fresh_) {
-        factorise(stiffness.symmetric_part(), smallest_shift);
+        factorise(network, trial);
     }
     const Motion correction = precondition(trial.residual);
     Motion step = correction;
-    if (shift_ <= smallest_shift) {
+    if (factor_->is_convex()) {
         const KrylovSolution newton = minimise_residual([&](const Motion& motion) { return precondition(stiffness * motion); },
                                                         correction, krylov_tolerance, stale_iterations);
         step = trial.residual.dot(newton.solution) > 0 ? newton.solution : correction;

@@ -1,9 +1,9 @@
 // Finds the motion after which every particle of a sheared network is in balance.
 #pragma once
 
-#include "cholesky_factor.hpp"
 #include "contact_stiffness.hpp"
 #include "sheared_network.hpp"
+#include "updated_factor.hpp"
 
 #include <coagula/common/progress.hpp>
 
@@ -33,18 +33,21 @@ public:
 
 private:
     bool is_balanced(const Trial& trial);
-    void factorise(const BlockMatrix& stiffness, double smallest_shift);
+    void factorise(const ShearedNetwork& network, const Trial& trial);
+    bool refresh(const ShearedNetwork& network, const Trial& trial);
     Motion precondition(const Motion& load);
     std::optional<Motion> newton_step(const ShearedNetwork& network, const Trial& trial, Motion& correction);
     Motion downhill(const ShearedNetwork& network, const Trial& trial);
+    bool correct(const ShearedNetwork& network, Trial& trial);
+    bool follow_newton(const ShearedNetwork& network, Trial& trial);
     bool search_line(const ShearedNetwork& network, const Motion& step, Trial& trial, Motion& correction);
 
     double tolerance_;
     double largest_force_ = 0;  ///< rms over the contacts, of the equilibria so far
     SolverEffort& effort_;
-    std::unique_ptr<CholeskyFactor> factor_;
+    std::unique_ptr<UpdatedFactor> factor_;
     bool fresh_ = false;  ///< the factor belongs to the present state
-    double shift_ = 0;
+    int wasted_ = 0;      ///< solutions that a better factor would have spared
     int last_solutions_ = 0;
     double last_residual_ = 0;
 };

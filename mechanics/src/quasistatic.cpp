@@ -155,7 +155,7 @@ SweepResponse sweep_amplitudes(const Packing& packing, const ContactNetwork& bon
     StrainPath path(packing, bonds, model, options.solver, largest, progress);
     SweepResponse response;
     for (std::size_t section = 0; section < options.amplitudes.size(); ++section) {
-        path.begin_section(static_cast<Index>(section));
+        path.begin_section(static_cast<Index>(section), options.amplitudes[section]);
         if (is_ageing(model) && section > 0) {
             path.age(age_factor(model, static_cast<double>(section) * static_cast<double>(options.cycles) / options.frequency));
         }

@@ -137,33 +137,53 @@ double ShearedNetwork::difference_step(const ContactMemory& memory) const {
     return std::clamp(0.01 * overlap, smallest_difference, largest_difference);
 }
 
-std::vector<Eigen::Matrix<double, 9, 9>> ShearedNetwork::linearise(const Trial& trial) const {
-    std::vector<Eigen::Matrix<double, 9, 9>> slopes(contacts_.size());
+std::vector<Slope> ShearedNetwork::linearise(const Trial& trial) const {
+    std::vector<Slope> slopes(contacts_.size());
     const auto count = static_cast<Index>(contacts_.size());
 #pragma omp parallel for schedule(static)
     for (Index k = 0; k < count; ++k) {
-        const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
-        const PairMotion base = pair_motion(contact, trial.strain_increment, trial.motion);
-        Eigen::Matrix<double, 9, 9>& slope = slopes[static_cast<std::size_t>(k)];
-        if (!law_.touches(trial.memory[static_cast<std::size_t>(k)], base.first_radius, base.second_radius)) {
-            slope.setZero();
-            continue;
-        }
-        const double difference = difference_step(trial.memory[static_cast<std::size_t>(k)]);
-        const auto moved = [&](int column, double step) {
-            PairMotion motion = base;
-            Vector3d& part = column < 3 ? motion.branch : (column < 6 ? motion.first_turn : motion.second_turn);
-            part[column % 3] += step * (column < 3 ? length_ : 1.0);
-            ContactMemory memory = contact.memory;
-            const ContactForce force = law_.update(memory, motion, 0.0);
-            return wrench(memory, force, contact);
-        };
-        for (int column = 0; column < 9; ++column) {
-            slope.col(column) = (moved(column, difference) - moved(column, -difference)) / (2 * difference);
-        }
-        slope.bottomRows<6>() *= -1;
+        slopes[static_cast<std::size_t>(k)] = slope_of(k, trial);
     }
     return slopes;
+}
+
+Slope ShearedNetwork::slope_of(Index k, const Trial& trial) const {
+    const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
+    const ContactMemory& moved_memory = trial.memory[static_cast<std::size_t>(k)];
+    const PairMotion base = pair_motion(contact, trial.strain_increment, trial.motion);
+    Slope slope = Slope::Zero();
+    if (!law_.touches(moved_memory, base.first_radius, base.second_radius)) {
+        return slope;
+    }
+    const double difference = difference_step(moved_memory);
+    const auto moved = [&](int column, double step) {
+        PairMotion motion = base;
+        Vector3d& part = column < 3 ? motion.branch : (column < 6 ? motion.first_turn : motion.second_turn);
+        part[column % 3] += step * (column < 3 ? length_ : 1.0);
+        ContactMemory memory = contact.memory;
+        const ContactForce force = law_.update(memory, motion, 0.0);
+        return wrench(memory, force, contact);
+    };
+    for (int column = 0; column < 9; ++column) {
+        slope.col(column) = (moved(column, difference) - moved(column, -difference)) / (2 * difference);
+    }
+    slope.bottomRows<6>() *= -1;
+    return slope;
+}
+
+ContactModes ShearedNetwork::modes_of(Index k, const Trial& trial, bool turns) const {
+    const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
+    const Vector3d branch = trial.memory[static_cast<std::size_t>(k)].branch / length_;
+    const double share = radii_[contact.first] / (radii_[contact.first] + radii_[contact.second]);
+    Eigen::Matrix3d turn;  // branch x
+    turn << 0, -branch.z(), branch.y(), branch.z(), 0, -branch.x(), -branch.y(), branch.x(), 0;
+    ContactModes modes = ContactModes::Zero(9, turns ? 6 : 3);
+    modes.leftCols<3>() << Eigen::Matrix3d::Identity(), -share * turn, (share - 1) * turn;
+    if (turns) {
+        modes.block<3, 3>(3, 3) = -Eigen::Matrix3d::Identity();
+        modes.block<3, 3>(6, 3) = Eigen::Matrix3d::Identity();
+    }
+    return modes;
 }
 
 double ShearedNetwork::reach_used(double strain_increment, const Motion& motion) const {
@@ -243,6 +263,7 @@ void ShearedNetwork::find_neighbours() {
         }
     }
     contacts_ = std::move(found);
+    ++generation_;
     group_contacts();
     moved_ = Eigen::Matrix3Xd::Zero(3, particles());
     strain_at_search_ = strain_;
@@ -275,6 +296,19 @@ ShearedNetwork::Worst ShearedNetwork::most_loaded(const std::vector<ContactMemor
         }
     }
     return worst;
+}
+
+double ShearedNetwork::first_to_break(const std::vector<ContactMemory>& memory) const {
+    double first = 2;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(bonds_); ++k) {
+        const ShearedContact& bond = contacts_[k];
+        const double then = law_.load_ratio(memory[k], radii_[bond.first], radii_[bond.second]);
+        if (then > 1) {
+            const double now = std::min(law_.load_ratio(bond.memory, radii_[bond.first], radii_[bond.second]), 1.0);
+            first = std::min(first, (1 - now) / (then - now));
+        }
+    }
+    return first;
 }
 
 BreakageCause ShearedNetwork::cause_of_breakage(Index contact) const {

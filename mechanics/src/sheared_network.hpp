@@ -18,6 +18,14 @@ using Motion = Eigen::VectorXd;
 /// Force and the moments on both particles of a contact, on the first: (force, moment on first, moment on second), reduced.
 using Wrench = Eigen::Matrix<double, 9, 1>;
 
+/// Derivatives of a wrench by (branch, rotation of first, rotation of second), reduced; minus the moments' rows, so that an elastic
+/// contact has a symmetric one.
+using Slope = Eigen::Matrix<double, 9, 9>;
+
+/// Relative motions in which a contact has stiffness, as columns: three displacements at the contact point, of bonds with moments
+/// also three relative rotations.
+using ContactModes = Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, 6>;
+
 /// A pair that is bonded, or near enough to touch soon.
 struct ShearedContact {
     Index first;
@@ -51,9 +59,13 @@ public:
     /// Forces after a strain increment and a motion since the committed state.
     void evaluate(double strain_increment, const Motion& motion, Trial& trial) const;
 
-    /// Derivatives of the wrenches by (branch, rotation of first, rotation of second), contact by contact; minus the moments'
-    /// rows, so that an elastic contact has a symmetric one.
-    std::vector<Eigen::Matrix<double, 9, 9>> linearise(const Trial& trial) const;
+    std::vector<Slope> linearise(const Trial& trial) const;
+    Slope slope_of(Index contact, const Trial& trial) const;
+    /// @param turns with relative rotations.
+    ContactModes modes_of(Index contact, const Trial& trial, bool turns) const;
+    bool has_moments() const { return law_.model().bending_stiffness > 0 || law_.model().twisting_stiffness > 0; }
+    /// Grows when neighbours are looked for, after which the contacts are numbered anew.
+    Index generation() const { return generation_; }
 
     /// Affine change of a branch per strain, in mean radii.
     Eigen::Vector3d strain_rate(const ContactMemory& memory) const;
@@ -71,6 +83,8 @@ public:
         Index contact = -1;
     };
     Worst most_loaded(const std::vector<ContactMemory>& memory) const;
+    /// At what part of the way to these memories the first bond reaches its strength if loads grow in proportion; above 1: none.
+    double first_to_break(const std::vector<ContactMemory>& memory) const;
     std::vector<ContactMemory> memories() const;
 
     BreakageCause cause_of_breakage(Index contact) const;
@@ -112,6 +126,7 @@ private:
     ContactsByParticle groups_;
     Eigen::Matrix3Xd moved_;  ///< beyond the affine motion, since neighbours were looked for, in mean radii
     double strain_at_search_ = 0;
+    Index generation_ = 0;
 };
 
 }  // namespace coagula::mechanics

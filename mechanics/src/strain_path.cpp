@@ -12,6 +12,8 @@ namespace {
 
 constexpr int easy_solutions = 25;         // with a factor, in a step after which a longer one is tried
 constexpr double strength_reached = 1e-9;  // load ratios nearer to 1 than this are at the strength
+constexpr double overshoot = 0.01;         // beyond the strain at which a bond is expected to break
+constexpr double worth_shortening = 0.9;   // of a step
 constexpr double energy_rounding = 1e-12;
 constexpr double resolution = 5e-3;  // of a fall to another branch that Newton's method did not notice, in smallest steps
 constexpr int most_settlements = 50;
@@ -43,6 +45,7 @@ void StrainPath::give_up(const std::string& what) const {
 void StrainPath::update_point() {
     point_.strain = network_.strain();
     point_.stress = network_.stress(rest_);
+    peak_stress_ = std::max(peak_stress_, std::abs(point_.stress(options_.orientation.normal, options_.orientation.direction)));
     point_.bonds = network_.intact_bonds();
     point_.contacts = network_.touching_contacts();
 }
@@ -129,10 +132,16 @@ double StrainPath::defect(const Trial& trial) const {
     return work_between(point_, there) - (network_.energy(trial.memory) - point_.stored) - trial.dissipated;
 }
 
+void StrainPath::begin_section(Index section, double amplitude) {
+    section_ = section;
+    peak_stress_ *= amplitude_ > 0 ? std::min(1.0, amplitude / amplitude_) : 1.0;
+    amplitude_ = amplitude;
+}
+
 /// Whether work and energy agree over a step, so that it resolves the path and has not jumped to another branch.
 bool StrainPath::is_smooth(const Trial& trial) const {
     const auto [normal, direction] = options_.orientation;
-    const double stress = std::max(std::abs(point_.stress(normal, direction)), std::abs(network_.stress(trial)(normal, direction)));
+    const double stress = std::max(peak_stress_, std::abs(network_.stress(trial)(normal, direction)));
     const double scale = network_.volume() * stress * std::abs(trial.strain_increment);
     return std::abs(defect(trial)) <=
            options_.balance_tolerance * scale + energy_rounding * point_.stored + network_.least_energy();
@@ -205,6 +214,17 @@ void StrainPath::break_overloaded(const Record& record) {
     }
 }
 
+/// The increment, or what a little more than suffices to break the first bond if all goes on as before.
+double StrainPath::up_to_breakage(double increment) {
+    Trial there;
+    ++effort_.evaluations;
+    network_.evaluate(increment, guess(increment), there);
+    const double share = network_.first_to_break(there.memory);
+    const double least = std::min(std::abs(increment), smallest_resolved());
+    return share < worth_shortening ? std::copysign(std::max(least, (1 + overshoot) * share * std::abs(increment)), increment)
+                                    : increment;
+}
+
 StrainPath::Attempt StrainPath::step(double increment, const Record& record) {
     Trial trial;
     if (!solver_.find(network_, increment, guess(increment), trial)) {
@@ -254,7 +274,7 @@ void StrainPath::go_to(double strain, const Record& record) {
         progress_.update("shearing", std::min(1.0, std::abs(network_.strain()) / largest_strain_));
         const double left = strain - network_.strain();
         const bool last = std::abs(left) <= step_ * (1 + 1e-9);
-        const double increment = last ? left : std::copysign(step_, left);
+        const double increment = up_to_breakage(last ? left : std::copysign(step_, left));
         const double length = std::abs(increment);
         const Attempt attempt = step(increment, record);
         if (attempt == Attempt::done) {

@@ -24,7 +24,8 @@ public:
     const SolverEffort& effort() const { return effort_; }
 
     /// Numbers the sections of a sweep in what is recorded of broken bonds.
-    void begin_section(Index section) { section_ = section; }
+    /// @param amplitude of the strain in the section.
+    void begin_section(Index section, double amplitude);
     /// See ShearedNetwork::age.
     void age(double factor);
 
@@ -32,6 +33,7 @@ private:
     using Record = std::function<void(const StrainPoint&)>;
 
     enum class Attempt { done, too_long, no_equilibrium };
+    double up_to_breakage(double increment);
     Attempt step(double increment, const Record& record);
     double smallest_resolved() const;
     void commit(Trial& trial, const Record& record);
@@ -58,8 +60,10 @@ private:
     StrainPoint point_;
     std::vector<BrokenBond> broken_;
     Index section_ = 0;
-    double step_;      ///< of strain that went well
-    Motion velocity_;  ///< motion per strain in the last step, empty: unknown
+    double amplitude_ = 0;
+    double peak_stress_ = 0;  ///< largest shear stress so far [Pa], what is expected at this amplitude after a larger one
+    double step_;             ///< of strain that went well
+    Motion velocity_;         ///< motion per strain in the last step, empty: unknown
 };
 
 }  // namespace coagula::mechanics

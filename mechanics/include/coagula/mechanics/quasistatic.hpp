@@ -25,7 +25,7 @@ struct QuasistaticOptions {
     ShearOrientation orientation = {};
     RestLength rest_length = RestLength::as_found;
     double tolerance = 1e-7;          ///< rms force left on a particle over the largest rms contact force so far, > 0
-    double balance_tolerance = 3e-6;  ///< of work against energy in every step, over |stress| x strain step x volume, > 0
+    double balance_tolerance = 1e-6;  ///< of work against energy in every step, over peak stress x strain step x volume, > 0
     double event_tolerance = 1e-9;    ///< of the strain at which a bond breaks, over the largest strain of the run, > 0
     double smallest_step = 2e-3;  ///< of strain over the largest strain of the run; where no smaller step helps, the network has
                                   ///< lost its stability and jumps to another equilibrium at constant strain; > 0
@@ -110,11 +110,13 @@ struct SweepResponse {
     SolverEffort effort;
 };
 
-/// Shears to a strain. All particles and images follow each strain step affinely, then Newton's method brings every particle to
-/// balance of force and moment: Jacobian of the contact law by differences contact by contact, generalised minimal residuals
-/// preconditioned by a Cholesky factor of its symmetric part (Knoll and Keyes, J. Comput. Phys. 193 (2004) 357); the shift on the
-/// diagonal of that factor does not enter the residual. Where a bond passes its strength the strain at which it does so is found,
-/// the bond breaks there, and the network comes to rest at constant strain, bond after bond, the most overloaded first.
+/// Shears to a strain. All particles and images follow each strain step affinely, then every particle is brought to balance of
+/// force and moment: corrections by a Cholesky factor of the symmetric part of the tangent, brought up to date with the contacts
+/// that open, close, slip or break, accelerated by Anderson's method; where that stalls Newton's method, generalised minimal
+/// residuals preconditioned by the factor (Knoll and Keyes, J. Comput. Phys. 193 (2004) 357). The tangent is that of the contact
+/// law by differences; the shift on the diagonal of the factor does not enter the residual. Where a bond passes its strength the
+/// strain at which it does so is found, the bond breaks there, and the network comes to rest at constant strain, bond after bond,
+/// the most overloaded first.
 ///
 /// Throws std::invalid_argument for impossible options, an open cell, and models with losses that depend on the rate;
 /// std::runtime_error where no equilibrium is found.

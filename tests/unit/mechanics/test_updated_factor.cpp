@@ -1,0 +1,90 @@
+#include "updated_factor.hpp"
+
+#include <coagula/generators/void_expansion.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coagula::mechanics {
+namespace {
+
+generators::VoidExpansion gel(Index particles) {
+    generators::VoidExpansionOptions options;
+    options.particles = particles;
+    options.voids = particles / 2;
+    options.volume_fraction = 0.4;
+    options.radii = Eigen::VectorXd::Constant(particles, 0.25e-6);
+    return generators::expand_voids(options);
+}
+
+/// Joints with moments, so that the factor's shift hardly matters.
+ContactModel stiff_joints() {
+    ContactModel model;
+    model.normal_stiffness = 100;
+    model.shear_stiffness = 10;
+    model.bending_stiffness = 3e-14;
+    model.twisting_stiffness = 3e-14;
+    model.friction = 0.1;
+    return model;
+}
+
+/// Residual of K x = b with the tangent of the network as it is now.
+double error_of(const UpdatedFactor& factor, const ShearedNetwork& network, const Trial& trial, const Motion& load) {
+    return (ContactStiffness(network, trial) * factor.solve(load) - load).norm() / load.norm();
+}
+
+/// A load that no rigid translation sees.
+Motion some_load(const ShearedNetwork& network, const Trial& trial) {
+    return ContactStiffness(network, trial) * Motion::LinSpaced(6 * network.particles(), -1, 2).array().sin().matrix();
+}
+
+TEST(UpdatedFactor, FollowsBrokenBonds) {
+    const auto sample = gel(200);
+    ShearedNetwork network(sample.packing, sample.contacts, stiff_joints(), {});
+    Trial trial;
+    const Motion still = Motion::Zero(6 * network.particles());
+    network.evaluate(0, still, trial);
+    UpdatedFactor factor(network, trial);
+    EXPECT_LT(error_of(factor, network, trial, some_load(network, trial)), 1e-3);
+    EXPECT_FALSE(factor.update(network, trial)) << "nothing has changed";
+
+    for (const Index bond : {3, 50, 101}) {
+        network.break_bond(bond);
+    }
+    network.evaluate(0, still, trial);
+    const Motion load = some_load(network, trial);
+    EXPECT_GT(error_of(factor, network, trial, load), 1e-2) << "the test must see broken bonds";
+    EXPECT_TRUE(factor.update(network, trial));
+    EXPECT_EQ(factor.rank(), 18);
+    EXPECT_LT(error_of(factor, network, trial, load), 1e-3);
+    EXPECT_FALSE(factor.update(network, trial));
+    EXPECT_EQ(factor.factorisations(), 1);
+}
+
+/// A slipping contact has an unsymmetric tangent, which no Cholesky factor holds.
+TEST(UpdatedFactor, FollowsContactsThatSlip) {
+    const auto sample = gel(200);
+    ShearedNetwork network(sample.packing, sample.contacts, stiff_joints(), {});
+    for (Index bond = 0; bond < sample.contacts.size(); bond += 20) {
+        network.break_bond(bond);
+    }
+    Trial trial;
+    Motion motion(6 * network.particles());
+    for (Index particle = 0; particle < network.particles(); ++particle) {
+        motion.segment<6>(6 * particle) = Eigen::Matrix<double, 6, 1>::Zero();
+        motion.segment<3>(6 * particle) = -1e-3 * sample.packing.positions.col(particle) / 0.25e-6;  // pressed together
+    }
+    network.evaluate(0, motion, trial);
+    network.commit(trial);
+    network.evaluate(1e-3, Motion::Zero(motion.size()), trial);
+    double asymmetry = 0;
+    for (const Slope& slope : network.linearise(trial)) {
+        asymmetry = std::max(asymmetry, (slope - slope.transpose()).norm());
+    }
+    ASSERT_GT(asymmetry, 0.05) << "a contact must slip";
+    const UpdatedFactor factor(network, trial);
+    EXPECT_GT(factor.rank(), 0);
+    EXPECT_LT(error_of(factor, network, trial, some_load(network, trial)), 0.05);
+}
+
+}  // namespace
+}  // namespace coagula::mechanics
