@@ -1,5 +1,6 @@
 #include "quasistatic_run.hpp"
 
+#include "network_keys.hpp"
 #include "orientation_list.hpp"
 
 #include <coagula/io/contact_model_file.hpp>
@@ -40,6 +41,38 @@ mechanics::QuasistaticOptions solver_options(const Arguments& arguments, const S
                 arguments.text("rest-length") == "found" ? mechanics::RestLength::as_found : mechanics::RestLength::touching};
 }
 
+mechanics::SweepOptions sweep_options(const Arguments& arguments, const std::vector<double>& amplitudes,
+                                      const std::vector<double>& frequencies, const ShearOrientation& orientation) {
+    return {.amplitudes = amplitudes,
+            .cycles = arguments.count("cycles"),
+            .steps_per_cycle = arguments.count("steps-per-cycle"),
+            .frequency = frequencies.empty() ? unset : frequencies.front(),
+            .solver = solver_options(arguments, orientation)};
+}
+
+mechanics::RampOptions ramp_options(const Arguments& arguments, const ShearOrientation& orientation) {
+    return {.strain = arguments.optional_quantity("ramp").value_or(small_strain),
+            .steps = arguments.has("ramp") ? arguments.count("ramp-steps") : 1,
+            .solver = solver_options(arguments, orientation)};
+}
+
+std::vector<double> amplitudes_of(const Arguments& arguments) {
+    std::vector<double> amplitudes = parse_amplitudes(arguments.text("amplitudes"));
+    if (arguments.flag("down")) {
+        const std::vector<double> up = amplitudes;
+        amplitudes.insert(amplitudes.end(), up.rbegin(), up.rend());
+    }
+    return amplitudes;
+}
+
+void append_network(Results& results, const Arguments& arguments, const ContactNetwork& bonds, const ContactModel& model) {
+    results.push_back(io::text(group + "method", "quasistatic", "equilibria of the network in a deforming periodic cell"));
+    results.push_back(io::integer(group + "contacts", bonds.size(), "number of bonds at the start"));
+    results.push_back(io::scalar(group + "bond_tolerance", arguments.quantity("bond-tolerance"), "1",
+                                 "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
+    results.push_back(io::text(group + "model", io::contact_model_text(model), "the contact as a TOML file"));
+}
+
 /// Mean, standard deviation and one array per orientation.
 void append_modulus(Results& results, const std::string& name, const std::vector<Test>& tests, const Eigen::MatrixXd& values,
                     const std::string& description) {
@@ -71,6 +104,10 @@ void append_broken(Results& results, const std::string& path, const std::vector<
         results.push_back(io::integers(path + "broken/bond", bond, "column in the list of bonds, in the order of breakage"));
         results.push_back(io::vector(path + "broken/strain", collect(broken, [](const auto& entry) { return entry.strain; }), "1",
                                      "strain at which it broke"));
+        Eigen::VectorXi cause(bond.size());
+        std::transform(broken.begin(), broken.end(), cause.begin(),
+                       [](const auto& entry) { return static_cast<int>(entry.cause); });
+        results.push_back(io::integers(path + "broken/cause", cause, "limit it reached: 0 normal, 1 shear, 2 bending, 3 pull-off"));
     }
     results.push_back(io::integer(path + "broken_bonds", static_cast<Index>(broken.size()), "number of bonds that broke"));
 }
@@ -125,6 +162,8 @@ void append_ramps(Results& results, const std::vector<Test>& tests) {
         results.push_back(io::scalar(path + "peak_stress", stress(*peak), "Pa", "largest stress"));
     }
     append_modulus(results, "storage_modulus", tests, first, "secant modulus of the first step");
+    append_modulus(results, "loss_modulus", tests, Eigen::MatrixXd::Constant(first.rows(), 1, unset), "not measured on a ramp");
+    results.push_back(io::scalar(group + "phase", unset, "rad", "not measured on a ramp"));
 }
 
 void append_sweeps(Results& results, const std::vector<Test>& tests) {
@@ -221,36 +260,21 @@ Findings quasistatic_response(const Arguments& arguments, const Packing& packing
     if (sweep && arguments.has("ramp")) {
         throw InputError("--amplitudes and --ramp exclude each other");
     }
-    std::vector<double> amplitudes = sweep ? parse_amplitudes(arguments.text("amplitudes")) : std::vector<double>{};
-    if (arguments.flag("down")) {
-        const std::vector<double> up = amplitudes;
-        amplitudes.insert(amplitudes.end(), up.rbegin(), up.rend());
-    }
     std::vector<Test> tests;
+    const std::vector<double> amplitudes = sweep ? amplitudes_of(arguments) : std::vector<double>{};
     for (const ShearOrientation& orientation : parse_orientations(arguments.text("orientation"))) {
-        Test test{orientation, {}, {}};
-        const mechanics::QuasistaticOptions solver = solver_options(arguments, orientation);
+        tests.push_back({orientation, {}, {}});
         if (sweep) {
-            test.sweep = mechanics::sweep_amplitudes(packing, bonds, model,
-                                                     {.amplitudes = amplitudes,
-                                                      .cycles = arguments.count("cycles"),
-                                                      .steps_per_cycle = arguments.count("steps-per-cycle"),
-                                                      .frequency = frequencies.empty() ? unset : frequencies.front(),
-                                                      .solver = solver},
-                                                     progress);
+            const mechanics::SweepOptions options = sweep_options(arguments, amplitudes, frequencies, orientation);
+            tests.back().sweep = mechanics::sweep_amplitudes(packing, bonds, model, options, progress);
         } else {
-            const double strain = arguments.optional_quantity("ramp").value_or(small_strain);
-            const Index steps = arguments.has("ramp") ? arguments.count("ramp-steps") : 1;
-            test.ramp = mechanics::shear_to(packing, bonds, model, {.strain = strain, .steps = steps, .solver = solver}, progress);
+            tests.back().ramp = mechanics::shear_to(packing, bonds, model, ramp_options(arguments, orientation), progress);
         }
-        tests.push_back(std::move(test));
     }
     Findings found{.group = "/mechanics/quasistatic", .results = {}, .table = table_of(tests, sweep)};
-    found.results.push_back(io::text(group + "method", "quasistatic", "equilibria of the network in a deforming periodic cell"));
-    found.results.push_back(io::integer(group + "contacts", bonds.size(), "number of bonds at the start"));
-    found.results.push_back(io::scalar(group + "bond_tolerance", arguments.quantity("bond-tolerance"), "1",
-                                       "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
-    found.results.push_back(io::text(group + "model", io::contact_model_text(model), "the contact as a TOML file"));
+    append_network(found.results, arguments, bonds, model);
+    append_contact_stiffness(found.results, group, packing, bonds, model);
+    append_network_keys(found.results, group, packing, bonds, model, progress);
     if (sweep) {
         append_sweeps(found.results, tests);
     } else {

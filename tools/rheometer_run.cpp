@@ -1,5 +1,6 @@
 #include "rheometer_run.hpp"
 
+#include "network_keys.hpp"
 #include "orientation_list.hpp"
 #include "rheometer_checkpoint.hpp"
 #include "rheometer_results.hpp"
@@ -78,9 +79,11 @@ Findings rheometer_response(const Arguments& arguments, const Packing& packing, 
         };
     }
     const mechanics::RheometerResult result = mechanics::run_rheometer(packing, bonds, options, orientations, progress, control);
-    return {.group = "/mechanics/dem",
-            .results = datasets_of(result, options, arguments.quantity("bond-tolerance")),
-            .table = table_of(result, options)};
+    Findings found{.group = "/mechanics/dem",
+                   .results = datasets_of(result, options, arguments.quantity("bond-tolerance")),
+                   .table = table_of(result, options)};
+    append_network_keys(found.results, "/mechanics/dem/", packing, bonds, model, progress);
+    return found;
 }
 
 }  // namespace coagula::tools

@@ -24,6 +24,11 @@ class Quasistatic(ProgramTest):
         linear = self.succeed_json("shear", "packing.h5", "-o", "linear.h5")
         found = self.shear()
         self.assertEqual(found["method"], "quasistatic")
+        for key in ("contacts", "rattlers", "floppy_modes", "contact_stiffness"):
+            self.assertEqual(found[key], linear[key])
+        self.assertAlmostEqual(found["affine_modulus"] / linear["affine_modulus"], 1, delta=1e-12)
+        self.assertIsNone(found["phase"])
+        self.assertIn("seconds", found)
         for name in ("xy", "xz", "yx", "yz", "zx", "zy", "mean"):
             self.assertAlmostEqual(found["storage_modulus"][name] / linear["storage_modulus"][name], 1, delta=1e-3)
 
@@ -37,6 +42,14 @@ class Quasistatic(ProgramTest):
             self.assertGreater(storage, 0)
             self.assertAlmostEqual(found["sweep"]["zx"]["loop_area"][k] / (math.pi * amplitude ** 2), loss, delta=1e-6 * storage)
             self.assertLess(found["sweep"]["zx"]["balance_error"][k], 1e-5)
+
+    def test_every_broken_bond_says_why(self):
+        self.write("model.toml", MODEL.replace("12 nN", "5 uN") + 'shear_strength = "2 nN"\n')
+        found = self.shear("--ramp", "1e-3", "--ramp-steps", "4", "--orientation", "zx", "--model", "model.toml")
+        ramp = found["ramp"]["zx"]
+        self.assertGreater(ramp["broken_bonds"], 0)
+        self.assertEqual(ramp["broken"]["cause"], [1] * ramp["broken_bonds"])
+        self.assertEqual(ramp["broken"]["strain"], sorted(ramp["broken"]["strain"]))
 
     def test_refused(self):
         def refuse(says, *words):

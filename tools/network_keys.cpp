@@ -1,0 +1,65 @@
+#include "network_keys.hpp"
+
+#include <coagula/mechanics/linear.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace coagula::tools {
+
+namespace {
+
+/// The linear response at the stiffness as found; with springs of 1 N/m instead where there is none, for the counts that do not
+/// depend on the stiffness.
+mechanics::LinearResponse linear_response(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model,
+                                          const Progress& progress) {
+    mechanics::LinearOptions options;
+    options.bond_tangents = mechanics::bond_tangents(packing, bonds, model);
+    const bool stiff = std::all_of(options.bond_tangents.begin(), options.bond_tangents.end(),
+                                   [](const ContactTangent& tangent) { return tangent.normal > 0; });
+    if (stiff) {
+        try {
+            return mechanics::solve_linear(packing, bonds, options, progress);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const std::runtime_error&) {
+            // Unstable under its prestress: the modulus and the modes have no meaning, the rest has.
+        }
+    }
+    options.bond_tangents.clear();
+    options.normal_stiffness = 1;
+    options.shear_stiffness = 1;
+    mechanics::LinearResponse counted = mechanics::solve_linear(packing, bonds, options, progress);
+    counted.floppy_modes = -1;
+    counted.affine_tensor.setConstant(unset);
+    return counted;
+}
+
+}  // namespace
+
+void append_network_keys(Results& results, const std::string& group, const Packing& packing, const ContactNetwork& bonds,
+                         const ContactModel& model, const Progress& progress) {
+    const mechanics::LinearResponse linear = linear_response(packing, bonds, model, progress);
+    results.push_back(io::integer(group + "rattlers", linear.rattlers, "particles that carry no load, at the start"));
+    results.push_back(io::integer(group + "floppy_modes", linear.floppy_modes,
+                                  "zero-energy modes of the load-bearing particles at the start; -1: not counted"));
+    results.push_back(io::scalar(group + "affine_modulus", linear.mean_affine_modulus(), "Pa",
+                                 "shear modulus if all particles followed the strain, mean, at the start"));
+}
+
+void append_contact_stiffness(Results& results, const std::string& group, const Packing& packing, const ContactNetwork& bonds,
+                              const ContactModel& model) {
+    const auto tangents = mechanics::bond_tangents(packing, bonds, model);
+    const auto mean = [&](double ContactTangent::*part) {
+        const double sum = std::accumulate(tangents.begin(), tangents.end(), 0.0,
+                                           [&](double all, const ContactTangent& tangent) { return all + tangent.*part; });
+        return tangents.empty() ? unset : sum / static_cast<double>(tangents.size());
+    };
+    results.push_back(io::scalar(group + "contact_stiffness/normal", mean(&ContactTangent::normal), "N/m",
+                                 "of a contact as found, mean: two particles in series"));
+    results.push_back(io::scalar(group + "contact_stiffness/shear", mean(&ContactTangent::shear), "N/m",
+                                 "of a contact as found, mean: two particles in series"));
+}
+
+}  // namespace coagula::tools
