@@ -11,6 +11,7 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/stated_errors.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
 
@@ -24,26 +25,6 @@ namespace {
 
 using diagnose::Experiment;
 namespace fs = std::filesystem;
-
-/// Gives every modulus without a standard error that of the noise model of its kind.
-void state_errors(Experiment& experiment, const std::vector<diagnose::NoiseModel>& noise, diagnose::NoiseSettings& settings) {
-    for (diagnose::Measurement& table : experiment.measurements) {
-        for (diagnose::Column& column : table.columns) {
-            const auto model = std::find_if(noise.begin(), noise.end(), [&](const diagnose::NoiseModel& one) {
-                return one.kind == table.kind && one.observable == column.name;
-            });
-            if (model == noise.end() || !column.standard_errors.empty()) {
-                continue;
-            }
-            settings.sample = model->sample.value;
-            const diagnose::Column* strain = diagnose::find_column(table, "strain");
-            for (std::size_t row = 0; row < column.values.size(); ++row) {
-                const double weight = model->floor_of_stress && strain != nullptr ? 1 / strain->values[row] : 1.0;
-                column.standard_errors.push_back(diagnose::standard_deviation(*model, column.values[row], weight));
-            }
-        }
-    }
-}
 
 /// The contact of the best cause as a TOML file; empty when there is none.
 std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
@@ -74,7 +55,8 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     options.level = arguments.quantity("level");
     options.bootstrap = static_cast<int>(arguments.count("bootstrap"));
     options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    state_errors(file.experiment, noise, options.noise);
+    diagnose::state_errors(file.experiment, noise);
+    diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
     ExperimentStructures structures = structures_of(file.experiment, progress);
 
     diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");

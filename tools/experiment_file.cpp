@@ -84,6 +84,8 @@ void ExperimentReader::read_sample() {
     sample.volume_fraction = keys.quantity("volume_fraction", "1").value_or(unset);
     sample.solvent_viscosity = keys.quantity("solvent_viscosity", "Pa.s").value_or(unset);
     sample.temperature = keys.quantity("temperature", "K").value_or(unset);
+    sample.normal_stiffness = keys.quantity("normal_stiffness", "N/m").value_or(unset);
+    sample.normal_stiffness_error = keys.quantity("normal_stiffness_error", "1").value_or(unset);
     keys.refuse_other_keys();
 }
 

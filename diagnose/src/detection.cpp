@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace coagula::diagnose {
 
@@ -40,14 +41,8 @@ void sort_along(const std::vector<Observation>& observations, std::vector<Index>
     });
 }
 
-/// All ways to fail: everything, each observable along each coordinate over all tables.
-std::vector<MisfitStatistic> statistics_of(const std::vector<Observation>& observations) {
-    std::vector<MisfitStatistic> all;
-    MisfitStatistic whole{.observable = "all"};
-    for (Index row = 0; row < static_cast<Index>(observations.size()); ++row) {
-        whole.rows.push_back(row);
-    }
-    all.push_back(whole);
+/// Each observable along each coordinate over all tables.
+void add_smooth(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
     for (const bool loss : {false, true}) {
         for (const Coordinate coordinate : {Coordinate::strain, Coordinate::angular_frequency, Coordinate::time, Coordinate::gap}) {
             MisfitStatistic one{.observable = loss ? "loss_modulus" : "storage_modulus", .coordinate = coordinate};
@@ -65,12 +60,85 @@ std::vector<MisfitStatistic> statistics_of(const std::vector<Observation>& obser
             }
         }
     }
+}
+
+/// Sets of the mechanism's parameters over their prior: five places of the first, three of the others.
+std::vector<Settings> over_prior(const Settings& from, const Mechanism& mechanism) {
+    std::vector<Settings> all{from};
+    for (std::size_t k = 0; k < mechanism.parameters.size(); ++k) {
+        const MechanismParameter& parameter = mechanism.parameters[k];
+        const std::vector<double> places = k == 0 ? std::vector{0.1, 0.3, 0.5, 0.7, 0.9} : std::vector{0.2, 0.5, 0.8};
+        std::vector<Settings> more;
+        for (const Settings& settings : all) {
+            for (const double place : places) {
+                more.push_back(settings);
+                more.back().*parameter.value = parameter.at(place);
+            }
+        }
+        all = std::move(more);
+    }
+    return all;
+}
+
+/// A step towards every mechanism that the fit does not have.
+void add_causes(const Inference& inference, const Fit& fit, Index rows, const Eigen::MatrixXd& basis,
+                std::vector<MisfitStatistic>& all) {
+    const Likelihood& likelihood = inference.likelihood();
+    const Eigen::VectorXd here = likelihood.whiten(inference.forward().predict(fit.settings));
+    for (const Mechanism& mechanism : catalogue()) {
+        const bool has = std::find(fit.hypothesis.begin(), fit.hypothesis.end(), &mechanism) != fit.hypothesis.end();
+        if (has || !mechanism.applies(inference.forward().experiment())) {
+            continue;
+        }
+        MisfitStatistic one{.observable = "all", .cause = mechanism.name};
+        std::vector<Eigen::VectorXd> directions;
+        for (const Settings& settings : over_prior(fit.settings, mechanism)) {
+            Eigen::VectorXd step = Eigen::VectorXd::Zero(rows);
+            step.head(here.size()) = likelihood.whiten(inference.forward().predict(settings)) - here;
+            const double length = step.norm();
+            step -= basis * (basis.transpose() * step);
+            constexpr double visible = 1e-6;  // part of the step that the fitted quantities cannot make
+            if (step.norm() > visible * length && length > 0) {
+                directions.push_back(step.normalized());
+            }
+        }
+        if (!directions.empty()) {
+            one.directions.resize(rows, static_cast<Index>(directions.size()));
+            for (std::size_t k = 0; k < directions.size(); ++k) {
+                one.directions.col(static_cast<Index>(k)) = directions[k];
+            }
+            all.push_back(std::move(one));
+        }
+    }
+}
+
+/// All ways to fail. @param basis orthonormal, of what the fitted quantities move.
+std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit& fit, Index rows, const Eigen::MatrixXd& basis) {
+    const DataSet& data = inference.likelihood().data();
+    const auto between = [](Index from, Index to) {
+        std::vector<Index> range(static_cast<std::size_t>(to - from));
+        std::iota(range.begin(), range.end(), from);
+        return range;
+    };
+    const Index samples = data.effect > 0 ? data.samples() : 0;
+    std::vector<MisfitStatistic> all{{.observable = "all", .rows = between(0, rows)}};
+    if (samples > 1) {
+        all.push_back({.observable = "sample_effect", .rows = between(data.size(), data.size() + samples)});
+    }
+    if (rows > data.size() + samples) {
+        all.push_back({.observable = "normal_stiffness", .rows = {rows - 1}});
+    }
+    add_smooth(data.observations, all);
+    add_causes(inference, fit, rows, basis, all);
     return all;
 }
 
 double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residual) {
+    if (!statistic.cause.empty()) {
+        return std::pow(std::max(0.0, (statistic.directions.transpose() * residual).maxCoeff()), 2);
+    }
     if (statistic.coordinate == Coordinate::none) {
-        return residual.squaredNorm();
+        return residual(statistic.rows).squaredNorm();
     }
     const auto count = static_cast<double>(statistic.rows.size());
     double value = 0;
@@ -91,19 +159,10 @@ double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residua
     return value;
 }
 
-/// Independent standard normal numbers.
-Eigen::VectorXd normal_numbers(Index count, std::uint64_t seed, std::uint64_t sample) {
-    Eigen::VectorXd values(count);
-    for (Index k = 0; k < count; ++k) {
-        values[k] = normal_number(seed, sample, static_cast<std::uint64_t>(k));
-    }
-    return values;
-}
-
 }  // namespace
 
 const char* name_of(Coordinate coordinate) {
-    constexpr std::array<const char*, 5> names{"strain", "angular_frequency", "time", "gap", "none"};
+    constexpr std::array<const char*, 6> names{"strain", "angular_frequency", "time", "gap", "plate_radius", "none"};
     return names.at(static_cast<std::size_t>(coordinate));
 }
 
@@ -117,27 +176,38 @@ double coordinate_of(const Observation& observation, Coordinate coordinate) {
             return observation.time;
         case Coordinate::gap:
             return observation.gap;
+        case Coordinate::plate_radius:
+            return observation.plate_radius;
         default:
             return 0;
     }
 }
 
-Detection detect(const std::vector<Observation>& observations, const Eigen::VectorXd& residual, const Eigen::MatrixXd& jacobian,
-                 std::uint64_t seed, int bootstrap) {
+Detection detect(const Inference& inference, const Fit& fit, std::uint64_t seed, int bootstrap) {
+    const DataSet& data = inference.likelihood().data();
+    const Departures departures = departures_of(inference, fit);
+    const Index rows = departures.residual.size();
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(departures.jacobian);
+    const Eigen::MatrixXd basis = decomposition.householderQ() * Eigen::MatrixXd::Identity(rows, decomposition.rank());
+
     Detection result;
-    result.statistics = statistics_of(observations);
+    result.statistics = statistics_of(inference, fit, rows, basis);
     const auto kinds = static_cast<Index>(result.statistics.size());
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(jacobian);
     Eigen::MatrixXd values(kinds, bootstrap + 1);  // the data themselves come last
     for (int sample = 0; sample <= bootstrap; ++sample) {
-        Eigen::VectorXd drawn = residual;
+        Eigen::VectorXd drawn = departures.residual;
         if (sample < bootstrap) {
-            drawn = normal_numbers(residual.size(), seed, static_cast<std::uint64_t>(sample));
-            drawn -= jacobian * decomposition.solve(drawn);
+            const Eigen::VectorXd errors = draw_errors(data, seed, static_cast<std::uint64_t>(sample));
+            drawn.head(errors.size()) = errors;
+            drawn.tail(rows - errors.size()).setConstant(normal_number(seed, static_cast<std::uint64_t>(sample), 1000000));
         }
+        drawn -= basis * (basis.transpose() * drawn);
         for (Index kind = 0; kind < kinds; ++kind) {
             values(kind, sample) = evaluate(result.statistics[static_cast<std::size_t>(kind)], drawn);
         }
+    }
+    for (Index kind = 0; kind < kinds; ++kind) {
+        result.statistics[static_cast<std::size_t>(kind)].value = values(kind, bootstrap);
     }
     // Standardised with the data among the samples, so that all are on the same footing; the logarithm tames the long tails.
     for (Index kind = 0; kind < kinds; ++kind) {
@@ -154,7 +224,6 @@ Detection detect(const std::vector<Observation>& observations, const Eigen::Vect
     result.p_value = static_cast<double>((largest.array() >= observed).count()) / (bootstrap + 1);
     for (Index kind = 0; kind < kinds; ++kind) {
         MisfitStatistic& statistic = result.statistics[static_cast<std::size_t>(kind)];
-        statistic.value = evaluate(statistic, residual);
         statistic.score = values(kind, bootstrap);
     }
     std::stable_sort(result.statistics.begin(), result.statistics.end(),

@@ -1,7 +1,7 @@
 // Does a fitted model fail the data, and where?
 #pragma once
 
-#include "hypothesis.hpp"
+#include "departures.hpp"
 
 #include <cstdint>
 #include <string>
@@ -10,18 +10,21 @@
 namespace coagula::diagnose {
 
 /// Along which quantity residuals are looked at.
-enum class Coordinate { strain, angular_frequency, time, gap, none };
+enum class Coordinate { strain, angular_frequency, time, gap, plate_radius, none };
 
 const char* name_of(Coordinate coordinate);
 /// Of one observation.
 double coordinate_of(const Observation& observation, Coordinate coordinate);
 
-/// One way to fail: a smooth departure of one observable of some tables along a coordinate, or the whole.
+/// One way to fail: a smooth departure of one observable of some tables along a coordinate, the samples, a step towards a
+/// mechanism, or the whole.
 struct MisfitStatistic {
-    std::string observable;  ///< "storage_modulus", "loss_modulus" or "all"
+    std::string observable;  ///< "storage_modulus", "loss_modulus", "sample_effect", "normal_stiffness" or "all"
     Coordinate coordinate = Coordinate::none;
-    bool autocorrelation = false;  ///< of neighbours along the coordinate, else the size of smooth components
-    std::vector<Index> rows = {};  ///< observations that take part, sorted along the coordinate
+    bool autocorrelation = false;     ///< of neighbours along the coordinate, else the size of smooth components
+    std::vector<Index> rows = {};     ///< observations that take part, sorted along the coordinate
+    std::string cause = {};           ///< mechanism towards which `directions` go
+    Eigen::MatrixXd directions = {};  ///< unit vectors, orthogonal to what the fitted quantities move
     double value = 0;
     double score = 0;  ///< standardised: over the bootstrap's mean and standard deviation
 };
@@ -34,8 +37,7 @@ struct Detection {
 
 /// The statistics of the residuals, standardised, and the p-value of the largest: the part of data sets drawn from the fitted model
 /// and fitted again (linearised at the fit) whose largest one is as large.
-/// @param jacobian derivatives of the whitened prediction by the fitted parameters.
-Detection detect(const std::vector<Observation>& observations, const Eigen::VectorXd& residual, const Eigen::MatrixXd& jacobian,
-                 std::uint64_t seed, int bootstrap = 999);
+/// @param inference, fit the model and where it was fitted.
+Detection detect(const Inference& inference, const Fit& fit, std::uint64_t seed, int bootstrap = 999);
 
 }  // namespace coagula::diagnose

@@ -17,35 +17,9 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr std::size_t fewest_observations = 5;
 constexpr std::size_t causes_in_pairs = 4;  ///< pairs are made of the best so many causes
 constexpr double certain = 0.95;
 constexpr const char* none_name = "none of the catalogue";
-
-/// Data and noise of one experiment.
-struct Problem {
-    std::vector<Observation> observations;
-    Eigen::VectorXd data;
-    Eigen::MatrixXd covariance;
-    std::vector<std::string> samples;
-};
-
-Problem problem_of(const Experiment& experiment, const NoiseSettings& noise) {
-    Problem problem;
-    problem.observations = observations_of(experiment);
-    if (problem.observations.size() < fewest_observations) {
-        throw InputError("the experiment has " + std::to_string(problem.observations.size()) +
-                         " usable moduli: at least five are needed to say anything");
-    }
-    problem.data.resize(static_cast<Index>(problem.observations.size()));
-    for (std::size_t k = 0; k < problem.observations.size(); ++k) {
-        problem.data[static_cast<Index>(k)] = problem.observations[k].value;
-        problem.samples.push_back(experiment.measurements[problem.observations[k].measurement].sample);
-    }
-    problem.covariance =
-        covariance_of(problem.observations, {noise.storage_floor, noise.storage_relative}, {noise.loss_floor, noise.loss_relative});
-    return problem;
-}
 
 Cause cause_of(const Fit& fit) {
     Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .settings = fit.settings, .draws = fit.draws};
@@ -98,10 +72,8 @@ std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidenc
     return probabilities_of(std::move(logarithms));
 }
 
-double test(const Problem& problem, const Inference& inference, const Fit& fit, const DiagnosisOptions& options,
-            Detection* detection) {
-    const Eigen::VectorXd residual = inference.likelihood().residual(inference.forward().predict(fit.settings));
-    Detection found = detect(problem.observations, residual, inference.jacobian(fit), options.seed, options.bootstrap);
+double test(const Inference& inference, const Fit& fit, const DiagnosisOptions& options, Detection* detection) {
+    Detection found = detect(inference, fit, options.seed, options.bootstrap);
     const double p_value = found.p_value;
     if (detection != nullptr) {
         *detection = std::move(found);
@@ -112,14 +84,14 @@ double test(const Problem& problem, const Inference& inference, const Fit& fit, 
 std::vector<SampleEffect> effects_of(const Likelihood& likelihood, const Eigen::VectorXd& prediction) {
     const Eigen::VectorXd values = likelihood.effects(prediction);
     std::vector<SampleEffect> effects;
-    for (std::size_t k = 0; k < likelihood.effect_names().size(); ++k) {
-        effects.push_back({likelihood.effect_names()[k], values[static_cast<Index>(k)]});
+    for (std::size_t k = 0; k < likelihood.data().sample_names.size(); ++k) {
+        effects.push_back({likelihood.data().sample_names[k], values[static_cast<Index>(k)]});
     }
     return effects;
 }
 
 /// Every row beside both models, and the effects of the samples.
-void predict_rows(const Problem& problem, const Inference& inference, const Settings& base, const Settings& extended,
+void predict_rows(const DataSet& data, const Inference& inference, const Settings& base, const Settings& extended,
                   const std::vector<bool>& held_out, Diagnosis& diagnosis) {
     const Likelihood& likelihood = inference.likelihood();
     const Eigen::VectorXd by_base = inference.forward().predict(base);
@@ -128,11 +100,11 @@ void predict_rows(const Problem& problem, const Inference& inference, const Sett
     const Eigen::VectorXd extended_residual = likelihood.residual(by_extended);
     diagnosis.base_effects = effects_of(likelihood, by_base);
     diagnosis.extended_effects = effects_of(likelihood, by_extended);
-    for (std::size_t k = 0; k < problem.observations.size(); ++k) {
-        const Observation& observation = problem.observations[k];
+    for (std::size_t k = 0; k < data.observations.size(); ++k) {
+        const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);
         diagnosis.rows.push_back({observation.measurement, observation.row, observation.loss ? "loss_modulus" : "storage_modulus",
-                                  observation.value, std::sqrt(problem.covariance(i, i)), by_base[i], by_extended[i], held_out[k],
+                                  observation.value, data.noise.deviation[i], by_base[i], by_extended[i], held_out[k],
                                   base_residual[i], extended_residual[i]});
     }
 }
@@ -141,7 +113,8 @@ void keep_statistics(const Detection& detection, Diagnosis& diagnosis) {
     for (const MisfitStatistic& one : detection.statistics) {
         const bool whole = one.coordinate == Coordinate::none;
         diagnosis.statistics.push_back({one.observable, name_of(one.coordinate),
-                                        whole                 ? "chi-square"
+                                        !one.cause.empty()    ? "towards " + one.cause
+                                        : whole               ? "chi-square"
                                         : one.autocorrelation ? "neighbours"
                                                               : "smooth components",
                                         one.value, one.score});
@@ -204,42 +177,40 @@ const char* name_of(Verdict verdict) {
 }
 
 Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options, const Progress& progress) {
-    const Problem problem = problem_of(experiment, options.noise);
-    const Forward forward(experiment, problem.observations, simulator);
-    const Likelihood likelihood(problem.data, problem.covariance, problem.samples, options.noise.sample);
+    const DataSet data = data_set_of(experiment, options.noise);
+    const Forward forward(experiment, data.observations, simulator);
+    const Likelihood likelihood(data);
     const Inference inference(forward, likelihood);
-    const std::vector<bool> held_out = choose_held_out(experiment, problem.observations, options.held_out_part);
+    const std::vector<bool> held_out = choose_held_out(experiment, data.observations, options.held_out_part);
 
     Diagnosis diagnosis;
     diagnosis.noise = options.noise;
-    diagnosis.observations = problem.observations.size();
+    diagnosis.observations = data.observations.size();
     progress.update("fitting the base model", 0.1);
     const Fit base = inference.fit({});
     diagnosis.base = cause_of(base);
     Detection detection;
-    diagnosis.p_value = test(problem, inference, base, options, &detection);
+    diagnosis.p_value = test(inference, base, options, &detection);
     diagnosis.detected = diagnosis.p_value <= options.level;
     keep_statistics(detection, diagnosis);
     const Eigen::VectorXd base_prediction = forward.predict(base.settings);
     if (!diagnosis.detected) {
-        predict_rows(problem, inference, base.settings, base.settings, held_out, diagnosis);
+        predict_rows(data, inference, base.settings, base.settings, held_out, diagnosis);
         return diagnosis;
     }
-    diagnosis.failures = localise(problem.observations, detection, likelihood.residual(base_prediction), base_prediction);
+    diagnosis.failures = localise(data.observations, detection, likelihood.residual(base_prediction), base_prediction);
 
     const std::vector<Fit> fits = fit_all(experiment, inference, progress);
-    const double none =
-        flexible_evidence(problem.observations, problem.data, problem.covariance, forward, problem.samples, options.noise.sample);
+    const double none = flexible_evidence(data, forward);
     rank_causes(fits, none, options, diagnosis);
     const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
                                    [](const Cause& cause) { return cause.name != none_name && cause.name != "base"; });
     const Fit& winner = fit_named(fits, best->name);
-    diagnosis.extended_p_value = test(problem, inference, winner, options, nullptr);
+    diagnosis.extended_p_value = test(inference, winner, options, nullptr);
     diagnosis.verdict = verdict_of(diagnosis, options.level);
     progress.update("measuring the gain", 0.9);
-    diagnosis.gain = measure_gain(problem.observations, problem.data, problem.covariance, problem.samples, options.noise.sample,
-                                  held_out, experiment, simulator, winner.hypothesis, options.seed);
-    predict_rows(problem, inference, base.settings, winner.settings, held_out, diagnosis);
+    diagnosis.gain = measure_gain(data, held_out, experiment, simulator, winner.hypothesis, options.seed);
+    predict_rows(data, inference, base.settings, winner.settings, held_out, diagnosis);
     if (diagnosis.verdict == Verdict::tied) {
         std::vector<Fit> candidates;
         std::vector<double> weights;

@@ -51,24 +51,6 @@ Eigen::VectorXd levels(const std::vector<Observation>& observations) {
     return level;
 }
 
-Eigen::VectorXd select(const Eigen::VectorXd& values, const std::vector<Index>& rows) {
-    Eigen::VectorXd selected(static_cast<Index>(rows.size()));
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        selected[static_cast<Index>(k)] = values[rows[k]];
-    }
-    return selected;
-}
-
-Eigen::MatrixXd select(const Eigen::MatrixXd& values, const std::vector<Index>& rows, const std::vector<Index>& columns) {
-    Eigen::MatrixXd selected(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (std::size_t j = 0; j < columns.size(); ++j) {
-            selected(static_cast<Index>(i), static_cast<Index>(j)) = values(rows[i], columns[j]);
-        }
-    }
-    return selected;
-}
-
 double log_normal_density(const Eigen::VectorXd& residual, const Eigen::LLT<Eigen::MatrixXd>& factor) {
     const Eigen::VectorXd white = factor.matrixL().solve(residual);
     return -0.5 * white.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
@@ -79,7 +61,8 @@ double log_normal_density(const Eigen::VectorXd& residual, const Eigen::LLT<Eige
 Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, double amplitude, double length) {
     const Eigen::VectorXd level = levels(observations);
     const std::array coordinates{ranks(observations, Coordinate::strain), ranks(observations, Coordinate::angular_frequency),
-                                 ranks(observations, Coordinate::time), ranks(observations, Coordinate::gap)};
+                                 ranks(observations, Coordinate::time), ranks(observations, Coordinate::gap),
+                                 ranks(observations, Coordinate::plate_radius)};
     const Index count = level.size();
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
     for (Index i = 0; i < count; ++i) {
@@ -96,12 +79,11 @@ Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, 
     return covariance;
 }
 
-double flexible_evidence(const std::vector<Observation>& observations, const Eigen::VectorXd& data, const Eigen::MatrixXd& noise,
-                         const Forward& forward, const std::vector<std::string>& samples, double effect) {
+double flexible_evidence(const DataSet& data, const Forward& forward) {
     std::vector<double> evidence;
     for (const double amplitude : amplitudes) {
         for (const double length : lengths) {
-            const Likelihood likelihood(data, noise + smooth_covariance(observations, amplitude, length), samples, effect);
+            const Likelihood likelihood(data, smooth_covariance(data.observations, amplitude, length));
             const Inference inference(forward, likelihood);
             evidence.push_back(inference.fit({}).log_evidence);
         }
@@ -109,23 +91,19 @@ double flexible_evidence(const std::vector<Observation>& observations, const Eig
     return log_sum(evidence) - std::log(static_cast<double>(evidence.size()));
 }
 
-Eigen::VectorXd flexible_prediction(const std::vector<Observation>& observations, const Eigen::VectorXd& data,
-                                    const Eigen::MatrixXd& noise, const Eigen::VectorXd& base, const std::vector<Index>& known) {
-    std::vector<Index> all(observations.size());
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        all[k] = static_cast<Index>(k);
-    }
-    const Eigen::VectorXd residual = select(data - base, known);
+Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& base, const std::vector<Index>& known) {
+    const Eigen::VectorXd residual = (data.values - base)(known);
+    const Eigen::MatrixXd noise = data.noise.covariance();
     double best = -1e300;
     Eigen::VectorXd prediction = base;
     for (const double amplitude : amplitudes) {
         for (const double length : lengths) {
-            const Eigen::MatrixXd smooth = smooth_covariance(observations, amplitude, length);
-            const Eigen::LLT<Eigen::MatrixXd> factor(select(noise + smooth, known, known));
+            const Eigen::MatrixXd smooth = smooth_covariance(data.observations, amplitude, length);
+            const Eigen::LLT<Eigen::MatrixXd> factor((noise + smooth)(known, known));
             const double density = log_normal_density(residual, factor);
             if (density > best) {
                 best = density;
-                prediction = base + select(smooth, all, known) * factor.solve(residual);
+                prediction = base + smooth(Eigen::all, known) * factor.solve(residual);
             }
         }
     }

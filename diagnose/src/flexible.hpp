@@ -13,11 +13,9 @@ Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, 
 
 /// Log evidence of the base model with that correction, averaged over amplitudes and lengths; the same normalisation as
 /// Fit::log_evidence.
-double flexible_evidence(const std::vector<Observation>& observations, const Eigen::VectorXd& data, const Eigen::MatrixXd& noise,
-                         const Forward& forward, const std::vector<std::string>& samples, double effect);
+double flexible_evidence(const DataSet& data, const Forward& forward);
 
 /// Prediction of all observations by the best of these corrections, conditioned on the observations in `known`.
-Eigen::VectorXd flexible_prediction(const std::vector<Observation>& observations, const Eigen::VectorXd& data,
-                                    const Eigen::MatrixXd& noise, const Eigen::VectorXd& base, const std::vector<Index>& known);
+Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& base, const std::vector<Index>& known);
 
 }  // namespace coagula::diagnose

@@ -58,8 +58,7 @@ std::vector<double> starts(const Experiment& experiment) {
 }
 
 /// Torque per angle over the modulus of a plate-plate or cone-plate geometry [m^3].
-double tool_factor(const Instrument& instrument, double gap) {
-    const double radius = instrument.plate_radius;
+double tool_factor(const Instrument& instrument, double gap, double radius) {
     const bool cone = instrument.geometry && *instrument.geometry == Geometry::cone_plate;
     return cone ? 2 * pi * std::pow(radius, 3) / (3 * instrument.cone_angle) : pi * std::pow(radius, 4) / (2 * gap);
 }
@@ -82,8 +81,10 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
                 }
                 const double error = column->standard_errors.empty() ? unset : column->standard_errors[row];
                 const double gap = cell(table, "gap", row);
+                const double radius = cell(table, "plate_radius", row);
                 all.push_back({k, row, loss, column->values[row], error, cell(table, "strain", row), angular_frequency(table, row),
-                               start[k] + time_in(table, row), std::isnan(gap) ? experiment.instrument.gap : gap});
+                               start[k] + time_in(table, row), std::isnan(gap) ? experiment.instrument.gap : gap,
+                               std::isnan(radius) ? experiment.instrument.plate_radius : radius, column->errors});
             }
         }
     }
@@ -100,7 +101,7 @@ Complex Forward::seen_by_instrument(const Settings& settings, const Observation&
     if (settings.slip > 0 && std::isfinite(observation.gap)) {
         modulus /= 1.0 + 2.0 * settings.slip * modulus / observation.gap;
     }
-    const double factor = tool_factor(experiment_.instrument, observation.gap);
+    const double factor = tool_factor(experiment_.instrument, observation.gap, observation.plate_radius);
     if (settings.tool_compliance > 0) {
         modulus /= 1.0 + settings.tool_compliance * factor * modulus;
     }

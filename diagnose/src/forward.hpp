@@ -25,6 +25,8 @@ struct Observation {
     double angular_frequency;  ///< [rad/s]
     double time;               ///< since the first run on the sample [s]
     double gap;                ///< [m]
+    double plate_radius;       ///< [m]
+    ErrorLaw errors = {};
 };
 
 /// The moduli of all tables of moduli, row by row, cells that were left out skipped.
@@ -37,6 +39,8 @@ public:
 
     /// @param exact run the simulator at the settings themselves instead of between the nodes of its grids.
     Eigen::VectorXd predict(const Settings& settings, bool exact = false) const;
+
+    const Experiment& experiment() const { return experiment_; }
 
 private:
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,

@@ -16,35 +16,23 @@ namespace {
 constexpr std::size_t block_rows = 3;
 constexpr int resamples = 2000;
 
-/// Observations of some rows with their noise.
-struct Part {
-    std::vector<Index> index;
-    std::vector<Observation> observations;
-    Eigen::VectorXd data;
-    Eigen::MatrixXd covariance;
-};
-
-Part part_of(const std::vector<Observation>& observations, const Eigen::VectorXd& data, const Eigen::MatrixXd& covariance,
-             const std::vector<bool>& held_out, bool wanted) {
-    Part part;
-    for (std::size_t k = 0; k < observations.size(); ++k) {
+std::vector<Index> rows_where(const std::vector<bool>& held_out, bool wanted) {
+    std::vector<Index> rows;
+    for (std::size_t k = 0; k < held_out.size(); ++k) {
         if (held_out[k] == wanted) {
-            part.index.push_back(static_cast<Index>(k));
-            part.observations.push_back(observations[k]);
+            rows.push_back(static_cast<Index>(k));
         }
     }
-    part.data = data(part.index);
-    part.covariance = covariance(part.index, part.index);
-    return part;
+    return rows;
 }
 
 /// Log predictive density of every held-out number, the sample effect as an independent error.
-Eigen::VectorXd log_densities(const Part& held, const Eigen::VectorXd& prediction) {
-    const Eigen::ArrayXd variance = held.covariance.diagonal().array();
-    return -0.5 * ((held.data - prediction).array().square() / variance + (2 * M_PI * variance).log()).matrix();
+Eigen::VectorXd log_densities(const DataSet& held, const Eigen::VectorXd& prediction) {
+    const Eigen::ArrayXd variance = held.noise.deviation.array().square();
+    return -0.5 * ((held.values - prediction).array().square() / variance + (2 * M_PI * variance).log()).matrix();
 }
 
-double root_mean_square(const Part& held, const Eigen::VectorXd& prediction) {
+double root_mean_square(const DataSet& held, const Eigen::VectorXd& prediction) {
     // Relative to |G*| of the row, so that G'' counts by what it is worth.
     double sum = 0;
     for (std::size_t k = 0; k < held.observations.size(); ++k) {
@@ -110,38 +98,35 @@ std::vector<bool> choose_held_out(const Experiment& experiment, const std::vecto
     return held;
 }
 
-Gain measure_gain(const std::vector<Observation>& observations, const Eigen::VectorXd& data, const Eigen::MatrixXd& covariance,
-                  const std::vector<std::string>& samples, double effect, const std::vector<bool>& held_out,
-                  const Experiment& experiment, Simulator& simulator, const Hypothesis& extended, std::uint64_t seed) {
-    const Part known = part_of(observations, data, covariance, held_out, false);
-    const Part held = part_of(observations, data, covariance, held_out, true);
+Gain measure_gain(const DataSet& data, const std::vector<bool>& held_out, const Experiment& experiment, Simulator& simulator,
+                  const Hypothesis& extended, std::uint64_t seed) {
+    const std::vector<Index> known_rows = rows_where(held_out, false);
+    const std::vector<Index> held_rows = rows_where(held_out, true);
+    const DataSet known = data.part(known_rows);
+    const DataSet held = data.part(held_rows);
     Gain gain;
     gain.held_out = held.observations.size();
     if (held.observations.empty() || known.observations.size() < 4) {
         return gain;
     }
-    std::vector<std::string> known_samples;
-    for (const Index row : known.index) {
-        known_samples.push_back(samples[static_cast<std::size_t>(row)]);
-    }
-    const Likelihood likelihood(known.data, known.covariance, known_samples, effect);
+    const Likelihood likelihood(known);
     const Forward forward(experiment, known.observations, simulator);
-    const Forward everywhere(experiment, observations, simulator);
+    const Forward everywhere(experiment, data.observations, simulator);
     const Inference inference(forward, likelihood);
     const auto predict = [&](const Hypothesis& hypothesis) {
         return everywhere.predict(inference.fit(hypothesis).settings, !hypothesis.empty());
     };
     const Eigen::VectorXd base = predict({});
     const Eigen::VectorXd better = predict(extended);
-    const Eigen::VectorXd flexible = flexible_prediction(observations, data, covariance, base, known.index);
-    gain.rmse_base = root_mean_square(held, base(held.index));
-    gain.rmse_extended = root_mean_square(held, better(held.index));
-    gain.rmse_flexible = root_mean_square(held, flexible(held.index));
+    const Eigen::VectorXd flexible = flexible_prediction(data, base, known_rows);
+    gain.rmse_base = root_mean_square(held, base(held_rows));
+    gain.rmse_extended = root_mean_square(held, better(held_rows));
+    gain.rmse_flexible = root_mean_square(held, flexible(held_rows));
     gain.rmse_ratio = gain.rmse_extended > 0 ? gain.rmse_base / gain.rmse_extended : 1.0;
-    for (const Index row : held.index) {
+    for (const Index row : held_rows) {
         gain.predictions.push_back({static_cast<std::size_t>(row), base[row], better[row], flexible[row]});
     }
-    const Eigen::VectorXd differences = log_densities(held, better(held.index)) - log_densities(held, base(held.index));
+    const Eigen::VectorXd differences = log_densities(held, better(held_rows)) - log_densities(held, base(held_rows));
     gain.elpd_difference = differences.sum();
     bootstrap_interval(differences, seed, gain);
     return gain;

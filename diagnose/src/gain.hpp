@@ -14,8 +14,7 @@ namespace coagula::diagnose {
 std::vector<bool> choose_held_out(const Experiment& experiment, const std::vector<Observation>& observations, double part);
 
 /// Fits base and extended model to the other observations and compares their predictions of those held out.
-Gain measure_gain(const std::vector<Observation>& observations, const Eigen::VectorXd& data, const Eigen::MatrixXd& covariance,
-                  const std::vector<std::string>& samples, double effect, const std::vector<bool>& held_out,
-                  const Experiment& experiment, Simulator& simulator, const Hypothesis& extended, std::uint64_t seed);
+Gain measure_gain(const DataSet& data, const std::vector<bool>& held_out, const Experiment& experiment, Simulator& simulator,
+                  const Hypothesis& extended, std::uint64_t seed);
 
 }  // namespace coagula::diagnose

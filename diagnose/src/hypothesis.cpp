@@ -86,12 +86,24 @@ std::vector<MechanismParameter> parameters_of(const Hypothesis& hypothesis) {
     return all;
 }
 
+double Inference::stiffness_departure(double log_stiffness) const {
+    const Sample& sample = forward_.experiment().sample;
+    return (log_stiffness - std::log(sample.normal_stiffness)) / sample.normal_stiffness_error;
+}
+
+double Inference::log_prior(double log_stiffness) const {
+    const double departure = stiffness_departure(log_stiffness);
+    return std::isnan(departure)
+               ? -std::log(log_stiffness_range)
+               : -0.5 * departure * departure - std::log(forward_.experiment().sample.normal_stiffness_error * std::sqrt(2 * pi));
+}
+
 /// Newton's method for the logarithm of the stiffness, derivatives by differences.
 Inference::Node Inference::best_stiffness(Settings settings, double start) const {
     constexpr double step = 1e-3;
     const auto density = [&](double log_stiffness) {
         settings.normal_stiffness = std::exp(log_stiffness);
-        return likelihood_.log_density(forward_.predict(settings));
+        return likelihood_.log_density(forward_.predict(settings)) + log_prior(log_stiffness);
     };
     double place = start;
     double curvature = 1;
@@ -111,7 +123,7 @@ Inference::Node Inference::best_stiffness(Settings settings, double start) const
     }
     const double best = density(place);
     curvature = std::max(curvature, 1e-2);
-    return {place, 1 / std::sqrt(curvature), best, best + 0.5 * std::log(2 * pi / curvature) - std::log(log_stiffness_range)};
+    return {place, 1 / std::sqrt(curvature), best, best + 0.5 * std::log(2 * pi / curvature)};
 }
 
 Fit Inference::fit(const Hypothesis& hypothesis) const {

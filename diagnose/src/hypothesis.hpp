@@ -40,8 +40,8 @@ struct Fit {
 };
 
 /// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
-/// posterior is, with the Laplace approximation for the stiffness, which scales the moduli. The prior of the stiffness is uniform
-/// in its logarithm over 0.1 .. 1e5 N/m.
+/// posterior is, with the Laplace approximation for the stiffness, which scales the moduli. The prior of the stiffness is normal in
+/// its logarithm where the experiment knows it, else uniform over 0.1 .. 1e5 N/m.
 class Inference {
 public:
     Inference(const Forward& forward, const Likelihood& likelihood) : forward_(forward), likelihood_(likelihood) {}
@@ -51,6 +51,9 @@ public:
     /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places and the sample effects at a
     /// fit.
     Eigen::MatrixXd jacobian(const Fit& fit) const;
+
+    /// How far a stiffness is from the known one over its error; NaN where it is not known.
+    double stiffness_departure(double log_stiffness) const;
 
     const Forward& forward() const { return forward_; }
     const Likelihood& likelihood() const { return likelihood_; }
@@ -62,6 +65,7 @@ private:
         double log_density;
         double log_weight;  ///< stiffness integrated out
     };
+    double log_prior(double log_stiffness) const;
     Node best_stiffness(Settings settings, double start) const;
 
     const Forward& forward_;

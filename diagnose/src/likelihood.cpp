@@ -1,84 +1,105 @@
 #include "likelihood.hpp"
 
-#include <coagula/common/checks.hpp>
+#include "weights.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace coagula::diagnose {
 
-Eigen::MatrixXd covariance_of(const std::vector<Observation>& observations, const Scatter& storage, const Scatter& loss) {
-    const auto count = static_cast<Index>(observations.size());
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
-    for (Index i = 0; i < count; ++i) {
-        const Observation& one = observations[static_cast<std::size_t>(i)];
-        const Scatter& scatter = one.loss ? loss : storage;
-        const double row =
-            std::isfinite(one.standard_error) ? one.standard_error : std::hypot(scatter.floor, scatter.relative * one.value);
-        covariance(i, i) = row * row;
+namespace {
+
+/// Equally probable variances of the sample effect: scaled inverse chi-square about the estimate.
+std::vector<double> effect_variances(const DataSet& data) {
+    const double estimate = data.effect * data.effect;
+    if (!std::isfinite(data.effect_degrees) || estimate == 0) {
+        return {estimate};
     }
-    return covariance;
+    // Middles of seven equal parts of the normal distribution.
+    std::vector<double> variances;
+    for (const double normal : {-1.4652, -0.7916, -0.3661, 0.0, 0.3661, 0.7916, 1.4652}) {
+        variances.push_back(estimate / scaled_chi_square(data.effect_degrees, normal));
+    }
+    return variances;
 }
 
-Likelihood::Likelihood(const Eigen::VectorXd& data, const Eigen::MatrixXd& covariance, std::vector<std::string> samples,
-                       double effect)
-    : factor_(covariance), effect_(effect) {
-    if (factor_.info() != Eigen::Success) {
-        throw std::runtime_error("the covariance of the data is singular: the stated noise of some rows is zero");
-    }
-    for (const std::string& sample : samples) {
-        const auto found = std::find(names_.begin(), names_.end(), sample);
-        group_.push_back(found - names_.begin());
-        if (found == names_.end()) {
-            names_.push_back(sample);
-        }
-    }
-    groups_ = static_cast<Index>(names_.size());
-    data_ = factor_.matrixL().solve(data);
+}  // namespace
+
+Likelihood::Likelihood(const DataSet& data)
+    : data_(data),
+      white_(data.noise.whiten(data.values)),
+      log_determinant_(data.noise.log_determinant()),
+      variances_(effect_variances(data)) {}
+
+Likelihood::Likelihood(const DataSet& data, const Eigen::MatrixXd& further)
+    : data_(data), factor_(data.noise.covariance() + further), dense_(true), variances_(effect_variances(data)) {
+    white_ = factor_.matrixL().solve(data.values);
     log_determinant_ = 2 * factor_.matrixLLT().diagonal().array().log().sum();
 }
 
 Eigen::VectorXd Likelihood::whiten(const Eigen::VectorXd& values) const {
-    return factor_.matrixL().solve(values);
+    return dense_ ? Eigen::VectorXd(factor_.matrixL().solve(values)) : data_.noise.whiten(values);
 }
 
 Eigen::MatrixXd Likelihood::effect_directions(const Eigen::VectorXd& prediction) const {
-    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(prediction.size(), groups_);
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(prediction.size(), data_.samples());
+    // Rows of different samples have independent errors: whitening then keeps each in its column.
+    const Eigen::VectorXd values = dense_ ? prediction : whiten(prediction);
     for (Index row = 0; row < prediction.size(); ++row) {
-        parts(row, group_[static_cast<std::size_t>(row)]) = prediction[row];
+        parts(row, data_.sample[static_cast<std::size_t>(row)]) = values[row];
     }
-    return factor_.matrixL().solve(parts);
+    return dense_ ? Eigen::MatrixXd(factor_.matrixL().solve(parts)) : parts;
 }
 
 Eigen::VectorXd Likelihood::residual(const Eigen::VectorXd& prediction) const {
-    return data_ - whiten(prediction) - effect_directions(prediction) * effects(prediction);
+    return white_ - whiten(prediction) - effect_directions(prediction) * effects(prediction);
 }
 
 Eigen::VectorXd Likelihood::effects(const Eigen::VectorXd& prediction) const {
-    if (effect_ <= 0) {
-        return Eigen::VectorXd::Zero(groups_);
+    if (data_.effect <= 0) {
+        return Eigen::VectorXd::Zero(data_.samples());
     }
     const Eigen::MatrixXd directions = effect_directions(prediction);
     Eigen::MatrixXd normal = directions.transpose() * directions;
-    normal.diagonal().array() += 1 / (effect_ * effect_);
-    return normal.ldlt().solve(directions.transpose() * (data_ - whiten(prediction)));
+    normal.diagonal().array() += 1 / (data_.effect * data_.effect);
+    return normal.ldlt().solve(directions.transpose() * (white_ - whiten(prediction)));
 }
 
 double Likelihood::log_density(const Eigen::VectorXd& prediction) const {
-    const Eigen::VectorXd plain = data_ - whiten(prediction);
-    if (effect_ <= 0) {
-        return -0.5 * (plain.squaredNorm() + log_determinant_);
+    const Eigen::VectorXd white = whiten(prediction);
+    if (dense_) {
+        return dense_log_density(white_ - white, prediction);
     }
-    // Woodbury's identity for the covariance + effect^2 m m^T of each sample.
-    const Eigen::MatrixXd directions = effect_ * effect_directions(prediction);
-    Eigen::MatrixXd normal = directions.transpose() * directions;
-    normal.diagonal().array() += 1;
-    const Eigen::LLT<Eigen::MatrixXd> factor(normal);
-    const Eigen::VectorXd projected = directions.transpose() * plain;
-    const double explained = projected.dot(factor.solve(projected));
-    const double determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
-    return -0.5 * (plain.squaredNorm() - explained + log_determinant_ + determinant);
+    Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(data_.samples());
+    Eigen::ArrayXd products = Eigen::ArrayXd::Zero(data_.samples());
+    double misfit = 0;
+    for (Index row = 0; row < white.size(); ++row) {
+        const Index sample = data_.sample[static_cast<std::size_t>(row)];
+        const double plain = white_[row] - white[row];
+        misfit += plain * plain;
+        squares[sample] += white[row] * white[row];
+        products[sample] += white[row] * plain;
+    }
+    // Woodbury's identity for the covariance + variance m m^T of each sample: the samples are independent, a number for each.
+    std::vector<double> logarithms;
+    for (const double variance : variances_) {
+        const Eigen::ArrayXd normal = 1 + variance * squares;
+        logarithms.push_back(-0.5 * (normal.log().sum() - variance * (products.square() / normal).sum()));
+    }
+    return log_sum(logarithms) - std::log(static_cast<double>(variances_.size())) - 0.5 * (misfit + log_determinant_);
+}
+
+/// The same where errors of different samples are correlated.
+double Likelihood::dense_log_density(const Eigen::VectorXd& plain, const Eigen::VectorXd& prediction) const {
+    const Eigen::MatrixXd directions = effect_directions(prediction);
+    const Eigen::MatrixXd squares = directions.transpose() * directions;
+    const Eigen::VectorXd products = directions.transpose() * plain;
+    std::vector<double> logarithms;
+    for (const double variance : variances_) {
+        const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(squares.rows(), squares.cols()) + variance * squares);
+        const double determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
+        logarithms.push_back(-0.5 * (determinant - variance * products.dot(factor.solve(products))));
+    }
+    return log_sum(logarithms) - std::log(static_cast<double>(variances_.size())) - 0.5 * (plain.squaredNorm() + log_determinant_);
 }
 
 }  // namespace coagula::diagnose

@@ -1,38 +1,30 @@
-// Gaussian likelihood of the observations: y = m (1 + b) + e with the prediction m, an effect b of each sample and an error e of
-// each row.
+// Likelihood of a data set: normal errors, sample effects integrated out.
 #pragma once
 
-#include "forward.hpp"
+#include "data_set.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include <string>
 #include <vector>
 
 namespace coagula::diagnose {
 
-/// Standard deviation of one observable in a row: sqrt(floor^2 + (relative level)^2).
-struct Scatter {
-    double floor = 0;  ///< [Pa]
-    double relative = 0.05;
-};
-
-/// Covariance of the rows' errors at the measured levels.
-Eigen::MatrixXd covariance_of(const std::vector<Observation>& observations, const Scatter& storage, const Scatter& loss);
-
-/// Data with their errors; sample effects are integrated out (log_density) or taken at their most probable values (residual).
+/// Data with their errors; sample effects are integrated out (log_density) or taken at their most probable values (residual). Where
+/// their standard deviation was estimated from few samples, it is integrated out, too.
 class Likelihood {
 public:
-    /// @param covariance of the errors e. @param samples of each observation. @param effect standard deviation of b.
-    Likelihood(const Eigen::VectorXd& data, const Eigen::MatrixXd& covariance, std::vector<std::string> samples, double effect);
+    /// @param data must outlive this.
+    explicit Likelihood(const DataSet& data);
+    /// @param further covariance added to that of the rows' errors.
+    Likelihood(const DataSet& data, const Eigen::MatrixXd& further);
 
-    Index size() const { return data_.size(); }
+    Index size() const { return white_.size(); }
+    const DataSet& data() const { return data_; }
     /// Whitened data less prediction: independent standard normal numbers if the model is true, but for the sample effects.
     Eigen::VectorXd residual(const Eigen::VectorXd& prediction) const;
-    /// Most probable effects b, one per sample in the order of `effect_names`.
+    /// Most probable effects b, one per sample.
     Eigen::VectorXd effects(const Eigen::VectorXd& prediction) const;
-    const std::vector<std::string>& effect_names() const { return names_; }
     /// Logarithm of the density of the data, but for n/2 log(2 pi).
     double log_density(const Eigen::VectorXd& prediction) const;
     /// Whitened directions in which the sample effects move the prediction, one column per sample.
@@ -40,13 +32,14 @@ public:
     Eigen::VectorXd whiten(const Eigen::VectorXd& values) const;
 
 private:
-    Eigen::LLT<Eigen::MatrixXd> factor_;
-    Eigen::VectorXd data_;  ///< whitened
-    std::vector<Index> group_;
-    std::vector<std::string> names_;  ///< of the groups
-    Index groups_ = 0;
-    double effect_;
+    double dense_log_density(const Eigen::VectorXd& plain, const Eigen::VectorXd& prediction) const;
+
+    const DataSet& data_;
+    Eigen::LLT<Eigen::MatrixXd> factor_;  ///< only with further covariance
+    bool dense_ = false;
+    Eigen::VectorXd white_;  ///< the data
     double log_determinant_;
+    std::vector<double> variances_;  ///< equally probable ones of the sample effect
 };
 
 }  // namespace coagula::diagnose

@@ -72,7 +72,8 @@ std::vector<Failure> localise(const std::vector<Observation>& observations, cons
     std::vector<Failure> failures;
     const double scale = prediction.cwiseAbs().maxCoeff();
     for (const MisfitStatistic& statistic : detection.statistics) {
-        if (statistic.coordinate == Coordinate::none || statistic.autocorrelation || statistic.score < noticeable) {
+        if (statistic.coordinate == Coordinate::none || !statistic.cause.empty() || statistic.autocorrelation ||
+            (statistic.score < noticeable && !failures.empty())) {
             continue;
         }
         const bool loss = statistic.observable == "loss_modulus";

@@ -52,6 +52,7 @@ constexpr std::array quantities = {
     Quantity{"normal_force", "N", -infinite, false, infinite, "on the tool, pushing is positive"},
     Quantity{"temperature", "K", 0, true, infinite, ""},
     Quantity{"gap", "m", 0, true, infinite, "between the plates"},
+    Quantity{"plate_radius", "m", 0, true, infinite, "of the plate or cone, where tables differ in it"},
     Quantity{"volume_fraction", "1", 0, true, 1, "of the particles"},
     Quantity{"heterogeneity", "1", 0, true, infinite, "degree of heterogeneity a, in particle radii"},
     Quantity{"coordination", "1", 0, false, infinite, "mean number of contacts"},
@@ -96,6 +97,11 @@ void check_sample(const Sample& sample) {
     check_positive(sample.density, "sample.density", "kg/m3");
     check_positive(sample.solvent_viscosity, "sample.solvent_viscosity", "Pa.s");
     check_positive(sample.temperature, "sample.temperature", "K");
+    check_positive(sample.normal_stiffness, "sample.normal_stiffness", "N/m");
+    check_positive(sample.normal_stiffness_error, "sample.normal_stiffness_error", "");
+    if (std::isnan(sample.normal_stiffness) != std::isnan(sample.normal_stiffness_error)) {
+        throw InputError("sample.normal_stiffness and sample.normal_stiffness_error go together: give both or none");
+    }
     check_parameter(
         sample.volume_fraction, "sample.volume_fraction", [](double value) { return value > 0 && value < 0.75; },
         "must lie above 0 and below 0.75, more than spheres can fill");

@@ -179,8 +179,9 @@ Deviations best_of_starts(const NoiseLikelihood& likelihood, const Deviations& g
     return best;
 }
 
-/// Of residuals that follow each other within a table.
-double lag_one(const Replicates& replicates, const ReplicatedValues& data, const RestrictedFit& fit, const NoiseModel& noise) {
+/// Residuals over their standard deviation, a column per table; NaN where there is no value.
+std::vector<Eigen::VectorXd> standardised_residuals(const Replicates& replicates, const ReplicatedValues& data,
+                                                    const RestrictedFit& fit, const NoiseModel& noise) {
     std::vector<Eigen::VectorXd> rows;
     std::size_t i = 0;
     for (Eigen::Index row = 0; row < replicates.values.rows(); ++row) {
@@ -190,18 +191,23 @@ double lag_one(const Replicates& replicates, const ReplicatedValues& data, const
         rows.push_back(Eigen::VectorXd::Constant(replicates.values.cols(), std::nan("")));
         for (Eigen::Index table = 0; table < replicates.values.cols(); ++table) {
             if (std::isfinite(replicates.values(row, table))) {
-                const double level = fit.levels[data.condition[i]];
-                const double expected = level * (1 + fit.effects[data.sample[i]]);
+                const double expected = fit.levels[data.condition[i]] * (1 + fit.effects[data.sample[i]]);
+                const double level = noise.relative_to_complex_modulus ? replicates.complex_moduli[row] : expected;
                 rows.back()[table] =
-                    (replicates.values(row, table) - expected) / standard_deviation(noise, expected, replicates.floor_weights[row]);
+                    (replicates.values(row, table) - expected) / standard_deviation(noise, level, replicates.floor_weights[row]);
                 ++i;
             }
         }
     }
+    return rows;
+}
+
+/// Of residuals that follow each other within a table.
+double lag_one(const std::vector<Eigen::VectorXd>& rows) {
     double product = 0;
     double square = 0;
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
-        for (Eigen::Index table = 0; table < replicates.values.cols(); ++table) {
+        for (Eigen::Index table = 0; table < rows[k].size(); ++table) {
             const double here = rows[k][table];
             const double next = rows[k + 1][table];
             if (std::isfinite(here) && std::isfinite(next)) {
@@ -213,6 +219,26 @@ double lag_one(const Replicates& replicates, const ReplicatedValues& data, const
     return square > 0 ? product / square : 0;
 }
 
+/// Fourth moment of a single error over that of a normal one, less 3. A residual is a difference from a mean of `tables`, which
+/// dilutes it.
+double excess_kurtosis(const std::vector<Eigen::VectorXd>& rows, double tables) {
+    double squares = 0;
+    double fourth = 0;
+    double count = 0;
+    for (const Eigen::VectorXd& row : rows) {
+        for (const double residual : row) {
+            if (std::isfinite(residual)) {
+                squares += residual * residual;
+                fourth += std::pow(residual, 4);
+                ++count;
+            }
+        }
+    }
+    const double own = (tables - 1) / tables;
+    const double dilution = (std::pow(own, 4) + (tables - 1) / std::pow(tables, 4)) / (own * own);
+    return squares > 0 ? (fourth * count / (squares * squares) - 3) / dilution : 0;
+}
+
 Estimate stated(double value) {
     return {value, value, value};
 }
@@ -221,21 +247,54 @@ std::string count_text(std::size_t count, const std::string& noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+/// Those of the conditions that have replicates.
+Eigen::VectorXd where_replicated(const Replicates& replicates, const Eigen::VectorXd& all) {
+    std::vector<double> chosen;
+    for (Eigen::Index row = 0; row < replicates.values.rows(); ++row) {
+        if (replicates.values.row(row).array().isFinite().count() >= 2) {
+            chosen.push_back(row < all.size() ? all[row] : std::nan(""));
+        }
+    }
+    return Eigen::VectorXd::Map(chosen.data(), static_cast<Eigen::Index>(chosen.size()));
+}
+
+/// |G*| of the conditions that have replicates.
+Eigen::VectorXd sizes_of(const Replicates& replicates) {
+    return where_replicated(replicates, replicates.complex_moduli);
+}
+
+/// Whether all levels are well above the scatter between replicates, both over |G*|.
+bool stands_out(const ReplicatedValues& data, const Eigen::VectorXd& sizes) {
+    const Eigen::VectorXd levels = mean_levels(data).cwiseQuotient(sizes);
+    double squares = 0;
+    for (std::size_t i = 0; i < data.condition.size(); ++i) {
+        const Eigen::Index condition = data.condition[i];
+        squares += std::pow(data.values[static_cast<Eigen::Index>(i)] / sizes[condition] - levels[condition], 2);
+    }
+    const auto values = static_cast<double>(data.values.size());
+    const auto conditions = static_cast<double>(data.conditions);
+    const double error_of_mean = std::sqrt(squares / (values - conditions) * conditions / values);
+    constexpr double clear = 4;
+    return levels.minCoeff() > clear * error_of_mean;
+}
+
 void fit_replicates(NoiseModel& noise, const Replicates& replicates, const ReplicatedValues& data,
                     const std::vector<std::string>& names, const NoiseOptions& options) {
-    Eigen::VectorXd levels = mean_levels(data);
+    Eigen::VectorXd levels = noise.relative_to_complex_modulus ? sizes_of(replicates) : mean_levels(data);
     const Eigen::VectorXd sizes = levels.cwiseQuotient(data.floor_weights).cwiseAbs();
     const bool with_floor = sizes.maxCoeff() >= options.least_range * sizes.minCoeff();
-    const bool with_sample = data.samples > 1;
+    const bool with_sample = data.samples > 1 && !noise.relative_to_complex_modulus;
     Eigen::VectorXd effects = Eigen::VectorXd::Zero(data.samples);
     Deviations best = first_guess(data, levels);
     for (int pass = 0; pass < passes; ++pass) {
         const NoiseLikelihood likelihood(data, levels, effects, with_floor, with_sample);
         best = pass == 0 ? best_of_starts(likelihood, best) : likelihood.best(best, -1);
         if (pass + 1 < passes) {
-            const RestrictedFit fit = likelihood.fit(best);
-            levels = fit.levels;
-            effects = fit.effects;
+            if (!noise.relative_to_complex_modulus) {
+                const RestrictedFit fit = likelihood.fit(best);
+                levels = fit.levels;
+                effects = fit.effects;
+            }
             continue;
         }
         noise.floor = with_floor ? profile(likelihood, best, 0) : Estimate{};
@@ -245,14 +304,26 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
         for (std::size_t s = 0; with_sample && s < names.size(); ++s) {
             noise.sample_effects.push_back({names[s], fit.effects[static_cast<Eigen::Index>(s)]});
         }
-        noise.autocorrelation = lag_one(replicates, data, fit, noise);
+        noise.levels = fit.levels;
+        const std::vector<Eigen::VectorXd> residuals = standardised_residuals(replicates, data, fit, noise);
+        noise.autocorrelation = lag_one(residuals);
+        noise.excess_kurtosis =
+            excess_kurtosis(residuals, static_cast<double>(noise.values) / static_cast<double>(data.conditions));
+        noise.axis = where_replicated(replicates, replicates.axis);
+        noise.conditions = static_cast<std::size_t>(data.conditions);
+        noise.degrees = static_cast<double>(noise.values) - static_cast<double>(data.conditions) -
+                        static_cast<double>(with_sample ? names.size() - 1 : 0);
     }
     noise.rows_estimated = true;
     noise.sample_estimated = with_sample;
-    noise.statement = "restricted maximum likelihood from " + count_text(noise.tables, "table") + " on " +
-                      count_text(noise.samples, "sample") + ", " + std::to_string(noise.values) + " values" +
-                      (with_floor ? "" : "; the levels are too alike to tell a floor from the relative part") +
-                      (with_sample ? "" : "; one sample tells nothing about differences between samples: stated, not measured");
+    noise.statement =
+        "restricted maximum likelihood from " + count_text(noise.tables, "table") + " on " + count_text(noise.samples, "sample") +
+        ", " + std::to_string(noise.values) + " values" +
+        (with_floor ? "" : "; the levels are too alike to tell a floor from the relative part") +
+        (noise.relative_to_complex_modulus ? "; it averages to zero or below, so its scatter is taken relative to |G*|" : "") +
+        (with_sample || noise.relative_to_complex_modulus
+             ? ""
+             : "; one sample tells nothing about differences between samples: stated, not measured");
 }
 
 }  // namespace
@@ -273,8 +344,11 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     noise.samples = std::max<std::size_t>(1, names.size());
     noise.values = static_cast<std::size_t>(data.values.size());
     constexpr Eigen::Index fewest_conditions = 3;
-    const bool usable = data.conditions >= fewest_conditions && (mean_levels(data).array() > 0).all();
-    if (usable) {
+    const bool enough = data.conditions >= fewest_conditions;
+    const bool positive = enough && (mean_levels(data).array() > 0).all();
+    noise.relative_to_complex_modulus =
+        enough && (sizes_of(replicates).array() > 0).all() && !stands_out(data, sizes_of(replicates));
+    if (positive || noise.relative_to_complex_modulus) {
         fit_replicates(noise, replicates, data, names, options);
         return noise;
     }

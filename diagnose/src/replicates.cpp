@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace coagula::diagnose {
 
@@ -10,6 +11,7 @@ namespace {
 /// Set values that agree to this are the same.
 constexpr double same = 0.02;
 constexpr std::size_t fewest_shared = 3;
+constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 bool alike(double a, double b) {
     return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
@@ -48,11 +50,22 @@ std::optional<std::size_t> row_at(const Measurement& table, double position) {
     return nearest;
 }
 
+/// Whether an axis goes up more often than down.
+bool goes_up(const Measurement& table) {
+    const std::vector<double>& axis = axis_of(table)->values;
+    int steps = 0;
+    for (std::size_t row = 1; row < axis.size(); ++row) {
+        steps += axis[row] > axis[row - 1] ? 1 : (axis[row] < axis[row - 1] ? -1 : 0);
+    }
+    return steps >= 0;
+}
+
+/// What comes later on a sample, or goes the other way, may differ by physics.
 bool are_replicates(const Measurement& a, const Measurement& b) {
-    if (a.kind != b.kind || axis_of(a)->name != axis_of(b)->name) {
+    if (a.kind != b.kind || axis_of(a)->name != axis_of(b)->name || a.run_order != b.run_order || goes_up(a) != goes_up(b)) {
         return false;
     }
-    for (const char* name : {"angular_frequency", "strain"}) {
+    for (const char* name : {"angular_frequency", "strain", "gap", "plate_radius"}) {
         const double one = typical(a, name);
         const double other = typical(b, name);
         if (name != axis_of(a)->name && !std::isnan(one) && !std::isnan(other) && !alike(one, other)) {
@@ -63,6 +76,13 @@ bool are_replicates(const Measurement& a, const Measurement& b) {
     const auto shared =
         std::count_if(axis.begin(), axis.end(), [&](double position) { return std::isfinite(position) && row_at(b, position); });
     return static_cast<std::size_t>(shared) >= fewest_shared;
+}
+
+/// |G*| of a row; NaN unless both moduli are known.
+double complex_modulus(const Measurement& table, std::size_t row) {
+    const Column* storage = find_column(table, "storage_modulus");
+    const Column* loss = find_column(table, "loss_modulus");
+    return storage == nullptr || loss == nullptr ? unset : std::hypot(storage->values[row], loss->values[row]);
 }
 
 using Group = std::vector<const Measurement*>;
@@ -101,7 +121,7 @@ std::vector<double> floor_weights(const Measurement& table) {
 /// Conditions are the axis values of the first table.
 Replicates replicates_in(const Group& tables, const Column& observable) {
     const std::vector<double>& axis = axis_of(*tables.front())->values;
-    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}};
+    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}, false, {}};
     replicates.axis = Eigen::VectorXd::Map(axis.data(), static_cast<Eigen::Index>(axis.size()));
     const std::vector<double> weights = floor_weights(*tables.front());
     replicates.floor_of_stress = !weights.empty();
@@ -109,16 +129,22 @@ Replicates replicates_in(const Group& tables, const Column& observable) {
     if (replicates.floor_of_stress) {
         replicates.floor_weights = Eigen::VectorXd::Map(weights.data(), replicates.axis.size());
     }
+    replicates.complex_moduli.setConstant(replicates.axis.size(), unset);
     replicates.values.setConstant(replicates.axis.size(), static_cast<Eigen::Index>(tables.size()), unset);
-    for (std::size_t k = 0; k < tables.size(); ++k) {
-        replicates.samples.push_back(tables[k]->sample);
-        const Column* column = find_column(*tables[k], observable.name);
-        for (std::size_t row = 0; column != nullptr && row < axis.size(); ++row) {
-            const auto there = std::isfinite(axis[row]) ? row_at(*tables[k], axis[row]) : std::nullopt;
-            if (there) {
-                replicates.values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(k)) = column->values[*there];
+    for (const Measurement* table : tables) {
+        replicates.samples.push_back(table->sample);
+    }
+    for (std::size_t row = 0; row < axis.size(); ++row) {
+        std::vector<double> sizes;
+        for (std::size_t k = 0; k < tables.size(); ++k) {
+            const std::size_t there = std::isfinite(axis[row]) ? row_at(*tables[k], axis[row]).value_or(none) : none;
+            if (const Column* column = find_column(*tables[k], observable.name); column != nullptr && there != none) {
+                replicates.values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(k)) = column->values[there];
+                sizes.push_back(complex_modulus(*tables[k], there));
             }
         }
+        replicates.complex_moduli[static_cast<Eigen::Index>(row)] =
+            sizes.empty() ? unset : std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size());
     }
     return replicates;
 }

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct NoiseSettings {
     double loss_floor = 0;  ///< [Pa]
     double loss_relative = 0.05;
     double sample = 0.1;
+    double sample_degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which `sample` was estimated
 };
 
 struct DiagnosisOptions {

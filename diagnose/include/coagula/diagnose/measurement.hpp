@@ -4,6 +4,7 @@
 #include <coagula/common/checks.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,11 +53,19 @@ struct TableRule {
 };
 TableRule rule_of(MeasurementKind kind);
 
+/// What is known of the errors of a column besides their size.
+struct ErrorLaw {
+    double correlation = 0;                                    ///< of neighbouring rows, 0 .. 1
+    double degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which their size was estimated
+    double tail = std::numeric_limits<double>::infinity();     ///< degrees of freedom of Student's t; infinite: normal
+};
+
 struct Column {
     std::string name;                          ///< of a quantity
     std::string unit;                          ///< SI
     std::vector<double> values;                ///< one per row; NaN where the cell is empty or left out
     std::vector<double> standard_errors = {};  ///< one per row in the same unit, or none
+    ErrorLaw errors = {};
 };
 
 /// A cell that is not used.
@@ -87,11 +96,13 @@ const Column* axis_of(const Measurement& measurement);
 /// What the particles and the solvent are; unset (NaN) where nobody said.
 struct Sample {
     std::string name;
-    double particle_radius = unset;    ///< m
-    double density = unset;            ///< of the particles, kg/m3
-    double volume_fraction = unset;    ///< 0 .. 1
-    double solvent_viscosity = unset;  ///< Pa.s
-    double temperature = unset;        ///< K
+    double particle_radius = unset;         ///< m
+    double density = unset;                 ///< of the particles, kg/m3
+    double volume_fraction = unset;         ///< 0 .. 1
+    double solvent_viscosity = unset;       ///< Pa.s
+    double temperature = unset;             ///< K
+    double normal_stiffness = unset;        ///< of a particle, where it is known [N/m]
+    double normal_stiffness_error = unset;  ///< standard deviation of its logarithm
 };
 
 enum class Geometry { plate_plate, cone_plate, concentric_cylinders };

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,16 +21,17 @@ struct Replicates {
     MeasurementKind kind = MeasurementKind::amplitude_sweep;
     std::string observable;  ///< name of a quantity
     std::string unit;
-    Eigen::VectorXd axis;              ///< one per condition
-    std::vector<std::string> samples;  ///< one per table; tables of one sample share its effect
-    Eigen::MatrixXd values;            ///< conditions x tables; NaN where there is none
-    Eigen::VectorXd floor_weights;     ///< w, one per condition
-    bool floor_of_stress = false;      ///< w is 1/strain
+    Eigen::VectorXd axis;                 ///< one per condition
+    std::vector<std::string> samples;     ///< one per table; tables of one sample share its effect
+    Eigen::MatrixXd values;               ///< conditions x tables; NaN where there is none
+    Eigen::VectorXd floor_weights;        ///< w, one per condition
+    bool floor_of_stress = false;         ///< w is 1/strain
+    Eigen::VectorXd complex_moduli = {};  ///< mean |G*|, one per condition; NaN where it is not known
 };
 
-/// Tables of one kind whose axes share at least three values, to 2 %, and that were measured at the same frequency and strain as
-/// far as these are not the axis; moduli of sweeps and gap series only. Tables without a partner make a group of their own. The
-/// measurements must have passed check_data.
+/// Tables of one kind with the same run order whose axes run in the same direction and share at least three values, to 2 %, and
+/// that were measured at the same frequency and strain as far as these are not the axis; moduli of sweeps and gap series only.
+/// Tables without a partner make a group of their own. The measurements must have passed check_data.
 std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurements);
 
 /// A standard deviation with its 95 % profile-likelihood interval; low = high where it was not estimated.
@@ -72,6 +74,14 @@ struct NoiseModel {
     /// Correlation of neighbouring residuals within a table; where it is high, rows are not independent and `relative` describes
     /// the drift of whole stretches.
     double autocorrelation = 0;
+    /// Values average to zero or below: their scatter is taken in proportion to |G*| (an error of the phase) instead of mu.
+    bool relative_to_complex_modulus = false;
+    std::size_t conditions = 0;                                ///< with replicates
+    double excess_kurtosis = 0;                                ///< of a single error, 0 for normal ones
+    double degrees = std::numeric_limits<double>::infinity();  ///< of freedom of the rows' deviation
+    /// Set value and level of every condition; empty unless estimated.
+    Eigen::VectorXd axis = {};
+    Eigen::VectorXd levels = {};
     std::string statement;  ///< one sentence: where the numbers come from
 };
 
@@ -79,6 +89,15 @@ struct NoiseModel {
 /// by the likelihood of the contrasts between replicates; the levels and effects in the variances are those of the previous of four
 /// passes. Throws std::invalid_argument when sizes do not fit together.
 NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options = {});
+
+/// What the models of one observable say together about errors besides their size: correlation of neighbours, freed from the bias
+/// that estimated sample effects make, and tail; each left out unless it is significant (two standard errors).
+struct ErrorShape {
+    ErrorLaw law;
+    double factor = 1;  ///< on the model's deviation: drawn towards the other tables', and freed from what correlated rows lose to
+                        ///< the sample effects
+};
+ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseModel& model);
 
 /// Standard deviation of e where the sample itself has this level, mu (1 + b). @param floor_weight w, see above.
 double standard_deviation(const NoiseModel& noise, double level, double floor_weight);

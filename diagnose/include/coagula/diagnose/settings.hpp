@@ -29,6 +29,8 @@ struct Settings {
     double gap_error = 0;        ///< true gap less the stated one [m]
     double tool_compliance = 0;  ///< [rad/(N m)], beyond what the instrument corrects
     double tool_inertia = 0;     ///< [kg m^2], beyond what the instrument corrects
+
+    bool operator==(const Settings&) const = default;
 };
 
 }  // namespace coagula::diagnose

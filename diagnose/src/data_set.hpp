@@ -1,0 +1,54 @@
+// Observations with their noise: y = m (1 + b) + e with the prediction m, an effect b of each sample and an error e of each row.
+#pragma once
+
+#include "forward.hpp"
+
+#include <coagula/diagnose/diagnosis.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Errors of the rows; those of neighbours in a table may be correlated (first order autoregression).
+struct RowNoise {
+    Eigen::VectorXd deviation;
+    std::vector<Index> previous;  ///< the row before it in its table, -1 if there is none
+    Eigen::VectorXd correlation;  ///< with that row
+
+    /// Values over the deviation and freed from the correlation: independent with unit variance if they are such errors.
+    Eigen::VectorXd whiten(const Eigen::VectorXd& values) const;
+    double log_determinant() const;
+    Eigen::MatrixXd covariance() const;
+};
+
+/// One experiment's moduli, or some of its rows.
+struct DataSet {
+    std::vector<Observation> observations;
+    Eigen::VectorXd values;
+    RowNoise noise;
+    std::vector<Index> sample;  ///< of each observation, from 0
+    std::vector<std::string> sample_names;
+    double effect = 0;                                                ///< standard deviation of b
+    double effect_degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which it was estimated
+
+    Index size() const { return values.size(); }
+    Index samples() const { return static_cast<Index>(sample_names.size()); }
+    DataSet part(const std::vector<Index>& rows) const;
+};
+
+/// Throws InputError when there are too few observations to say anything.
+DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise);
+
+/// Chi-square over its degrees of freedom at a standard normal number, by the cube root (Wilson and Hilferty 1931).
+double scaled_chi_square(double degrees, double normal);
+
+/// Whitened errors of the rows, then the effects of the samples over their deviation, as the noise model draws them: heavy tails
+/// and the uncertainty of estimated deviations included.
+Eigen::VectorXd draw_errors(const DataSet& data, std::uint64_t seed, std::uint64_t number);
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,19 @@
+// All by which data depart from a fitted model, and how the fitted quantities move it.
+#pragma once
+
+#include "hypothesis.hpp"
+
+#include <Eigen/Core>
+
+namespace coagula::diagnose {
+
+/// Whitened residuals: of the observations, then of each sample its effect over the deviation of the effects (if these have one),
+/// then that of the stiffness from the known one over its error (if it is known). Independent with unit variance if the model is
+/// true.
+struct Departures {
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd jacobian;  ///< of the prediction: stiffness, parameters, sample effects
+};
+Departures departures_of(const Inference& inference, const Fit& fit);
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,90 @@
+"""Moduli of structures that the diagnosis does not know, by other methods than its own: explicit time stepping and the frequency solver."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy
+
+PARTICLES = 400
+STRUCTURES = 8
+LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
+SWEEP_ROWS = 14
+STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
+CONTACT = STIFFNESS / 2
+RADIUS = 0.25e-6
+OSCILLATION = ["--steps-per-oscillation", "6000", "--damping", "0.7"]
+
+
+class Material:
+    """Structures in a folder and what was simulated of them, each number computed once."""
+
+    def __init__(self, program, folder):
+        self.program = program
+        self.folder = Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.results = self.folder / "material.json"
+        self.known = json.loads(self.results.read_text()) if self.results.exists() else {}
+
+    def run(self, *words):
+        done = subprocess.run([self.program, *map(str, words), "--threads", "1", "--json"], capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)
+
+    def structure(self, number, particles=PARTICLES, volume_fraction=0.4, seed=1000):
+        path = self.folder / f"hidden_{particles}_{volume_fraction}_{seed + number}.h5"
+        if not path.exists():
+            self.run("generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", volume_fraction,
+                     "--radius", RADIUS, "--seed", seed + number, "-o", path)
+        return path
+
+    def remembered(self, key, compute):
+        if key not in self.known:
+            self.known[key] = compute()
+            self.results.write_text(json.dumps(self.known))
+        return self.known[key]
+
+    def shear(self, path, *words):
+        return self.run("shear", path, "-o", self.folder / "sheared.h5", "--force", *words)
+
+    def explicit(self, path, *words):
+        return self.shear(path, "--method", "dem", "--boundary", "periodic", "--orientation", "xz,yx,zy", *OSCILLATION, *words)
+
+    def modulus(self, number):
+        """G' of a structure with springs of unit stiffness, by small oscillations."""
+        def compute():
+            found = self.explicit(self.structure(number), "--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude")
+            return float(numpy.mean([each[-1] for each in found["oscillations"]["storage_modulus"]]))
+        return self.remembered(f"modulus {number}", compute)
+
+    def breaking(self, number, load):
+        """G* over G' at strains growing linearly to `load` times the critical strain, bonds breaking."""
+        def compute():
+            strength = 1e-4 * CONTACT * RADIUS
+            model = self.folder / "strength.toml"
+            model.write_text(f"normal_strength = {strength}\nshear_strength = {strength}\n")
+            words = ["--oscillations", SWEEP_ROWS, "--amplitude", load * 1e-4]
+            broken = self.explicit(self.structure(number), *words, "--model", model)["oscillations"]
+            whole = self.explicit(self.structure(number), *words)["oscillations"]
+            mean = lambda part, of: numpy.mean(of[part], axis=0)
+            unbroken = mean("storage_modulus", whole)
+            storage = mean("storage_modulus", broken) / unbroken
+            loss = (mean("loss_modulus", broken) - mean("loss_modulus", whole)) / unbroken
+            return [storage.tolist(), loss.tolist()]
+        storage, loss = self.remembered(f"breaking {number} {load}", compute)
+        return numpy.array(storage) + 1j * numpy.array(loss)
+
+    def losses(self, number, ratio, exponent, frequencies):
+        """G* over the elastic G' with a springpot beside every spring, by the frequency solver."""
+        def compute():
+            model = self.folder / "loss.toml"
+            lines = []
+            for part, stiffness in (("normal", CONTACT), ("shear", 0.1 * CONTACT)):
+                lines += [f"{part}_springpot_stiffness = {ratio * stiffness}", f"{part}_springpot_time = {1 / (2 * numpy.pi)}",
+                          f"{part}_springpot_exponent = {exponent}"]
+            model.write_text("\n".join(lines) + "\n")
+            words = ["--frequency", ",".join(f"{each}Hz" for each in frequencies)]
+            found = self.shear(self.structure(number), "--model", model, *words)
+            plain = self.shear(self.structure(number))["storage_modulus"]["mean"]
+            return [(numpy.array(found[part]["mean"]) / plain).tolist() for part in ("storage_modulus", "loss_modulus")]
+        storage, loss = self.remembered(f"losses {number} {ratio} {exponent} {list(frequencies)}", compute)
+        return numpy.array(storage) + 1j * numpy.array(loss)

@@ -1,0 +1,185 @@
+"""A day at the rheometer: what torque and angle the instrument would read on a material with hidden effects, written as an experiment file and
+tables. Formulas are those of a plate-plate rheometer, from torque and angle, not those of the diagnosis."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy
+
+GAP = 1e-3
+PLATE = 12.5e-3
+SMALL_STRAIN = 1e-5
+PAUSE = 10.0  # after the last row of a table [s]
+
+
+@dataclass(frozen=True)
+class Table:
+    """Set values of one sweep; arrays of one length."""
+    kind: str
+    sample: str
+    order: int
+    strain: numpy.ndarray
+    frequency: numpy.ndarray
+    time: numpy.ndarray
+    gap: numpy.ndarray
+    plate: float
+    start: float = 0.0
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """What is switched on. `modulus` takes strain, frequency and time of a table's rows."""
+    name: str = "nothing"
+    loss: tuple = ()        # ratio, exponent
+    loads: tuple = ()       # largest load of the amplitude sweep
+    ageing: float = 0.0     # per decade
+    slip: float = 0.0       # m/Pa
+    gap_error: float = 0.0  # m
+    compliance: float = 0.0
+    inertia: float = 0.0
+    resonance: tuple = ()   # size, frequency [Hz]
+    drift: float = 0.0      # stress offset after ten minutes over G times the small strain
+    warmth: tuple = ()      # size, period [s]
+
+
+@dataclass(frozen=True)
+class Noise:
+    torque: float = 0.02   # relative
+    phase: float = 0.004   # rad
+    sample: float = 0.08
+    tail: float = numpy.inf
+    correlation: float = 0.0
+
+
+@dataclass
+class Session:
+    tables: list
+    hidden: Hidden
+    noise: Noise
+    stiffness: float
+    structure: int
+    moduli: list = field(default_factory=list)  # without noise
+    known_stiffness: bool = False
+
+
+def sweep(kind, sample, order, strain, frequency, step, gap=GAP, plate=PLATE):
+    strain, frequency, gap = numpy.broadcast_arrays(*map(numpy.atleast_1d, (strain, frequency, gap)))
+    return Table(kind, sample, order, strain, frequency, step * numpy.arange(1, len(strain) + 1), gap, plate)
+
+
+def placed(tables):
+    """With the time at which each table begins on its sample."""
+    for table in tables:
+        before = [each for each in tables if each.sample == table.sample and each.order < table.order]
+        yield replace(table, start=sum(each.time[-1] + PAUSE for each in before))
+
+
+def full_day(largest_strain, rows):
+    """Three samples in full, two at other gaps, two under a wider plate."""
+    tables = []
+    for name in "ABC":
+        tables += [sweep("frequency-sweep", name, 0, SMALL_STRAIN, numpy.geomspace(0.1, 30, 10), 20),
+                   sweep("time-sweep", name, 1, numpy.full(10, SMALL_STRAIN), 1.0, 60),
+                   sweep("amplitude-sweep", name, 2, largest_strain * numpy.arange(1, rows + 1) / rows, 1.0, 10)]
+    for name in "DE":
+        tables.append(sweep("gap-series", name, 0, SMALL_STRAIN, 1.0, 120, gap=numpy.array([0.4, 0.6, 1.0, 1.5, 2.5]) * 1e-3))
+    for name in "FG":
+        tables.append(sweep("frequency-sweep", name, 0, SMALL_STRAIN, numpy.geomspace(0.1, 30, 8), 20, plate=2 * PLATE))
+    return list(placed(tables))
+
+
+def gap_day():
+    return list(placed([sweep("gap-series", name, 0, SMALL_STRAIN, 1.0, 1, gap=numpy.geomspace(0.3e-3, 3e-3, 8)) for name in "ABC"]))
+
+
+def true_modulus(material, session, table):
+    """Of the material in the gap, row by row."""
+    hidden = session.hidden
+    modulus = numpy.full(len(table.strain), material.modulus(session.structure) * session.stiffness / 100, dtype=complex)
+    if hidden.loss:
+        modulus *= material.losses(session.structure, *hidden.loss, table.frequency)
+    if hidden.loads and table.kind == "amplitude-sweep":
+        modulus *= material.breaking(session.structure, *hidden.loads)
+    if hidden.ageing:
+        modulus *= 1 + hidden.ageing * numpy.log10(1 + table.start + table.time)
+    if hidden.warmth:
+        size, period = hidden.warmth
+        modulus *= 1 + size * numpy.sin(2 * numpy.pi * (table.start + table.time) / period)
+    return modulus
+
+
+def reading(material, session, table):
+    """Apparent G* from torque and angle."""
+    hidden = session.hidden
+    modulus = true_modulus(material, session, table)
+    true_gap = table.gap + hidden.gap_error
+    stress = modulus * table.strain
+    torque = numpy.pi * table.plate**3 / 2 * stress
+    angle = (true_gap * table.strain + 2 * hidden.slip * stress) / table.plate + hidden.compliance * torque
+    torque = torque - hidden.inertia * (2 * numpy.pi * table.frequency)**2 * angle
+    if hidden.resonance:
+        size, place = hidden.resonance
+        ratio = table.frequency / place
+        torque = torque * (1 + size / (1 - ratio**2 + 0.3j * ratio))
+    if hidden.drift:
+        # Grows as the root of time, in phase with the strain.
+        offset = hidden.drift * abs(modulus) * SMALL_STRAIN * numpy.sqrt((table.start + table.time) / 600)
+        torque = torque + numpy.pi * table.plate**3 / 2 * offset
+    apparent_strain = angle * table.plate / table.gap
+    return 2 * torque / (numpy.pi * table.plate**3) / apparent_strain
+
+
+def errors(generator, noise, count):
+    """Unit variance."""
+    if numpy.isfinite(noise.tail):
+        drawn = generator.standard_t(noise.tail, count) * numpy.sqrt((noise.tail - 2) / noise.tail)
+    else:
+        drawn = generator.standard_normal(count)
+    for row in range(1, count):
+        drawn[row] = noise.correlation * drawn[row - 1] + numpy.sqrt(1 - noise.correlation**2) * drawn[row]
+    return drawn
+
+
+def write(session, material, folder, generator, structures):
+    """The experiment file and its tables."""
+    folder.mkdir(parents=True, exist_ok=True)
+    offsets = {}
+    lines = ["[sample]", 'particle_radius = "0.25 um"', "volume_fraction = 0.4", "", "[instrument]", 'geometry = "plate-plate"',
+             f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
+    if session.known_stiffness:
+        lines[3:3] = [f"normal_stiffness = {session.stiffness}", "normal_stiffness_error = 0.05"]
+    for number, table in enumerate(session.tables):
+        clean = reading(material, session, table)
+        offset = offsets.setdefault(table.sample, 1 + session.noise.sample * generator.standard_normal())
+        size = offset * (1 + session.noise.torque * errors(generator, session.noise, len(clean)))
+        measured = clean * size * numpy.exp(1j * session.noise.phase * errors(generator, session.noise, len(clean)))
+        rows = ["strain [1],frequency [Hz],time [s],gap [m],storage_modulus [Pa],loss_modulus [Pa]"]
+        rows += [",".join(f"{value:.9g}" for value in row)
+                 for row in zip(table.strain, table.frequency, table.time, table.gap, measured.real, measured.imag)]
+        (folder / f"table{number}.csv").write_text("\n".join(rows) + "\n")
+        lines += ["[[measurement]]", f'kind = "{table.kind}"', f'file = "table{number}.csv"', f'sample = "{table.sample}"',
+                  f"run_order = {table.order}", f"values = {{ plate_radius = {table.plate} }}", ""]
+    path = folder / "experiment.toml"
+    path.write_text("\n".join(lines))
+    return path
+
+
+def gain(session, material):
+    """By how much chi-square falls when the true model takes the place of the base model, stiffness and sample effects fitted in both."""
+    base = replace(session, hidden=Hidden())
+    names = sorted({table.sample for table in session.tables})
+    difference, directions = [], []
+    for table in session.tables:
+        on, off = reading(material, session, table), reading(material, base, table)
+        scatter = (session.noise.torque * abs(on), numpy.hypot(session.noise.phase * abs(on), session.noise.torque * abs(on.imag)))
+        for part, deviation in ((numpy.real, scatter[0]), (numpy.imag, scatter[1])):
+            difference.append(part(on - off) / deviation)
+            own = numpy.outer(part(off) / deviation, [1.0] + [float(name == table.sample) for name in names])
+            directions.append(own)
+    difference, directions = numpy.concatenate(difference), numpy.vstack(directions)
+    prior = numpy.hstack([numpy.zeros((len(names), 1)), numpy.eye(len(names)) / session.noise.sample])
+    if session.known_stiffness:
+        prior = numpy.vstack([prior, numpy.eye(1, len(names) + 1) / 0.05])
+    directions = numpy.vstack([directions, prior])
+    difference = numpy.concatenate([difference, numpy.zeros(len(prior))])
+    fit = numpy.linalg.lstsq(directions, difference, rcond=None)[0]
+    return float(numpy.sum((difference - directions @ fit)**2))
