@@ -57,6 +57,13 @@ std::vector<double> starts(const Experiment& experiment) {
     return start;
 }
 
+/// What the material's modulus depends on, for unit normal stiffness.
+Settings of_material(Settings settings) {
+    settings.normal_stiffness = 1;
+    settings.slip = settings.gap_error = settings.tool_compliance = settings.tool_inertia = 0;
+    return settings;
+}
+
 /// Torque per angle over the modulus of a plate-plate or cone-plate geometry [m^3].
 double tool_factor(const Instrument& instrument, double gap, double radius) {
     const bool cone = instrument.geometry && *instrument.geometry == Geometry::cone_plate;
@@ -152,23 +159,36 @@ std::vector<Complex> Forward::amplitude_factors(const Settings& settings, bool e
     return factors;
 }
 
-Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
+/// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional.
+std::vector<Complex> Forward::material(const Settings& settings, bool exact) const {
     const double linear = exact ? simulator_.exact_linear_modulus(settings) : simulator_.linear_modulus(settings);
-    const std::vector<Complex> broken = amplitude_factors(settings, exact);
-    Eigen::VectorXd predicted(static_cast<Index>(observations_.size()));
+    std::vector<Complex> moduli = amplitude_factors(settings, exact);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
-        Complex modulus = linear * broken[k];
+        moduli[k] *= linear;
         if (std::isfinite(observation.strain)) {
-            modulus *= simulator_.contact_response(settings, observation.strain);
+            moduli[k] *= simulator_.contact_response(settings, observation.strain);
         }
         if (settings.springpot_ratio > 0) {
             // A springpot in the same proportion to both springs scales the whole stiffness matrix.
-            modulus *= 1.0 + settings.springpot_ratio *
-                                 std::pow(Complex(0, observation.angular_frequency / (2 * pi)), settings.springpot_exponent);
+            moduli[k] *= 1.0 + settings.springpot_ratio *
+                                   std::pow(Complex(0, observation.angular_frequency / (2 * pi)), settings.springpot_exponent);
         }
-        modulus *= 1 + settings.ageing_per_decade * std::log10(1 + observation.time / settings.ageing_start);
-        modulus = seen_by_instrument(settings, observation, modulus);
+        moduli[k] *= 1 + settings.ageing_per_decade * std::log10(1 + observation.time / settings.ageing_start);
+    }
+    return moduli;
+}
+
+Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
+    const Settings part = of_material(settings);
+    if (exact || last_material_.empty() || !(part == last_settings_)) {
+        last_material_ = material(part, exact);
+        last_settings_ = exact ? Settings{.normal_stiffness = unset} : part;  // what is exact serves once
+    }
+    Eigen::VectorXd predicted(static_cast<Index>(observations_.size()));
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        const Complex modulus = seen_by_instrument(settings, observation, settings.normal_stiffness * last_material_[k]);
         predicted[static_cast<Index>(k)] = observation.loss ? modulus.imag() : modulus.real();
     }
     return predicted;

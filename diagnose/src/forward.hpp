@@ -32,7 +32,7 @@ struct Observation {
 /// The moduli of all tables of moduli, row by row, cells that were left out skipped.
 std::vector<Observation> observations_of(const Experiment& experiment);
 
-/// Predicts observations.
+/// Predicts observations. Not for several threads at once.
 class Forward {
 public:
     Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator);
@@ -46,10 +46,14 @@ private:
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
                                             std::complex<double> modulus) const;
     std::vector<std::complex<double>> amplitude_factors(const Settings& settings, bool exact) const;
+    std::vector<std::complex<double>> material(const Settings& settings, bool exact) const;
 
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
+    // The material of the last call: fits vary stiffness and instrument more often than anything else.
+    mutable Settings last_settings_;
+    mutable std::vector<std::complex<double>> last_material_;
 };
 
 }  // namespace coagula::diagnose

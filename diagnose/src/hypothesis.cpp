@@ -22,7 +22,7 @@ constexpr int posterior_draws = 64;
 
 /// Nodes along an axis for so many parameters.
 int nodes_for(std::size_t parameters) {
-    constexpr std::array<int, 5> nodes{1, 41, 21, 11, 7};
+    constexpr std::array<int, 5> nodes{1, 41, 15, 9, 7};
     return parameters < nodes.size() ? nodes.at(parameters) : 5;
 }
 
@@ -98,30 +98,36 @@ double Inference::log_prior(double log_stiffness) const {
                : -0.5 * departure * departure - std::log(forward_.experiment().sample.normal_stiffness_error * std::sqrt(2 * pi));
 }
 
-/// Newton's method for the logarithm of the stiffness, derivatives by differences.
+/// Gauss and Newton's method for the logarithm of the stiffness: the prediction's logarithmic derivative by a difference, the
+/// density along it by itself.
 Inference::Node Inference::best_stiffness(Settings settings, double start) const {
     constexpr double step = 1e-3;
-    const auto density = [&](double log_stiffness) {
+    const auto predict = [&](double log_stiffness) {
         settings.normal_stiffness = std::exp(log_stiffness);
-        return likelihood_.log_density(forward_.predict(settings)) + log_prior(log_stiffness);
+        return forward_.predict(settings);
     };
     double place = start;
+    double best = 0;
     double curvature = 1;
     for (int iteration = 0; iteration < 25; ++iteration) {
-        const double here = density(place);
-        const double above = density(place + step);
-        const double below = density(place - step);
+        const Eigen::VectorXd here = predict(place);
+        const Eigen::VectorXd slope_of_prediction = (predict(place + step) - here) / step;
+        const auto density = [&](double offset) {
+            return likelihood_.log_density(here + offset * slope_of_prediction) + log_prior(place + offset);
+        };
+        best = density(0);
+        const double above = density(step);
+        const double below = density(-step);
         const double slope = (above - below) / (2 * step);
-        curvature = (2 * here - above - below) / (step * step);
+        curvature = (2 * best - above - below) / (step * step);
         const double change = curvature > 0 ? slope / curvature : (slope > 0 ? 1.0 : -1.0);
         const double moved = std::clamp(place + std::clamp(change, -1.0, 1.0), std::log(0.1), std::log(1e5));
-        const bool done = std::abs(moved - place) < 1e-5;
-        place = moved;
+        const bool done = std::abs(moved - place) < 1e-3 / std::sqrt(std::max(curvature, 1.0)) + 1e-9;
         if (done) {
             break;
         }
+        place = moved;
     }
-    const double best = density(place);
     curvature = std::max(curvature, 1e-2);
     return {place, 1 / std::sqrt(curvature), best, best + 0.5 * std::log(2 * pi / curvature)};
 }

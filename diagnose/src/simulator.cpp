@@ -163,6 +163,9 @@ std::vector<std::complex<double>> Simulator::exact_amplitude_response(const Sett
 
 /// Storage and loss over the linear modulus at loads 1, 2, 3 ... times load_step.
 const std::vector<double>& Simulator::strength_curve() {
+    if (!strength_curve_.empty()) {
+        return strength_curve_;
+    }
     std::string all = "strength curve";
     for (const std::string& name : names_) {
         all += " " + name;
@@ -181,7 +184,8 @@ const std::vector<double>& Simulator::strength_curve() {
         }
         found = cache_.emplace(all, std::move(values)).first;
     }
-    return found->second;
+    strength_curve_ = found->second;
+    return strength_curve_;
 }
 
 std::complex<double> Simulator::amplitude_response(const Settings& settings, double amplitude) {

@@ -55,7 +55,8 @@ private:
     SimulationCache& cache_;
     Progress progress_;
     double radius_;
-    std::vector<double> secant_curve_;  ///< once it has been asked for
+    std::vector<double> secant_curve_;    ///< once it has been asked for
+    std::vector<double> strength_curve_;  ///< likewise
 };
 
 }  // namespace coagula::diagnose
