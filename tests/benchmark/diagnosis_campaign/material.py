@@ -19,19 +19,34 @@ OSCILLATION = ["--steps-per-oscillation", "6000", "--damping", "0.7"]
 class Material:
     """Structures in a folder and what was simulated of them, each number computed once."""
 
-    def __init__(self, program, folder):
+    def __init__(self, program, folder, shared=None):
+        """@param shared folder of a bank that is there already, which is read only."""
         self.program = program
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
+        self.bank = Path(shared or folder)
         self.results = self.folder / "material.json"
-        self.known = json.loads(self.results.read_text()) if self.results.exists() else {}
+        self.known = {}
+        for path in (self.bank / "material.json", self.results):
+            self.known.update(json.loads(path.read_text()) if path.exists() else {})
+
+    def prepare(self, known):
+        """Everything that is not drawn: structures, their moduli, breaking; and those structures that the diagnosis may know."""
+        for number in range(STRUCTURES):
+            self.modulus(number)
+            for load in LOADS:
+                self.breaking(number, load)
+        for number in range(known):
+            path = self.folder / f"known_{number}.h5"
+            if not path.exists():
+                self.structure(number, seed=1).rename(path)
 
     def run(self, *words):
         done = subprocess.run([self.program, *map(str, words), "--threads", "1", "--json"], capture_output=True, text=True, check=True)
         return json.loads(done.stdout)
 
     def structure(self, number, particles=PARTICLES, volume_fraction=0.4, seed=1000):
-        path = self.folder / f"hidden_{particles}_{volume_fraction}_{seed + number}.h5"
+        path = self.bank / f"hidden_{particles}_{volume_fraction}_{seed + number}.h5"
         if not path.exists():
             self.run("generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", volume_fraction,
                      "--radius", RADIUS, "--seed", seed + number, "-o", path)

@@ -1,0 +1,96 @@
+"""Hides effects in data and counts what `coagula diagnose` finds.
+
+    python3 tests/benchmark/diagnosis_campaign/campaign.py --program build/bin/coagula --folder campaign --runs 200 --jobs 2
+
+Each run draws a session (cases.py) from the seed of its number, writes experiment file and tables, runs the program and keeps what it said in
+results.jsonl; runs that are there already are not repeated. The table of results.jsonl is printed at the end (table.py)."""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import numpy
+
+from cases import ROWS
+from material import Material
+from session import gain, write
+from table import print_table
+
+KNOWN_STRUCTURES = [("known", number) for number in range(2)]
+
+
+def diagnose(program, experiment, cache, *words):
+    """What the program says; its simulations go into and out of `cache`."""
+    folder = experiment.parent / "diagnosis"
+    folder.mkdir(exist_ok=True)
+    if cache.exists():
+        shutil.copy(cache, folder / "simulations.txt")
+    done = subprocess.run([program, "diagnose", experiment, "-o", folder, "--force", "--json", "--threads", "1", "--quiet",
+                           "--bootstrap", "399", *words], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr)
+    new = folder / "simulations.txt"
+    if new.exists() and (not cache.exists() or new.stat().st_size > cache.stat().st_size):
+        temporary = cache.with_suffix(f".{os.getpid()}")
+        shutil.copy(new, temporary)
+        temporary.rename(cache)
+    return json.loads(done.stdout)
+
+
+def run(row, number, program, folder):
+    generator = numpy.random.default_rng([sorted(ROWS).index(row), number])
+    material = Material(program, folder / f"bank{os.getpid()}", shared=folder / "bank")
+    session = ROWS[row](generator, material)
+    place = folder / "runs" / f"{row}_{number}"
+    experiment = write(session, material, place, generator, [folder / "bank" / f"known_{k}.h5" for k in range(2)])
+    started = time.time()
+    found = diagnose(program, experiment, folder / "simulations.txt")
+    entry = {"row": row, "number": number, "truth": session.hidden.name, "hidden": vars(session.hidden), "stiffness": session.stiffness,
+             "gain": gain(session, material), "wall": time.time() - started}
+    keep = ("detected", "p_value", "verdict", "credible_set", "gain", "extended_p_value", "proposed_measurement", "seconds")
+    entry["found"] = {key: found.get(key) for key in keep}
+    entry["found"]["statistics"] = found.get("statistics", [])[:2]
+    entry["found"]["causes"] = [{key: cause[key] for key in ("name", "posterior", "parameters")} for cause in found["causes"]
+                                if cause["posterior"] > 0.01 or cause["name"] == session.hidden.name]
+    told = session.hidden.name
+    if found["detected"] and row not in ("outside",) and found["causes"][0]["name"] != told and told != "nothing" and " + " not in told:
+        entry["told"] = diagnose(program, experiment, folder / "simulations.txt", "--causes", told).get("gain")
+    shutil.rmtree(place)
+    return entry
+
+
+def attempt(task):
+    try:
+        return run(*task)
+    except Exception as problem:  # one bad run must not lose the others
+        return {"row": task[0], "number": task[1], "problem": str(problem)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", required=True, type=Path)
+    parser.add_argument("--folder", required=True, type=Path)
+    parser.add_argument("--runs", type=int, default=200)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--rows", nargs="*", choices=sorted(ROWS), default=["null", "null-tails", "null-correlated", "null-offsets", "single", "pair", "tie", "outside"])
+    chosen = parser.parse_args()
+    program, folder = chosen.program.resolve(), chosen.folder.resolve()
+    (folder / "bank").mkdir(parents=True, exist_ok=True)
+    Material(program, folder / "bank").prepare(known=2)
+    results = folder / "results.jsonl"
+    done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
+    tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]
+    with ProcessPoolExecutor(chosen.jobs) as pool, results.open("a") as file:
+        for entry in pool.map(attempt, tasks):
+            file.write(json.dumps(entry, default=float) + "\n")
+            file.flush()
+    print_table(results)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,118 @@
+"""What is hidden: one function per row of the table, drawing a session from a random generator."""
+
+from dataclasses import replace
+
+import numpy
+
+from session import Hidden, Noise, Session, full_day, gain, gap_day
+
+LEAST_GAIN, LARGEST_GAIN = 25, 400
+CRITICAL_STRAIN = 1e-4  # of the bank of breaking structures; the sweep's strains follow from the load
+
+
+def draw_session(generator, material, hidden=Hidden(), noise=Noise(), tables=None):
+    tables = tables or full_day(generator.choice([4.0, 8.0]) * CRITICAL_STRAIN, 14)
+    return Session(tables, hidden, noise, stiffness=float(numpy.exp(generator.uniform(numpy.log(20), numpy.log(200)))),
+                   structure=int(generator.integers(8)))
+
+
+def scaled(session, material, wanted, strengths):
+    """The session with that strength of its effect, of those from `strengths` (a function of 0 .. 1 giving Hidden), whose gain is nearest."""
+    at = lambda place: replace(session, hidden=strengths(place))
+    low, high = 0.0, 1.0
+    for _ in range(25):
+        middle = 0.5 * (low + high)
+        if gain(at(middle), material) < wanted:
+            low = middle
+        else:
+            high = middle
+    return at(high)
+
+
+def logarithmic(low, high):
+    return lambda place: low * (high / low)**place
+
+
+def effects(generator, session):
+    """Function of 0 .. 1 that makes each effect stronger."""
+    exponent = round(float(generator.uniform(0.02, 0.25)), 2)
+    load = float(generator.choice([4.0, 8.0]))
+    within = {"contact-loss": logarithmic(1e-3, 1.0), "ageing": logarithmic(1e-3, 0.3), "tool-compliance": logarithmic(1e-4, 1e-2),
+              "tool-inertia": logarithmic(1e-8, 1e-4), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
+    return {
+        "contact-loss": lambda place: Hidden("contact-loss", loss=(float(f"{within['contact-loss'](place):.3g}"), exponent)),
+        "ageing": lambda place: Hidden("ageing", ageing=within["ageing"](place)),
+        "tool-compliance": lambda place: Hidden("tool-compliance", compliance=within["tool-compliance"](place)),
+        "tool-inertia": lambda place: Hidden("tool-inertia", inertia=within["tool-inertia"](place)),
+        "wall-slip": lambda place: Hidden("wall-slip", slip=within["wall-slip"](place)),
+        "gap-error": lambda place: Hidden("gap-error", gap_error=within["gap-error"](place)),
+        "bond-strength": lambda place: Hidden("bond-strength", loads=(load,)),
+    }
+
+
+def null(generator, material):
+    return draw_session(generator, material)
+
+
+def null_tails(generator, material):
+    return draw_session(generator, material, noise=Noise(tail=4))
+
+
+def null_correlated(generator, material):
+    return draw_session(generator, material, noise=Noise(correlation=0.6))
+
+
+def null_offsets(generator, material):
+    return draw_session(generator, material, noise=Noise(sample=0.3))
+
+
+def of_effect(name):
+    def draw(generator, material):
+        session = draw_session(generator, material)
+        strengths = effects(generator, session)[name]
+        wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
+        if name == "bond-strength":
+            load = strengths(1).loads[0]
+            return replace(session, tables=full_day(load * CRITICAL_STRAIN, 14), hidden=strengths(1))
+        return scaled(session, material, wanted, strengths)
+    return draw
+
+
+def single(generator, material):
+    name = generator.choice(["contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength"])
+    return of_effect(name)(generator, material)
+
+
+def pair(generator, material):
+    names = generator.choice(["contact-loss", "ageing", "tool-compliance", "tool-inertia"], 2, replace=False)
+    session = draw_session(generator, material)
+    parts = [of_effect(name)(generator, material) for name in names]
+    hidden = Hidden(" + ".join(names))
+    for part, name in zip(parts, names):
+        strengths = effects(generator, session)[name]
+        one = scaled(session, material, float(generator.uniform(100, 400)), strengths).hidden
+        hidden = replace(hidden, loss=one.loss or hidden.loss, ageing=one.ageing or hidden.ageing,
+                         compliance=one.compliance or hidden.compliance, inertia=one.inertia or hidden.inertia)
+    return replace(session, hidden=hidden)
+
+
+def tie(generator, material):
+    """One gap series on one material: slip and a wrong gap (and a yielding tool) lower the modulus by the same law."""
+    name = generator.choice(["wall-slip", "gap-error"])
+    session = draw_session(generator, material, tables=gap_day())
+    wanted = float(numpy.exp(generator.uniform(numpy.log(2 * LEAST_GAIN), numpy.log(LARGEST_GAIN))))
+    return scaled(session, material, wanted, effects(generator, session)[name])
+
+
+def outside(generator, material):
+    session = draw_session(generator, material)
+    kind = generator.choice(["resonance", "drift", "warmth"])
+    strengths = {"resonance": lambda place: Hidden("resonance", resonance=(logarithmic(1e-3, 1.0)(place), 5.0)),
+                 "drift": lambda place: Hidden("drift", drift=logarithmic(1e-3, 1.0)(place)),
+                 "warmth": lambda place: Hidden("warmth", warmth=(logarithmic(1e-3, 1.0)(place), 400.0))}[kind]
+    return scaled(session, material, float(generator.uniform(100, 400)), strengths)
+
+
+ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlated, "null-offsets": null_offsets, "single": single,
+        "pair": pair, "tie": tie, "outside": outside}
+ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})

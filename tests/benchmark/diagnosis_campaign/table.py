@@ -1,0 +1,115 @@
+"""The table of a campaign: counts, 95 % binomial intervals (Wilson 1927), targets.
+
+    python3 tests/benchmark/diagnosis_campaign/table.py campaign/results.jsonl"""
+
+import json
+import sys
+from math import sqrt
+from pathlib import Path
+from statistics import median
+
+
+def wilson(hits, runs):
+    if runs == 0:
+        return 0.0, 1.0
+    share, z = hits / runs, 1.96
+    middle = (share + z * z / (2 * runs)) / (1 + z * z / runs)
+    half = z / (1 + z * z / runs) * sqrt(share * (1 - share) / runs + z * z / (4 * runs * runs))
+    return middle - half, middle + half
+
+
+def in_set(truth, names):
+    """A pair counts if its members are found, alone or together."""
+    found = {part for name in names for part in name.split(" + ")}
+    return set(truth.split(" + ")) <= found
+
+
+def parameter_covered(entry):
+    """Whether the 90 % intervals of the true cause's own entry hold the truth; one bool per parameter."""
+    fields = {"ageing": ("per_decade", "ageing"), "tool-compliance": ("compliance", "compliance"), "tool-inertia": ("inertia", "inertia"),
+              "wall-slip": ("slip_length", "slip"), "gap-error": ("error", "gap_error")}
+    truth, hidden = entry["truth"], entry["hidden"]
+    for cause in entry["found"]["causes"]:
+        if cause["name"] != truth:
+            continue
+        values = [each for name, each in cause["parameters"].items() if name != "normal_stiffness"]
+        true = list(hidden["loss"]) if truth == "contact-loss" else [hidden[fields[truth][1]]] if truth in fields else []
+        for each, value in zip(values, true):
+            yield each["low"] <= value <= each["high"]
+
+
+class Table:
+    def __init__(self):
+        self.lines = [("case", "what", "count", "share", "95 % interval", "target", "")]
+
+    def add(self, case, what, hits, low=0.0, high=1.0):
+        hits = list(hits)
+        count, runs = sum(hits), len(hits)
+        if runs == 0:
+            return
+        bounds = wilson(count, runs)
+        share = count / runs
+        met = "met" if low <= share <= high else "met within error" if bounds[1] >= low and bounds[0] <= high else "missed"
+        target = f"{100 * low:g} - {100 * high:g} %" if low > 0 and high < 1 else f">= {100 * low:g} %" if low > 0 else f"<= {100 * high:g} %"
+        self.lines.append((case, what, f"{count}/{runs}", f"{100 * share:.1f} %", f"{100 * bounds[0]:.1f} - {100 * bounds[1]:.1f} %", target, met))
+
+    def print(self):
+        print("| " + " | ".join(self.lines[0]) + " |\n|" + "---|" * len(self.lines[0]))
+        for line in self.lines[1:]:
+            print("| " + " | ".join(line) + " |")
+
+
+def confidently_wrong(entry):
+    return entry["found"]["detected"] and any(cause["posterior"] >= 0.95 and cause["name"] not in ("none of the catalogue", "base")
+                                              and not set(cause["name"].split(" + ")) & set(entry["truth"].split(" + "))
+                                              for cause in entry["found"]["causes"])
+
+
+def held_out_ratio(entry):
+    """rms error of the extended model over that of a fit told the cause."""
+    told = entry.get("told") or entry["found"]["gain"]
+    own = entry["found"]["gain"]
+    return own["rmse_extended"] / told["rmse_extended"] if told and own and told["rmse_extended"] > 0 else None
+
+
+def print_table(path):
+    entries = [json.loads(line) for line in Path(path).open()]
+    problems = [entry for entry in entries if "problem" in entry]
+    entries = [entry for entry in entries if "problem" not in entry]
+    of = lambda *rows: [entry for entry in entries if entry["row"] in rows]
+    table = Table()
+    for row in ("null", "null-tails", "null-correlated", "null-offsets"):
+        table.add(row, "detected", [entry["found"]["detected"] for entry in of(row)], 0.03, 0.07)
+    singles = of("single", "contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")
+    strong = [entry for entry in singles if entry["gain"] >= 25 * (1 - 1e-6)]
+    table.add("one effect", "detected", [entry["found"]["detected"] for entry in strong], 0.95)
+    table.add("one effect", "named first", [bool(entry["found"]["credible_set"]) and entry["found"]["credible_set"][0] == entry["truth"] for entry in strong], 0.90)
+    detected = [entry for entry in strong if entry["found"]["detected"]]
+    table.add("one effect", "true cause in the 95 % set", [in_set(entry["truth"], entry["found"]["credible_set"]) for entry in detected], 0.93, 0.97)
+    for name in sorted({entry["truth"] for entry in strong}):
+        own = [entry for entry in strong if entry["truth"] == name]
+        table.add(name, "named first", [bool(entry["found"]["credible_set"]) and entry["found"]["credible_set"][0] == name for entry in own], 0.90)
+    every = of("single", "pair", "tie", "null", "null-tails", "null-correlated", "null-offsets") + singles
+    table.add("all of these", "confidently wrong", [confidently_wrong(entry) for entry in {id(e): e for e in every}.values()], 0.0, 0.02)
+    table.add("designed tie", "reported as tied, truth in the set",
+              [entry["found"]["verdict"] == "tied" and in_set(entry["truth"], entry["found"]["credible_set"]) for entry in of("tie")], 0.95)
+    table.add("outside the catalogue", "none of the catalogue", [entry["found"]["verdict"] == "none-of-catalogue" for entry in of("outside")], 0.85)
+    table.add("outside the catalogue", "confident false name",
+              [entry["found"]["verdict"] == "named" for entry in of("outside")], 0.0, 0.05)
+    table.add("two effects", "both in the set", [in_set(entry["truth"], entry["found"]["credible_set"]) for entry in of("pair")], 0.85)
+    covered = [hit for entry in strong for hit in parameter_covered(entry)]
+    table.add("90 % intervals", "cover", covered, 0.86, 0.94)
+    ratios = [ratio for entry in detected if (ratio := held_out_ratio(entry)) is not None]
+    table.add("gain", "held-out rms at most 1.2 of that of a fit told the cause", [ratio <= 1.2 for ratio in ratios], 0.90)
+    table.print()
+    if detected:
+        print(f"\nMedian size of the set: {median(len(entry['found']['credible_set']) for entry in detected)}.")
+    times = [entry["wall"] for entry in entries]
+    if times:
+        print(f"{len(entries)} runs, {len(problems)} failed; median {median(times):.1f} s, longest {max(times):.1f} s a diagnosis.")
+    for entry in problems[:5]:
+        print(entry["row"], entry["number"], entry["problem"][:300])
+
+
+if __name__ == "__main__":
+    print_table(sys.argv[1])
