@@ -208,7 +208,7 @@ Verb diagnose_verb() {
         .input = "EXPERIMENT.toml",
         .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
                     flag("power", "before anyone measures: which causes this experiment could find, and from which strength on"),
-                    text("causes", "NAME,NAME...", "of --power: these only, instead of the whole catalogue"),
+                    text("causes", "NAME,NAME...", "these only, instead of the whole catalogue"),
                     count("data-sets", "of --power: simulated at each strength near a threshold", "200", within(20, 100000)),
                     count("diagnoses", "of --power: full diagnoses of simulated data for each cause", "4", within(0, 10000))},
         .run = run,

@@ -55,6 +55,9 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     options.level = arguments.quantity("level");
     options.bootstrap = static_cast<int>(arguments.count("bootstrap"));
     options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
+    if (arguments.has("causes")) {
+        options.causes = split(arguments.text("causes"));
+    }
     diagnose::state_errors(file.experiment, noise);
     diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
     ExperimentStructures structures = structures_of(file.experiment, progress);

@@ -17,7 +17,8 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr std::size_t causes_in_pairs = 4;  ///< pairs are made of the best so many causes
+constexpr std::size_t most_pairs = 4;
+constexpr double with_ease = 0.2;  ///< p-value of the best cause from which on pairs are not tried
 constexpr double certain = 0.95;
 constexpr const char* none_name = "none of the catalogue";
 
@@ -37,26 +38,51 @@ Cause cause_of(const Fit& fit) {
     return cause;
 }
 
-/// Fits single causes and pairs of the best of them; the base model comes first.
-std::vector<Fit> fit_all(const Experiment& experiment, const Inference& inference, const Progress& progress) {
-    std::vector<Fit> fits{inference.fit({})};
+/// The causes that the experiment can show and that are asked for.
+std::vector<const Mechanism*> possible_causes(const Experiment& experiment, const DiagnosisOptions& options) {
+    const std::vector<std::string>& wanted = options.causes;
+    for (const std::string& name : wanted) {
+        if (find_mechanism(name) == nullptr) {
+            throw InputError("'" + name + "' is no cause of the catalogue");
+        }
+    }
     std::vector<const Mechanism*> possible;
     for (const Mechanism& mechanism : catalogue()) {
-        if (mechanism.applies(experiment)) {
+        if (mechanism.applies(experiment) &&
+            (wanted.empty() || std::find(wanted.begin(), wanted.end(), mechanism.name) != wanted.end())) {
             possible.push_back(&mechanism);
         }
     }
+    if (possible.empty()) {
+        throw InputError("none of the causes asked for can show in this experiment");
+    }
+    return possible;
+}
+
+/// Fits single causes; the base model comes first. Where the best does not pass the test with ease, it is paired with those causes
+/// towards which the data still depart from it.
+std::vector<Fit> fit_all(const Experiment& experiment, const Inference& inference, const DiagnosisOptions& options,
+                         const Progress& progress) {
+    std::vector<Fit> fits{inference.fit({})};
+    const std::vector<const Mechanism*> possible = possible_causes(experiment, options);
     for (const Mechanism* mechanism : possible) {
         progress.update("attributing", 0.5, mechanism->name);
         fits.push_back(inference.fit({mechanism}));
     }
-    std::vector<Fit> ranked(fits.begin() + 1, fits.end());
-    std::stable_sort(ranked.begin(), ranked.end(), [](const Fit& a, const Fit& b) { return a.log_evidence > b.log_evidence; });
-    const std::size_t partners = std::min(causes_in_pairs, ranked.size());
-    for (std::size_t first = 0; first < partners; ++first) {
-        for (std::size_t second = first + 1; second < partners; ++second) {
+    if (possible.size() < 2) {
+        return fits;
+    }
+    const Fit best =
+        *std::max_element(fits.begin() + 1, fits.end(), [](const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; });
+    const Detection rest = detect(inference, best, options.seed, options.bootstrap);
+    std::size_t pairs = 0;
+    for (const MisfitStatistic& statistic : rest.statistics) {
+        const auto partner =
+            std::find_if(possible.begin(), possible.end(), [&](const Mechanism* one) { return one->name == statistic.cause; });
+        if (rest.p_value < with_ease && partner != possible.end() && pairs < most_pairs) {
             progress.update("attributing", 0.8, "pairs");
-            fits.push_back(inference.fit({ranked[first].hypothesis[0], ranked[second].hypothesis[0]}));
+            fits.push_back(inference.fit({best.hypothesis[0], *partner}));
+            ++pairs;
         }
     }
     return fits;
@@ -200,7 +226,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     }
     diagnosis.failures = localise(data.observations, detection, likelihood.residual(base_prediction), base_prediction);
 
-    const std::vector<Fit> fits = fit_all(experiment, inference, progress);
+    const std::vector<Fit> fits = fit_all(experiment, inference, options, progress);
     const double none = flexible_evidence(data, forward);
     rank_causes(fits, none, options, diagnosis);
     const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),

@@ -336,6 +336,7 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     NoiseModel noise;
     noise.floor_of_stress = replicates.floor_of_stress;
     noise.kind = replicates.kind;
+    noise.labels = replicates.labels;
     noise.observable = replicates.observable;
     noise.unit = replicates.unit;
     std::vector<std::string> names;

@@ -121,7 +121,7 @@ std::vector<double> floor_weights(const Measurement& table) {
 /// Conditions are the axis values of the first table.
 Replicates replicates_in(const Group& tables, const Column& observable) {
     const std::vector<double>& axis = axis_of(*tables.front())->values;
-    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}, false, {}};
+    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}, false, {}, {}};
     replicates.axis = Eigen::VectorXd::Map(axis.data(), static_cast<Eigen::Index>(axis.size()));
     const std::vector<double> weights = floor_weights(*tables.front());
     replicates.floor_of_stress = !weights.empty();
@@ -133,6 +133,7 @@ Replicates replicates_in(const Group& tables, const Column& observable) {
     replicates.values.setConstant(replicates.axis.size(), static_cast<Eigen::Index>(tables.size()), unset);
     for (const Measurement* table : tables) {
         replicates.samples.push_back(table->sample);
+        replicates.labels.push_back(table->label);
     }
     for (std::size_t row = 0; row < axis.size(); ++row) {
         std::vector<double> sizes;

@@ -54,7 +54,8 @@ void state_errors(Experiment& experiment, const std::vector<NoiseModel>& noise) 
     for (Measurement& table : experiment.measurements) {
         for (Column& column : table.columns) {
             const auto model = std::find_if(noise.begin(), noise.end(), [&](const NoiseModel& one) {
-                return one.kind == table.kind && one.observable == column.name;
+                return one.observable == column.name &&
+                       std::find(one.labels.begin(), one.labels.end(), table.label) != one.labels.end();
             });
             if (model == noise.end() || !column.standard_errors.empty()) {
                 continue;

@@ -121,10 +121,11 @@ ContactModel springs(double stiffness) {
 
 TEST(Diagnosis, FindsNothingWhereNothingIsHidden) {
     int detected = 0;
-    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 120; ++seed) {
         detected += diagnose_tables({frequency_sweep(springs(40), seed)}, seed).detected ? 1 : 0;
     }
-    EXPECT_LE(detected, 8);  // 3 expected at the 5 % level; more than 8 has a probability of 0.4 %
+    EXPECT_LE(detected, 12);  // 6 expected at the 5 % level; more than 12 has a probability of 0.5 %
+    EXPECT_GE(detected, 1);   // none has one of 0.2 %
 }
 
 TEST(Diagnosis, NamesTheLossOfTheContacts) {
@@ -185,9 +186,13 @@ TEST(Diagnosis, NamesTheStrengthOfTheBonds) {
 TEST(Diagnosis, DoesNotNameWhatOnlyScalesTheModulus) {
     ContactModel model = springs(40);
     model.bending_stiffness = model.twisting_stiffness = 1e-2 * 20 * 0.25e-6 * 0.25e-6;
-    const Diagnosis found = diagnose_tables({frequency_sweep(model, 11)});
-    EXPECT_FALSE(found.detected);
-    EXPECT_EQ(found.verdict, Verdict::no_discrepancy);
+    int detected = 0;
+    for (std::uint64_t seed = 201; seed <= 220; ++seed) {
+        const Diagnosis found = diagnose_tables({frequency_sweep(model, seed)}, seed);
+        detected += found.detected ? 1 : 0;
+        EXPECT_NE(found.verdict, Verdict::named);
+    }
+    EXPECT_LE(detected, 4);  // 1 expected; more than 4 has a probability of 0.3 %
 }
 
 /// A resonance of the tool is in no catalogue.

@@ -36,6 +36,7 @@ struct DiagnosisOptions {
     double pair_prior = 0.1;     ///< prior weight of each pair of mechanisms over that of a single one
     double none_prior = 0.3;     ///< of "none of the catalogue" over that of a single mechanism
     std::uint64_t seed = 1;
+    std::vector<std::string> causes = {};  ///< of the catalogue; empty: all
 };
 
 enum class Verdict {

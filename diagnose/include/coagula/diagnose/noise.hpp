@@ -21,12 +21,13 @@ struct Replicates {
     MeasurementKind kind = MeasurementKind::amplitude_sweep;
     std::string observable;  ///< name of a quantity
     std::string unit;
-    Eigen::VectorXd axis;                 ///< one per condition
-    std::vector<std::string> samples;     ///< one per table; tables of one sample share its effect
-    Eigen::MatrixXd values;               ///< conditions x tables; NaN where there is none
-    Eigen::VectorXd floor_weights;        ///< w, one per condition
-    bool floor_of_stress = false;         ///< w is 1/strain
-    Eigen::VectorXd complex_moduli = {};  ///< mean |G*|, one per condition; NaN where it is not known
+    Eigen::VectorXd axis;                  ///< one per condition
+    std::vector<std::string> samples;      ///< one per table; tables of one sample share its effect
+    Eigen::MatrixXd values;                ///< conditions x tables; NaN where there is none
+    Eigen::VectorXd floor_weights;         ///< w, one per condition
+    bool floor_of_stress = false;          ///< w is 1/strain
+    std::vector<std::string> labels = {};  ///< of the tables
+    Eigen::VectorXd complex_moduli = {};   ///< mean |G*|, one per condition; NaN where it is not known
 };
 
 /// Tables of one kind with the same run order whose axes run in the same direction and share at least three values, to 2 %, and
@@ -76,6 +77,7 @@ struct NoiseModel {
     double autocorrelation = 0;
     /// Values average to zero or below: their scatter is taken in proportion to |G*| (an error of the phase) instead of mu.
     bool relative_to_complex_modulus = false;
+    std::vector<std::string> labels = {};                      ///< of the tables
     std::size_t conditions = 0;                                ///< with replicates
     double excess_kurtosis = 0;                                ///< of a single error, 0 for normal ones
     double degrees = std::numeric_limits<double>::infinity();  ///< of freedom of the rows' deviation
