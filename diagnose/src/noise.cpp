@@ -263,19 +263,30 @@ Eigen::VectorXd sizes_of(const Replicates& replicates) {
     return where_replicated(replicates, replicates.complex_moduli);
 }
 
-/// Whether all levels are well above the scatter between replicates, both over |G*|.
+/// Whether all levels are well above the scatter between replicates, both over |G*|; what a sample has in common is no scatter.
 bool stands_out(const ReplicatedValues& data, const Eigen::VectorXd& sizes) {
-    const Eigen::VectorXd levels = mean_levels(data).cwiseQuotient(sizes);
+    const Eigen::VectorXd levels = mean_levels(data);
+    if ((data.values.array() <= 0).any()) {
+        return false;
+    }
+    Eigen::VectorXd common = Eigen::VectorXd::Zero(data.samples);
+    Eigen::VectorXd count = Eigen::VectorXd::Zero(data.samples);
+    for (std::size_t i = 0; i < data.condition.size(); ++i) {
+        common[data.sample[i]] += data.values[static_cast<Eigen::Index>(i)] / levels[data.condition[i]];
+        count[data.sample[i]] += 1;
+    }
+    common = common.cwiseQuotient(count);
     double squares = 0;
     for (std::size_t i = 0; i < data.condition.size(); ++i) {
         const Eigen::Index condition = data.condition[i];
-        squares += std::pow(data.values[static_cast<Eigen::Index>(i)] / sizes[condition] - levels[condition], 2);
+        const double expected = levels[condition] * common[data.sample[i]];
+        squares += std::pow((data.values[static_cast<Eigen::Index>(i)] - expected) / sizes[condition], 2);
     }
     const auto values = static_cast<double>(data.values.size());
     const auto conditions = static_cast<double>(data.conditions);
     const double error_of_mean = std::sqrt(squares / (values - conditions) * conditions / values);
     constexpr double clear = 4;
-    return levels.minCoeff() > clear * error_of_mean;
+    return levels.cwiseQuotient(sizes).minCoeff() > clear * error_of_mean;
 }
 
 void fit_replicates(NoiseModel& noise, const Replicates& replicates, const ReplicatedValues& data,
@@ -347,8 +358,8 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     constexpr Eigen::Index fewest_conditions = 3;
     const bool enough = data.conditions >= fewest_conditions;
     const bool positive = enough && (mean_levels(data).array() > 0).all();
-    noise.relative_to_complex_modulus =
-        enough && (sizes_of(replicates).array() > 0).all() && !stands_out(data, sizes_of(replicates));
+    noise.relative_to_complex_modulus = enough && replicates.observable == "loss_modulus" &&
+                                        (sizes_of(replicates).array() > 0).all() && !stands_out(data, sizes_of(replicates));
     if (positive || noise.relative_to_complex_modulus) {
         fit_replicates(noise, replicates, data, names, options);
         return noise;

@@ -21,7 +21,6 @@ from material import Material
 from session import gain, write
 from table import print_table
 
-KNOWN_STRUCTURES = [("known", number) for number in range(2)]
 
 
 def diagnose(program, experiment, cache, *words):

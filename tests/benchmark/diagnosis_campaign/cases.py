@@ -19,10 +19,11 @@ def draw_session(generator, material, hidden=Hidden(), noise=Noise(), tables=Non
 def scaled(session, material, wanted, strengths):
     """The session with that strength of its effect, of those from `strengths` (a function of 0 .. 1 giving Hidden), whose gain is nearest."""
     at = lambda place: replace(session, hidden=strengths(place))
+    sketch = material.sketch()
     low, high = 0.0, 1.0
     for _ in range(25):
         middle = 0.5 * (low + high)
-        if gain(at(middle), material) < wanted:
+        if gain(at(middle), sketch) < wanted:
             low = middle
         else:
             high = middle
@@ -86,9 +87,8 @@ def single(generator, material):
 def pair(generator, material):
     names = generator.choice(["contact-loss", "ageing", "tool-compliance", "tool-inertia"], 2, replace=False)
     session = draw_session(generator, material)
-    parts = [of_effect(name)(generator, material) for name in names]
     hidden = Hidden(" + ".join(names))
-    for part, name in zip(parts, names):
+    for name in names:
         strengths = effects(generator, session)[name]
         one = scaled(session, material, float(generator.uniform(100, 400)), strengths).hidden
         hidden = replace(hidden, loss=one.loss or hidden.loss, ageing=one.ageing or hidden.ageing,

@@ -88,6 +88,10 @@ class Material:
         storage, loss = self.remembered(f"breaking {number} {load}", compute)
         return numpy.array(storage) + 1j * numpy.array(loss)
 
+    def sketch(self):
+        """The same with losses by their closed form, to choose how strong an effect is to be."""
+        return Sketch(self)
+
     def losses(self, number, ratio, exponent, frequencies):
         """G* over the elastic G' with a springpot beside every spring, by the frequency solver."""
         def compute():
@@ -99,7 +103,15 @@ class Material:
             model.write_text("\n".join(lines) + "\n")
             words = ["--frequency", ",".join(f"{each}Hz" for each in frequencies)]
             found = self.shear(self.structure(number), "--model", model, *words)
-            plain = self.shear(self.structure(number))["storage_modulus"]["mean"]
+            plain = self.remembered(f"plain {number}", lambda: self.shear(self.structure(number))["storage_modulus"]["mean"])
             return [(numpy.array(found[part]["mean"]) / plain).tolist() for part in ("storage_modulus", "loss_modulus")]
         storage, loss = self.remembered(f"losses {number} {ratio} {exponent} {list(frequencies)}", compute)
         return numpy.array(storage) + 1j * numpy.array(loss)
+
+
+class Sketch:
+    def __init__(self, material):
+        self.modulus, self.breaking = material.modulus, material.breaking
+
+    def losses(self, number, ratio, exponent, frequencies):
+        return 1 + ratio * (1j * numpy.asarray(frequencies))**exponent
