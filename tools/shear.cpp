@@ -90,9 +90,15 @@ std::optional<mechanics::RelaxedNetwork> relaxed(const Arguments& arguments, con
     if (scheme == "none") {
         return std::nullopt;
     }
-    if (!std::isnan(model.young_modulus) || !std::isnan(model.prestress)) {
-        throw InputError("--relax knows linear springs only; " + arguments.text("model") + " has " +
-                         (std::isnan(model.prestress) ? "young_modulus" : "prestress"));
+    if (!std::isnan(model.prestress)) {
+        throw InputError("--relax brings bonds of rest length r_i + r_j to rest and takes them as unstressed there, but " +
+                         arguments.text("model") +
+                         " has prestress, which every bond as found would carry again; --method quasistatic and dem bring a "
+                         "prestressed network to rest themselves");
+    }
+    if (!std::isnan(model.young_modulus)) {
+        throw InputError("--relax knows linear springs only, but " + arguments.text("model") +
+                         " has young_modulus; --method quasistatic and dem with --rest-length radii bring such contacts to rest");
     }
     mechanics::RelaxationOptions options;
     options.normal_stiffness = model.normal_stiffness;

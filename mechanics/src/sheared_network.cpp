@@ -238,24 +238,10 @@ void ShearedNetwork::find_neighbours() {
         const Index first = near.ends(0, pair);
         const Index second = near.ends(1, pair);
         const Vector3d branch = sheared(near.branch.col(pair), strain);
-        const double touching = radii_[first] + radii_[second];
-        if (branch.norm() >= (1 + skin) * touching) {
+        if (branch.norm() >= (1 + skin) * (radii_[first] + radii_[second])) {
             continue;
         }
-        const ShearedContact* known = nullptr;
-        const auto row = static_cast<std::size_t>(first);
-        for (Index entry = contacts_.empty() ? 0 : groups_.start[row]; !contacts_.empty() && entry < groups_.start[row + 1];
-             ++entry) {
-            const ShearedContact& old = contacts_[static_cast<std::size_t>(groups_.contact[static_cast<std::size_t>(entry)])];
-            const double sign = old.first == first && old.second == second ? 1 : -1;
-            const bool same_ends = sign > 0 || (old.first == second && old.second == first);
-            const bool either_way = first == second;
-            const double apart = std::min((old.memory.branch - sign * branch).norm(),
-                                          either_way ? (old.memory.branch + sign * branch).norm() : 1e300);
-            if (same_ends && apart < 1e-3 * touching) {
-                known = &old;
-            }
-        }
+        const ShearedContact* known = find_contact(first, second, branch);
         if (known == nullptr) {
             found.push_back({first, second, -1, law_.make_contact(branch, radii_[first], radii_[second])});
         } else if (known->bond < 0) {
@@ -267,6 +253,25 @@ void ShearedNetwork::find_neighbours() {
     group_contacts();
     moved_ = Eigen::Matrix3Xd::Zero(3, particles());
     strain_at_search_ = strain_;
+}
+
+/// The contact of two particles that has this branch: a pair may touch through more than one image.
+const ShearedContact* ShearedNetwork::find_contact(Index first, Index second, const Vector3d& branch) const {
+    if (contacts_.empty()) {
+        return nullptr;
+    }
+    const double near = 1e-3 * (radii_[first] + radii_[second]);
+    const ShearedContact* found = nullptr;
+    const auto row = static_cast<std::size_t>(first);
+    for (Index entry = groups_.start[row]; entry < groups_.start[row + 1]; ++entry) {
+        const ShearedContact& old = contacts_[static_cast<std::size_t>(groups_.contact[static_cast<std::size_t>(entry)])];
+        const bool forward = old.first == first && old.second == second && (old.memory.branch - branch).norm() < near;
+        const bool backward = old.first == second && old.second == first && (old.memory.branch + branch).norm() < near;
+        if (forward || backward) {
+            found = &old;
+        }
+    }
+    return found;
 }
 
 void ShearedNetwork::group_contacts() {

@@ -109,6 +109,7 @@ private:
     double difference_step(const ContactMemory& memory) const;
     void gather(Trial& trial) const;
     void find_neighbours();
+    const ShearedContact* find_contact(Index first, Index second, const Eigen::Vector3d& branch) const;
     void group_contacts();
     Eigen::Vector3d sheared(const Eigen::Vector3d& branch, double strain) const;
 

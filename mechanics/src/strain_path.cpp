@@ -287,10 +287,16 @@ void StrainPath::go_to(double strain, const Record& record) {
     }
 }
 
+/// New stiffness grows unstressed, so that no force changes; the network comes to rest again all the same.
 void StrainPath::age(double factor) {
-    point_.dissipated += network_.age(factor);
-    network_.evaluate(0.0, Motion::Zero(6 * network_.particles()), rest_);
+    const double before = point_.stored;
+    const double lost = network_.age(factor);
+    velocity_.resize(0);
+    const double dissipated = settle();
     point_.stored = network_.energy(network_.memories());
+    point_.dissipated += lost + dissipated;
+    point_.released += before - lost - dissipated - point_.stored;
+    update_point();
 }
 
 }  // namespace coagula::mechanics

@@ -3,8 +3,8 @@
 
     tests/benchmark/other_programs.py [--program build/bin/coagula] [--particles 8000] [--steps 3000]
 
-A structure is generated, then each program takes --steps steps on one core; these are scaled to the protocol's 180 000. Beside
-them the linear solver, which answers the same question without steps, as a whole process on all cores. LAMMPS (lmp) and Yade are left
+A structure is generated, then each program takes --steps steps on one core (`coagula shear --method dem` ten times as many, one
+orientation as a whole process); these are scaled to the protocol's 180 000. Beside them the linear solver, which answers the same question without steps, as a whole process on all cores. LAMMPS (lmp) and Yade are left
 out where they are not installed, bench_stepper where it was not built beside the program.
 What the steps contain: bonds with normal and shear springs, rotations, a cell under shear, damping. LAMMPS has no such bond in
 Debian: it runs granular contacts with shear history plus harmonic bonds, the same amount of work but not the same model.
@@ -98,6 +98,13 @@ def stepper(program, steps, particles):
     print_scaled("coagula, explicit steps (bench_stepper), 1 core", work / speed, work / processor_speed, steps, particles)
 
 
+def explicit_shear(program, folder, steps, particles):
+    """One orientation of ten oscillations, relaxation before and rest after it included."""
+    wall, processor, _ = measured([program, "shear", "packing.h5", "--quiet", "-o", "d.h5", "--force", "--method", "dem", "--boundary",
+                                   "periodic", "--orientation", "zx", "--steps-per-oscillation", steps], cwd=folder)
+    print_scaled("`coagula shear --method dem`, periodic cell, 1 core", wall, processor, 10 * steps, particles)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=Path, default=Path("build/bin/coagula"))
@@ -115,6 +122,7 @@ def main():
         print("|---|---|---|---|")
         shear = measured([program, "shear", "packing.h5", "--quiet", "-o", "s.h5"], threads=os.cpu_count(), cwd=folder)
         print_row("`coagula shear`, linear, all cores", *shear[:2])
+        explicit_shear(program, folder, steps, particles)
         if (benchmark := program.with_name("bench_stepper")).exists():
             stepper(benchmark, steps, particles)
         if shutil.which("lmp"):

@@ -210,6 +210,62 @@ TEST(Quasistatic, HertzianModulusGrowsWithTheRootOfTheStrain) {
     }
 }
 
+/// JKR at controlled distance: the force passes the pull-off 3/2 pi W R, the bond breaks where the contact radius is
+/// (pi W R^2 / 8 E)^(1/3), at 5/6 pi W R (Johnson, Contact Mechanics, 1985, sec. 5.5).
+TEST(Quasistatic, AdhesiveBondPullsOffWhereJohnsonKendallAndRobertsSay) {
+    const double length = 2 * radius;
+    Columns chain({20 * radius, 20 * radius, length}, {radius});
+    chain.join(0, {0, 0, length});
+    ContactModel model;
+    model.young_modulus = 1e9;
+    model.poisson_ratio = 0.3;
+    model.work_of_adhesion = 0.05;
+    const double modulus = 1e9 / (2 * (1 - 0.09));
+    const double effective = 0.5 * radius;
+    const auto overlap = [&](double a) { return a * a / effective - std::sqrt(2 * pi * 0.05 * a / modulus); };
+    const double rest = std::cbrt(4.5 * pi * 0.05 * effective * effective / modulus);
+    const double end = std::cbrt(pi * 0.05 * effective * effective / (8 * modulus));
+    const double longest = 1 + (overlap(rest) - overlap(end)) / length;
+    const double breaks_at = std::sqrt(longest * longest - 1);
+    const auto ramp = shear_to(chain.packing, chain.bonds, model, {.strain = 0.15, .steps = 100, .solver = {.orientation = zx}});
+    ASSERT_EQ(ramp.broken.size(), 1U);
+    EXPECT_EQ(ramp.broken[0].cause, BreakageCause::pull_off);
+    EXPECT_NEAR(ramp.broken[0].strain, breaks_at, 1e-7);
+    double strongest = 0;
+    double last = 0;
+    for (const StrainPoint& point : ramp.points) {
+        const double stretch = std::sqrt(1 + point.strain * point.strain);
+        const double pull =
+            point.strain > 0 ? stress_zx(point) * chain.packing.cell.volume() * stretch / (length * point.strain) : 0;
+        strongest = std::max(strongest, pull);
+        last = point.bonds == 1 ? pull : last;
+    }
+    EXPECT_NEAR(strongest / (1.5 * pi * 0.05 * effective), 1, 1e-3);
+    EXPECT_NEAR(last / (5.0 / 6 * pi * 0.05 * effective), 1, 1e-3);
+}
+
+/// Simple cubic lattice of Hertz-Mindlin contacts under a prestress F: every particle turns by half the strain, so that
+/// G = k_s / 2 L - F / L^2 with k_s = 8 G* sqrt(R U), U the overlap under F.
+TEST(Quasistatic, PrestressedMindlinLatticeInClosedForm) {
+    const double length = 2 * radius;
+    Columns lattice({length, length, length}, {radius});
+    lattice.join(0, {length, 0, 0});
+    lattice.join(0, {0, length, 0});
+    lattice.join(0, {0, 0, length});
+    ContactModel model;
+    model.young_modulus = 1e9;
+    model.poisson_ratio = 0.3;
+    model.prestress = 1e-8;
+    const double modulus = 1e9 / (2 * (1 - 0.09));
+    const double effective = 0.5 * radius;
+    const double depth = std::pow(1e-8 / (4.0 / 3 * modulus * std::sqrt(effective)), 2.0 / 3);
+    const double shear = 8 * 1e9 / (4 * 1.3 * 1.7) * std::sqrt(effective * depth);
+    const double expected = shear / (2 * length) - 1e-8 / (length * length);
+    for (const double found : small_strain_moduli(lattice.packing, lattice.bonds, model, 1e-6)) {
+        EXPECT_NEAR(found / expected, 1, 1e-5);
+    }
+}
+
 /// Ramp through many breakages.
 RampResponse broken_gel(const generators::VoidExpansion& sample, Index steps) {
     ContactModel model = stiff_joints();
