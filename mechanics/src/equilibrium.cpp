@@ -72,6 +72,7 @@ bool EquilibriumSolver::is_balanced(const Trial& trial) {
 }
 
 void EquilibriumSolver::factorise(const ShearedNetwork& network, const Trial& trial) {
+    factor_.reset();  // two would need twice the memory
     factor_ = std::make_unique<UpdatedFactor>(network, trial);
     effort_.factorisations += factor_->factorisations();
     fresh_ = true;
@@ -157,6 +158,9 @@ bool EquilibriumSolver::correct(const ShearedNetwork& network, Trial& trial) {
         if (is_balanced(now)) {
             trial = std::move(now);
             return true;
+        }
+        if (!std::isfinite(now.rms_residual)) {
+            return false;
         }
         const Motion before = correction;
         correction = precondition(now.residual);
