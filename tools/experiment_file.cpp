@@ -125,6 +125,12 @@ void ExperimentReader::read_structures() {
         }
         result_.experiment.structures.push_back(path);
     }
+    for (const std::int64_t group : keys.wholes("groups")) {
+        if (group < 1) {
+            keys.fail("groups", "must be 1 or more");
+        }
+        result_.experiment.structure_groups.push_back(static_cast<std::size_t>(group));
+    }
     if (const auto generator = keys.text("generator")) {
         if (*generator != "vem" && *generator != "brownian") {
             keys.fail("generator", "'" + *generator + "' is neither vem nor brownian");

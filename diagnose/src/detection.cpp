@@ -44,13 +44,16 @@ void sort_along(const std::vector<Observation>& observations, std::vector<Index>
 /// Each observable along each coordinate over all tables.
 void add_smooth(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
     for (const bool loss : {false, true}) {
-        for (const Coordinate coordinate : {Coordinate::strain, Coordinate::angular_frequency, Coordinate::time, Coordinate::gap}) {
+        for (const Coordinate coordinate : all_coordinates()) {
             MisfitStatistic one{.observable = loss ? "loss_modulus" : "storage_modulus", .coordinate = coordinate};
             for (Index row = 0; row < static_cast<Index>(observations.size()); ++row) {
                 const Observation& observation = observations[static_cast<std::size_t>(row)];
                 if (observation.loss == loss && std::isfinite(coordinate_of(observation, coordinate))) {
                     one.rows.push_back(row);
                 }
+            }
+            if (!one.rows.empty()) {
+                one.observable = observable_of(observations[static_cast<std::size_t>(one.rows.front())]);
             }
             if (one.rows.size() >= fewest_rows && varies(observations, one.rows, coordinate)) {
                 sort_along(observations, one.rows, coordinate);
@@ -161,8 +164,17 @@ double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residua
 
 }  // namespace
 
+std::span<const Coordinate> all_coordinates() {
+    static constexpr std::array all{Coordinate::strain,       Coordinate::angular_frequency, Coordinate::time,
+                                    Coordinate::gap,          Coordinate::plate_radius,      Coordinate::heterogeneity,
+                                    Coordinate::coordination, Coordinate::volume_fraction,   Coordinate::distance};
+    return all;
+}
+
 const char* name_of(Coordinate coordinate) {
-    constexpr std::array<const char*, 6> names{"strain", "angular_frequency", "time", "gap", "plate_radius", "none"};
+    constexpr std::array<const char*, 10> names{
+        "strain",       "angular_frequency", "time",     "gap", "plate_radius", "heterogeneity",
+        "coordination", "volume_fraction",   "distance", "none"};
     return names.at(static_cast<std::size_t>(coordinate));
 }
 
@@ -178,6 +190,14 @@ double coordinate_of(const Observation& observation, Coordinate coordinate) {
             return observation.gap;
         case Coordinate::plate_radius:
             return observation.plate_radius;
+        case Coordinate::heterogeneity:
+            return observation.heterogeneity;
+        case Coordinate::coordination:
+            return observation.coordination;
+        case Coordinate::volume_fraction:
+            return observation.volume_fraction;
+        case Coordinate::distance:
+            return observation.distance;
         default:
             return 0;
     }

@@ -4,13 +4,27 @@
 #include "departures.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace coagula::diagnose {
 
 /// Along which quantity residuals are looked at.
-enum class Coordinate { strain, angular_frequency, time, gap, plate_radius, none };
+enum class Coordinate {
+    strain,
+    angular_frequency,
+    time,
+    gap,
+    plate_radius,
+    heterogeneity,
+    coordination,
+    volume_fraction,
+    distance,
+    none
+};
+/// All but none.
+std::span<const Coordinate> all_coordinates();
 
 const char* name_of(Coordinate coordinate);
 /// Of one observation.
@@ -19,7 +33,7 @@ double coordinate_of(const Observation& observation, Coordinate coordinate);
 /// One way to fail: a smooth departure of one observable of some tables along a coordinate, the samples, a step towards a
 /// mechanism, or the whole.
 struct MisfitStatistic {
-    std::string observable;  ///< "storage_modulus", "loss_modulus", "sample_effect", "normal_stiffness" or "all"
+    std::string observable;  ///< of observable_of(), "sample_effect", "normal_stiffness" or "all"
     Coordinate coordinate = Coordinate::none;
     bool autocorrelation = false;     ///< of neighbours along the coordinate, else the size of smooth components
     std::vector<Index> rows = {};     ///< observations that take part, sorted along the coordinate

@@ -129,9 +129,9 @@ void predict_rows(const DataSet& data, const Inference& inference, const Setting
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);
-        diagnosis.rows.push_back({observation.measurement, observation.row, observation.loss ? "loss_modulus" : "storage_modulus",
-                                  observation.value, data.noise.deviation[i], by_base[i], by_extended[i], held_out[k],
-                                  base_residual[i], extended_residual[i]});
+        diagnosis.rows.push_back({observation.measurement, observation.row, observable_of(observation), observation.value,
+                                  data.noise.deviation[i], by_base[i], by_extended[i], held_out[k], base_residual[i],
+                                  extended_residual[i]});
     }
 }
 
@@ -203,8 +203,10 @@ const char* name_of(Verdict verdict) {
 }
 
 Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options, const Progress& progress) {
-    const DataSet data = data_set_of(experiment, options.noise);
+    DataSet data = data_set_of(experiment, options.noise);
     const Forward forward(experiment, data.observations, simulator);
+    data.noise.deviation =
+        (data.noise.deviation.array().square() + forward.structure_deviation(data.values).array().square()).sqrt();
     const Likelihood likelihood(data);
     const Inference inference(forward, likelihood);
     const std::vector<bool> held_out = choose_held_out(experiment, data.observations, options.held_out_part);

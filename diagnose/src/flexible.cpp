@@ -60,9 +60,10 @@ double log_normal_density(const Eigen::VectorXd& residual, const Eigen::LLT<Eige
 
 Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, double amplitude, double length) {
     const Eigen::VectorXd level = levels(observations);
-    const std::array coordinates{ranks(observations, Coordinate::strain), ranks(observations, Coordinate::angular_frequency),
-                                 ranks(observations, Coordinate::time), ranks(observations, Coordinate::gap),
-                                 ranks(observations, Coordinate::plate_radius)};
+    std::vector<Eigen::VectorXd> coordinates;
+    for (const Coordinate coordinate : all_coordinates()) {
+        coordinates.push_back(ranks(observations, coordinate));
+    }
     const Index count = level.size();
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
     for (Index i = 0; i < count; ++i) {

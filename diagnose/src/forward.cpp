@@ -1,5 +1,7 @@
 #include "forward.hpp"
 
+#include "neighbour_shells.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -13,12 +15,14 @@ namespace {
 using std::numbers::pi;
 using Complex = std::complex<double>;
 
+constexpr Index fewest_centres = 20;
+
 /// How long a row takes where the table has no times [s].
 constexpr double row_duration = 10;
 
 bool has_moduli(MeasurementKind kind) {
     return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
-           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series;
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
 }
 
 double cell(const Measurement& table, std::string_view name, std::size_t row) {
@@ -70,13 +74,83 @@ double tool_factor(const Instrument& instrument, double gap, double radius) {
     return cone ? 2 * pi * std::pow(radius, 3) / (3 * instrument.cone_angle) : pi * std::pow(radius, 4) / (2 * gap);
 }
 
+/// The group of structures that stands for a row of a structure series: its number, else its place in the table.
+std::size_t group_of(const Measurement& table, std::size_t row) {
+    const double number = cell(table, "structure", row);
+    return std::isnan(number) ? row + 1 : static_cast<std::size_t>(std::lround(number));
+}
+
+/// A cell of the moduli with all that the row says about it; time since the start of its table.
+Observation observation_at(const Experiment& experiment, std::size_t number, std::size_t row, bool loss) {
+    const Measurement& table = experiment.measurements[number];
+    const Column& column = *find_column(table, loss ? "loss_modulus" : "storage_modulus");
+    const bool series = table.kind == MeasurementKind::structure_series;
+    const double gap = cell(table, "gap", row);
+    const double radius = cell(table, "plate_radius", row);
+    return {.measurement = number,
+            .row = row,
+            .loss = loss,
+            .value = column.values[row],
+            .standard_error = column.standard_errors.empty() ? unset : column.standard_errors[row],
+            .strain = cell(table, "strain", row),
+            .angular_frequency = angular_frequency(table, row),
+            .time = series ? unset : time_in(table, row),
+            .gap = std::isnan(gap) ? experiment.instrument.gap : gap,
+            .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
+            .errors = column.errors,
+            .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
+            .heterogeneity = cell(table, "heterogeneity", row),
+            .coordination = cell(table, "coordination", row),
+            .volume_fraction = cell(table, "volume_fraction", row)};
+}
+
+/// Neighbours in shells, where the diameter is known and there are particles far enough from the faces.
+std::vector<Observation> neighbours_in(const Experiment& experiment, std::size_t number) {
+    const Measurement& table = experiment.measurements[number];
+    std::vector<Eigen::Vector3d> centres;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const Eigen::Vector3d centre(cell(table, "x", row), cell(table, "y", row), cell(table, "z", row));
+        if (centre.allFinite()) {
+            centres.push_back(centre);
+        }
+    }
+    const Eigen::Map<const Eigen::Matrix3Xd> positions(centres.data()->data(), 3, static_cast<Index>(centres.size()));
+    const NeighbourShells shells = shells_of_points(positions, 2 * experiment.sample.particle_radius);
+    std::vector<Observation> all;
+    for (std::size_t shell = 0; shell < shells.mean.size() && shells.centres >= fewest_centres; ++shell) {
+        all.push_back({.measurement = number,
+                       .row = shell,
+                       .loss = false,
+                       .value = shells.mean[shell],
+                       .standard_error = shells.standard_errors[shell],
+                       .strain = unset,
+                       .angular_frequency = unset,
+                       .time = unset,
+                       .gap = unset,
+                       .plate_radius = unset,
+                       .distance = first_shell + shell_width * (static_cast<double>(shell) + 0.5)});
+    }
+    return all;
+}
+
 }  // namespace
+
+const char* observable_of(const Observation& observation) {
+    if (std::isfinite(observation.distance)) {
+        return "neighbours";
+    }
+    return observation.loss ? "loss_modulus" : "storage_modulus";
+}
 
 std::vector<Observation> observations_of(const Experiment& experiment) {
     const std::vector<double> start = starts(experiment);
     std::vector<Observation> all;
     for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
         const Measurement& table = experiment.measurements[k];
+        if (table.kind == MeasurementKind::coordinates && std::isfinite(experiment.sample.particle_radius)) {
+            const std::vector<Observation> shells = neighbours_in(experiment, k);
+            all.insert(all.end(), shells.begin(), shells.end());
+        }
         if (!has_moduli(table.kind)) {
             continue;
         }
@@ -86,12 +160,8 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
                 if (!std::isfinite(column->values[row])) {
                     continue;
                 }
-                const double error = column->standard_errors.empty() ? unset : column->standard_errors[row];
-                const double gap = cell(table, "gap", row);
-                const double radius = cell(table, "plate_radius", row);
-                all.push_back({k, row, loss, column->values[row], error, cell(table, "strain", row), angular_frequency(table, row),
-                               start[k] + time_in(table, row), std::isnan(gap) ? experiment.instrument.gap : gap,
-                               std::isnan(radius) ? experiment.instrument.plate_radius : radius, column->errors});
+                all.push_back(observation_at(experiment, k, row, loss));
+                all.back().time += start[k];
             }
         }
     }
@@ -99,7 +169,23 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
 }
 
 Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
-    : experiment_(experiment), observations_(observations), simulator_(simulator) {}
+    : experiment_(experiment), observations_(observations), simulator_(simulator) {
+    for (const Observation& observation : observations_) {
+        const Measurement& table = experiment_.measurements[observation.measurement];
+        if (table.kind != MeasurementKind::structure_series) {
+            continue;
+        }
+        if (experiment_.structure_groups.empty()) {
+            throw InputError(table.label +
+                             ": a structure series needs structures.groups, which says what rows a structure stands for");
+        }
+        const auto& groups = experiment_.structure_groups;
+        if (std::find(groups.begin(), groups.end(), observation.structures) == groups.end()) {
+            throw InputError(table.label + ": no structure stands for row " + std::to_string(observation.row + 1) + ", structure " +
+                             std::to_string(observation.structures));
+        }
+    }
+}
 
 Complex Forward::seen_by_instrument(const Settings& settings, const Observation& observation, Complex modulus) const {
     if (settings.gap_error != 0 && std::isfinite(observation.gap)) {
@@ -159,22 +245,38 @@ std::vector<Complex> Forward::amplitude_factors(const Settings& settings, bool e
     return factors;
 }
 
+/// Linear modulus of every group of structures that some observation needs.
+std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, bool exact) const {
+    std::map<std::size_t, double> linear;
+    for (const Observation& observation : observations_) {
+        const std::size_t group = observation.structures;
+        if (!linear.contains(group) && !std::isfinite(observation.distance)) {
+            linear[group] =
+                (exact ? simulator_.exact_linear_modulus(settings, group) : simulator_.linear_modulus(settings, group)) *
+                (1 + settings.size_drift * std::cbrt(1000 / simulator_.particles(group)));
+        }
+    }
+    return linear;
+}
+
 /// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional.
 std::vector<Complex> Forward::material(const Settings& settings, bool exact) const {
-    const double linear = exact ? simulator_.exact_linear_modulus(settings) : simulator_.linear_modulus(settings);
+    std::map<std::size_t, double> linear = linear_moduli(settings, exact);
     std::vector<Complex> moduli = amplitude_factors(settings, exact);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
-        moduli[k] *= linear;
+        moduli[k] *= linear[observation.structures];
         if (std::isfinite(observation.strain)) {
             moduli[k] *= simulator_.contact_response(settings, observation.strain);
         }
-        if (settings.springpot_ratio > 0) {
+        if (settings.springpot_ratio > 0 && std::isfinite(observation.angular_frequency)) {
             // A springpot in the same proportion to both springs scales the whole stiffness matrix.
             moduli[k] *= 1.0 + settings.springpot_ratio *
                                    std::pow(Complex(0, observation.angular_frequency / (2 * pi)), settings.springpot_exponent);
         }
-        moduli[k] *= 1 + settings.ageing_per_decade * std::log10(1 + observation.time / settings.ageing_start);
+        if (std::isfinite(observation.time)) {
+            moduli[k] *= 1 + settings.ageing_per_decade * std::log10(1 + observation.time / settings.ageing_start);
+        }
     }
     return moduli;
 }
@@ -188,10 +290,23 @@ Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
     Eigen::VectorXd predicted(static_cast<Index>(observations_.size()));
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
+        if (std::isfinite(observation.distance)) {
+            predicted[static_cast<Index>(k)] = simulator_.neighbours(settings, observation.row, exact);
+            continue;
+        }
         const Complex modulus = seen_by_instrument(settings, observation, settings.normal_stiffness * last_material_[k]);
         predicted[static_cast<Index>(k)] = observation.loss ? modulus.imag() : modulus.real();
     }
     return predicted;
+}
+
+Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& levels) const {
+    Eigen::VectorXd deviation = Eigen::VectorXd::Zero(levels.size());
+    for (Index row = 0; row < levels.size(); ++row) {
+        const std::size_t group = observations_[static_cast<std::size_t>(row)].structures;
+        deviation[row] = group > 0 ? simulator_.structure_error(group) * std::abs(levels[row]) : 0.0;
+    }
+    return deviation;
 }
 
 }  // namespace coagula::diagnose

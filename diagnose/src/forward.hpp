@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,17 @@ struct Observation {
     double gap;                ///< [m]
     double plate_radius;       ///< [m]
     ErrorLaw errors = {};
+    // Of a structure series.
+    std::size_t structures = 0;  ///< group that stands for the row; 0: all structures
+    double heterogeneity = unset;
+    double coordination = unset;
+    double volume_fraction = unset;
+    // Of coordinates: the value is the mean number of neighbours in a shell, whose number is the row.
+    double distance = unset;  ///< middle of the shell over the diameter
 };
+
+/// "storage_modulus", "loss_modulus" or "neighbours".
+const char* observable_of(const Observation& observation);
 
 /// The moduli of all tables of moduli, row by row, cells that were left out skipped.
 std::vector<Observation> observations_of(const Experiment& experiment);
@@ -42,10 +53,15 @@ public:
 
     const Experiment& experiment() const { return experiment_; }
 
+    /// Standard deviation of the error that so few structures leave in the prediction of the rows of structure series at these
+    /// levels of the moduli: Simulator::structure_error. Zero elsewhere, where it scales all rows alike.
+    Eigen::VectorXd structure_deviation(const Eigen::VectorXd& levels) const;
+
 private:
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
                                             std::complex<double> modulus) const;
     std::vector<std::complex<double>> amplitude_factors(const Settings& settings, bool exact) const;
+    std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
     std::vector<std::complex<double>> material(const Settings& settings, bool exact) const;
 
     const Experiment& experiment_;

@@ -26,8 +26,10 @@ std::string value_text(double value, Coordinate coordinate) {
             return three_digits(value / (2 * std::numbers::pi)) + " Hz";
         case Coordinate::time:
             return three_digits(value) + " s";
-        default:
+        case Coordinate::gap:
             return three_digits(1e3 * value) + " mm";
+        default:
+            return three_digits(value);
     }
 }
 
@@ -88,11 +90,14 @@ std::vector<Failure> localise(const std::vector<Observation>& observations, cons
             std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
         failure.from = coordinate_of(observations[static_cast<std::size_t>(statistic.rows[place])], statistic.coordinate);
         failure.departure = late;
-        failure.sentence =
-            std::string(loss ? "G''" : "G'") + (late < early ? " falls below" : " rises above") + " the base model along " +
-            (statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis) + ": mean difference " +
-            three_digits(100 * early) + " % before and " + three_digits(100 * late) + " % from " +
-            value_text(failure.from, statistic.coordinate) + " on" + (loss ? " (of the largest predicted modulus)" : "");
+        failure.sentence = std::string(statistic.observable == "neighbours" ? "the number of neighbours"
+                                       : loss                               ? "G''"
+                                                                            : "G'") +
+                           (late < early ? " falls below" : " rises above") + " the base model along " +
+                           (statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis) +
+                           ": mean difference " + three_digits(100 * early) + " % before and " + three_digits(100 * late) +
+                           " % from " + value_text(failure.from, statistic.coordinate) + " on" +
+                           (loss ? " (of the largest predicted modulus)" : "");
         failures.push_back(std::move(failure));
     }
     return failures;

@@ -56,6 +56,7 @@ constexpr std::array quantities = {
     Quantity{"volume_fraction", "1", 0, true, 1, "of the particles"},
     Quantity{"heterogeneity", "1", 0, true, infinite, "degree of heterogeneity a, in particle radii"},
     Quantity{"coordination", "1", 0, false, infinite, "mean number of contacts"},
+    Quantity{"structure", "1", 1, false, infinite, "number of the group of structures that stand for the row"},
     Quantity{"rattler_fraction", "1", 0, false, 1, "particles with fewer than three contacts"},
     Quantity{"x", "m", -infinite, false, infinite, "centre"},
     Quantity{"y", "m", -infinite, false, infinite, "centre"},
@@ -215,6 +216,10 @@ void check(const Experiment& experiment) {
     check_instrument(experiment.instrument);
     if (!experiment.structures.empty() && experiment.recipe) {
         throw InputError("structures are given both as files and as a recipe");
+    }
+    if (!experiment.structure_groups.empty() && experiment.structure_groups.size() != experiment.structures.size()) {
+        throw InputError("structures.groups has " + std::to_string(experiment.structure_groups.size()) +
+                         " numbers, but structures.files has " + std::to_string(experiment.structures.size()) + " files");
     }
     for (const Measurement& measurement : experiment.measurements) {
         for (const Column& column : measurement.columns) {

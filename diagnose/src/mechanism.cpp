@@ -27,7 +27,8 @@ std::span<const Mechanism> catalogue() {
                                             mechanisms::wall_slip(),
                                             mechanisms::gap_error(),
                                             mechanisms::tool_compliance(),
-                                            mechanisms::tool_inertia()};
+                                            mechanisms::tool_inertia(),
+                                            mechanisms::numerical(), mechanisms::localisation_error()};
     return all;
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace coagula::diagnose {
 
@@ -56,42 +57,79 @@ ContactModel breaking_model(double ratio, double strength) {
 }  // namespace
 
 Simulator::Simulator(std::vector<Packing> structures, std::vector<std::string> names, SimulationCache& cache,
-                     const Progress& progress)
-    : structures_(std::move(structures)), names_(std::move(names)), cache_(cache), progress_(progress) {
+                     const Progress& progress, std::vector<std::size_t> groups)
+    : structures_(std::move(structures)), names_(std::move(names)), groups_(std::move(groups)), cache_(cache), progress_(progress) {
     require(!structures_.empty() && structures_.size() == names_.size(), "a diagnosis needs at least one structure");
+    require(groups_.empty() || groups_.size() == structures_.size(), "every structure must belong to a group, or none");
     radius_ = mean_radius(structures_.front());
 }
 
-/// Mean modulus for unit stiffness at one node, over the structures.
-double Simulator::node(double ratio, double bending, double tolerance) {
-    double sum = 0;
+std::size_t Simulator::groups() const {
+    return groups_.empty() ? 0 : *std::max_element(groups_.begin(), groups_.end());
+}
+
+std::vector<std::size_t> Simulator::members(std::size_t group) const {
+    std::vector<std::size_t> found;
     for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const std::string key = key_of("linear " + names_[k], {ratio, bending, tolerance});
-        auto found = cache_.find(key);
-        if (found == cache_.end()) {
-            progress_.update("simulating", 0.0, "linear modulus");
-            const ContactNetwork bonds = find_contacts(structures_[k], tolerance);
-            const auto response = solve(structures_[k], bonds, ratio, bending, radius_, progress_);
-            found = cache_.emplace(key, std::vector<double>{response.mean_shear_modulus()}).first;
+        if (group == 0 || (!groups_.empty() && groups_[k] == group)) {
+            found.push_back(k);
         }
-        sum += found->second.front();
     }
-    return sum / static_cast<double>(structures_.size());
+    require(!found.empty(), "no structure belongs to group " + std::to_string(group));
+    return found;
 }
 
-double Simulator::exact_linear_modulus(const Settings& settings) {
+double Simulator::particles(std::size_t group) const {
+    const std::vector<std::size_t> structures = members(group);
+    double sum = 0;
+    for (const std::size_t k : structures) {
+        sum += static_cast<double>(structures_[k].size());
+    }
+    return sum / static_cast<double>(structures.size());
+}
+
+/// Moduli of one structure for unit stiffness: mean over the orientations, then the three shear planes.
+const std::vector<double>& Simulator::linear_moduli(std::size_t structure, double ratio, double bending, double tolerance) {
+    const std::string key = key_of("linear " + names_[structure], {ratio, bending, tolerance});
+    auto found = cache_.find(key);
+    if (found == cache_.end() || found->second.size() < 4) {
+        progress_.update("simulating", 0.0, "linear modulus");
+        const ContactNetwork bonds = find_contacts(structures_[structure], tolerance);
+        const auto response = solve(structures_[structure], bonds, ratio, bending, radius_, progress_);
+        const std::vector<double> values{response.mean_shear_modulus(), response.shear_modulus(0, 1), response.shear_modulus(0, 2),
+                                         response.shear_modulus(1, 2)};
+        found = cache_.insert_or_assign(key, values).first;
+    }
+    return found->second;
+}
+
+/// Mean modulus for unit stiffness at one node, over the structures of a group.
+double Simulator::node(double ratio, double bending, double tolerance, std::size_t group) {
+    const std::array place{ratio, bending, tolerance, static_cast<double>(group)};
+    if (const auto found = nodes_.find(place); found != nodes_.end()) {
+        return found->second;
+    }
+    const std::vector<std::size_t> structures = members(group);
+    double sum = 0;
+    for (const std::size_t k : structures) {
+        sum += linear_moduli(k, ratio, bending, tolerance).front();
+    }
+    return nodes_[place] = sum / static_cast<double>(structures.size());
+}
+
+double Simulator::exact_linear_modulus(const Settings& settings, std::size_t group) {
     return settings.normal_stiffness / unit_stiffness *
-           node(settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance);
+           node(settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance, group);
 }
 
-double Simulator::linear_modulus(const Settings& settings) {
+double Simulator::linear_modulus(const Settings& settings, std::size_t group) {
     const Settings base;
     const auto over_tolerance = [&](double ratio, double bending) {
         if (settings.bond_tolerance == base.bond_tolerance) {
-            return node(ratio, bending, base.bond_tolerance);
+            return node(ratio, bending, base.bond_tolerance, group);
         }
         return interpolate(tolerance_axis, settings.bond_tolerance,
-                           [&](double tolerance) { return node(ratio, bending, tolerance); });
+                           [&](double tolerance) { return node(ratio, bending, tolerance, group); });
     };
     const auto over_bending = [&](double ratio) {
         if (settings.bending_ratio < bending_axis.low) {
@@ -103,6 +141,43 @@ double Simulator::linear_modulus(const Settings& settings) {
                                ? over_bending(base.stiffness_ratio)
                                : interpolate(ratio_axis, settings.stiffness_ratio, over_bending);
     return settings.normal_stiffness / unit_stiffness * modulus;
+}
+
+/// Standard deviation of the moduli of structures of one group, for unit stiffness [Pa]. It is pooled over the groups as it stands,
+/// not relative to their moduli: what makes structures differ is their coordination, on which the modulus depends linearly.
+double Simulator::scatter_between_structures() {
+    const Settings base;
+    double squares = 0;
+    double degrees = 0;
+    const auto add = [&](const std::vector<double>& values, double weight) {
+        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+        for (const double value : values) {
+            squares += weight * std::pow(value - mean, 2);
+        }
+        degrees += static_cast<double>(values.size()) - 1;
+    };
+    for (std::size_t group = std::min<std::size_t>(1, groups()); group <= groups(); ++group) {
+        std::vector<double> moduli;
+        for (const std::size_t k : members(group)) {
+            moduli.push_back(linear_moduli(k, base.stiffness_ratio, 0, base.bond_tolerance).front());
+        }
+        add(moduli, 1);
+    }
+    const bool alone = degrees == 0;
+    for (std::size_t k = 0; alone && k < structures_.size(); ++k) {
+        const std::vector<double>& one = linear_moduli(k, base.stiffness_ratio, 0, base.bond_tolerance);
+        add({one.begin() + 1, one.end()}, 1.0 / 3);  // of their mean
+    }
+    return std::sqrt(squares / degrees);
+}
+
+double Simulator::structure_error(std::size_t group) {
+    if (scatter_ < 0) {
+        scatter_ = scatter_between_structures();
+    }
+    const Settings base;
+    const double modulus = node(base.stiffness_ratio, 0, base.bond_tolerance, group);
+    return modulus > 0 ? scatter_ / modulus / std::sqrt(static_cast<double>(members(group).size())) : 0.0;
 }
 
 /// Moduli of a sweep by the explicit rheometer in a sheared cell over that at a strain so small that nothing breaks.

@@ -8,7 +8,7 @@ Mechanism ageing() {
             .signature = "follows the order of the runs and the time, not the strain",
             .parameters = {{"per_decade", "1", 0.02, 0.3, true, &Settings::ageing_per_decade}},
             .in_contact = true,
-            .applies = always};
+            .applies = takes_time};
 }
 
 }  // namespace coagula::diagnose::mechanisms

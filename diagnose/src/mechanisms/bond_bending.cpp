@@ -8,7 +8,7 @@ Mechanism bond_bending() {
             .signature = "raises the moduli, most where the coordination is low",
             .parameters = {{"bending_over_normal", "1", 1e-6, 0.1, true, &Settings::bending_ratio}},
             .in_contact = true,
-            .applies = always};
+            .applies = has_moduli};
 }
 
 }  // namespace coagula::diagnose::mechanisms

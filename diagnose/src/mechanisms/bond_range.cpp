@@ -8,7 +8,7 @@ Mechanism bond_range() {
             .signature = "coordination and modulus rise together",
             .parameters = {{"tolerance", "1", 1e-3, 0.05, true, &Settings::bond_tolerance}},
             .in_contact = false,
-            .applies = always};
+            .applies = has_moduli};
 }
 
 }  // namespace coagula::diagnose::mechanisms

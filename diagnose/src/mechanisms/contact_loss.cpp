@@ -9,7 +9,7 @@ Mechanism contact_loss() {
             .parameters = {{"springpot_over_spring", "1", 0.03, 10, true, &Settings::springpot_ratio},
                            {"exponent", "1", 0.01, 0.3, true, &Settings::springpot_exponent}},
             .in_contact = true,
-            .applies = always};
+            .applies = knows_frequency};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -8,7 +8,7 @@ Mechanism contact_nonlinearity() {
             .signature =
                 "the storage modulus rises as the square root of the strain where that exceeds the strain of the load at rest, "
                 "the same on the way down as up, whatever the age",
-            .parameters = {{"preload_overlap", "1", 1e-6, 3e-2, true, &Settings::contact_preload}},
+            .parameters = {{"preload_overlap", "1", 1e-7, 3e-2, true, &Settings::contact_preload}},
             .in_contact = true,
             .applies = sweeps_amplitude};
 }

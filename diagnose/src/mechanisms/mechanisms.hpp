@@ -19,23 +19,39 @@ Mechanism wall_slip();
 Mechanism gap_error();
 Mechanism tool_compliance();
 Mechanism tool_inertia();
-
-inline bool always(const Experiment& /*experiment*/) {
-    return true;
-}
+Mechanism numerical();
+Mechanism localisation_error();
 
 inline bool any_measurement(const Experiment& experiment, bool (*holds)(const Measurement&)) {
     return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), holds);
 }
 
+/// Some table has moduli.
+inline bool has_moduli(const Experiment& experiment) {
+    return any_measurement(experiment, [](const Measurement& table) { return find_column(table, "storage_modulus") != nullptr; });
+}
+
 /// Torque per angle over the modulus is known: a plate or cone radius, and a gap or angle.
 inline bool knows_plates(const Experiment& experiment) {
-    return std::isfinite(experiment.instrument.plate_radius) && std::isfinite(experiment.instrument.gap);
+    return has_moduli(experiment) && std::isfinite(experiment.instrument.plate_radius) && std::isfinite(experiment.instrument.gap);
 }
 
 inline bool knows_gap(const Experiment& experiment) {
-    return std::isfinite(experiment.instrument.gap) ||
+    return (has_moduli(experiment) && std::isfinite(experiment.instrument.gap)) ||
            any_measurement(experiment, [](const Measurement& table) { return find_column(table, "gap") != nullptr; });
+}
+
+/// Some table has moduli that were measured one after the other.
+inline bool takes_time(const Experiment& experiment) {
+    return any_measurement(experiment, [](const Measurement& table) {
+        return find_column(table, "storage_modulus") != nullptr && table.kind != MeasurementKind::structure_series;
+    });
+}
+
+inline bool knows_frequency(const Experiment& experiment) {
+    return any_measurement(experiment, [](const Measurement& table) {
+        return find_column(table, "angular_frequency") != nullptr || find_column(table, "frequency") != nullptr;
+    });
 }
 
 inline bool sweeps_amplitude(const Experiment& experiment) {

@@ -8,7 +8,7 @@ Mechanism shear_stiffness() {
             .signature = "a nearly constant factor on all moduli that depends a little on coordination",
             .parameters = {{"shear_over_normal", "1", 0.05, 1, true, &Settings::stiffness_ratio}},
             .in_contact = true,
-            .applies = always};
+            .applies = has_moduli};
 }
 
 }  // namespace coagula::diagnose::mechanisms

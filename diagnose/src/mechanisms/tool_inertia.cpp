@@ -5,9 +5,7 @@ namespace coagula::diagnose::mechanisms {
 namespace {
 
 bool knows_plates_and_frequencies(const Experiment& experiment) {
-    return knows_plates(experiment) && any_measurement(experiment, [](const Measurement& table) {
-               return find_column(table, "angular_frequency") != nullptr || find_column(table, "frequency") != nullptr;
-           });
+    return knows_plates(experiment) && knows_frequency(experiment);
 }
 
 }  // namespace

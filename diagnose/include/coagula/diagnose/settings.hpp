@@ -25,6 +25,12 @@ struct Settings {
     double ageing_per_decade = 0;  ///< stiffness grows by this share of its first value in a decade of time
     double ageing_start = 1;       ///< age of the sample when the first run begins [s]
 
+    double size_drift = 0;  ///< measured moduli over those simulated exceed 1 by this share times (1000 / particles)^(1/3)
+
+    double localisation_plane = 0;  ///< standard deviation of measured centres in the plane x-y [m]
+    double localisation_axis = 0;   ///< along z [m]
+    double missed_share = 0;        ///< of the particles
+
     double slip = 0;             ///< wall slip b: apparent modulus G / (1 + 2 G b / gap) [m/Pa]
     double gap_error = 0;        ///< true gap less the stated one [m]
     double tool_compliance = 0;  ///< [rad/(N m)], beyond what the instrument corrects

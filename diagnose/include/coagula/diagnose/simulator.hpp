@@ -5,7 +5,9 @@
 #include <coagula/common/progress.hpp>
 #include <coagula/diagnose/settings.hpp>
 
+#include <array>
 #include <complex>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>
@@ -22,13 +24,24 @@ using SimulationCache = std::map<std::string, std::vector<double>>;
 /// logarithms), because a diagnosis asks thousands of times; `exact_*` run them at the values asked for.
 class Simulator {
 public:
-    /// @param names content hashes of the structures, for the cache.
+    /// @param names content hashes of the structures, for the cache. @param groups of each structure, from 1 (see Experiment), or
+    /// empty.
     Simulator(std::vector<Packing> structures, std::vector<std::string> names, SimulationCache& cache,
-              const Progress& progress = {});
+              const Progress& progress = {}, std::vector<std::size_t> groups = {});
 
-    /// G [Pa] at vanishing strain without losses.
-    double linear_modulus(const Settings& settings);
-    double exact_linear_modulus(const Settings& settings);
+    /// G [Pa] at vanishing strain without losses, mean over the structures of a group; group 0: over all.
+    double linear_modulus(const Settings& settings, std::size_t group = 0);
+    double exact_linear_modulus(const Settings& settings, std::size_t group = 0);
+
+    /// Standard deviation of the mean of a group that so few structures leave, over that mean: the scatter between structures of
+    /// one group at the base settings, pooled over the groups, over the root of their number. Where no group has two structures,
+    /// that between the three shear planes of one structure takes its place.
+    double structure_error(std::size_t group = 0);
+
+    /// Mean number of particles of the structures of a group.
+    double particles(std::size_t group = 0) const;
+    /// The largest group; 0 if there are none.
+    std::size_t groups() const;
 
     /// G* / G at amplitude gamma_0 of a sweep that goes up in amplitude, for finite bond strength, by the explicit rheometer.
     std::complex<double> amplitude_response(const Settings& settings, double amplitude);
@@ -40,18 +53,31 @@ public:
     /// in it.
     double contact_response(const Settings& settings, double amplitude);
 
+    /// Mean number of neighbours of a particle in a shell of distance (src/neighbour_shells.hpp) as measured coordinates would show
+    /// it, mean over the structures.
+    double neighbours(const Settings& settings, std::size_t shell, bool exact = false);
+
     double radius() const { return radius_; }
 
 private:
-    double node(double ratio, double bending, double tolerance);
+    std::vector<std::size_t> members(std::size_t group) const;
+    const std::vector<double>& linear_moduli(std::size_t structure, double ratio, double bending, double tolerance);
+    double node(double ratio, double bending, double tolerance, std::size_t group);
+    double scatter_between_structures();
     std::vector<std::complex<double>> sweep(std::size_t structure, const Settings& settings, double strength,
                                             const std::vector<double>& amplitudes);
     const std::vector<double>& strength_curve();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
+    std::vector<double> shells(double plane, double axis);
+    const std::vector<double>& shell_node(int plane, int axis);
 
     std::vector<Packing> structures_;
     std::vector<std::string> names_;
+    std::vector<std::size_t> groups_;
+    std::map<std::array<double, 4>, double> nodes_;  ///< by ratio, bending, tolerance and group
+    std::map<std::pair<int, int>, std::vector<double>> shell_nodes_;
+    double scatter_ = -1;  ///< between structures, once it has been asked for
     SimulationCache& cache_;
     Progress progress_;
     double radius_;

@@ -1,0 +1,24 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+bool has_coordinates(const Experiment& experiment) {
+    return any_measurement(experiment, [](const Measurement& table) { return table.kind == MeasurementKind::coordinates; });
+}
+
+}  // namespace
+
+Mechanism localisation_error() {
+    return {.name = "localisation-error",
+            .term = "centres are found with errors, more along z than in the plane, and some particles are missed",
+            .signature = "overlaps appear, the peak of the contacts is lower and wider, and coordination falls",
+            .parameters = {{"sigma_plane", "m", 2e-8, 2e-7, true, &Settings::localisation_plane},
+                           {"sigma_axis", "m", 2e-8, 2e-7, true, &Settings::localisation_axis},
+                           {"missed_share", "1", 0.01, 0.1, true, &Settings::missed_share}},
+            .in_contact = false,
+            .applies = has_coordinates};
+}
+
+}  // namespace coagula::diagnose::mechanisms

@@ -1,0 +1,71 @@
+#include "neighbour_shells.hpp"
+
+#include "weights.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/common/contact_network.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr std::uint64_t error_seed = 20120;
+
+/// The shell of a distance over the diameter; -1 beyond them.
+int shell_at(double distance) {
+    const int shell = static_cast<int>(std::floor((distance - first_shell) / shell_width));
+    return shell >= 0 && shell < shell_count ? shell : -1;
+}
+
+}  // namespace
+
+NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diameter) {
+    NeighbourShells shells;
+    shells.mean.assign(shell_count, 0);
+    const Eigen::Array3d low = positions.rowwise().minCoeff().array() + shell_reach * diameter;
+    const Eigen::Array3d high = positions.rowwise().maxCoeff().array() - shell_reach * diameter;
+    for (Index centre = 0; centre < positions.cols(); ++centre) {
+        const Eigen::Array3d here = positions.col(centre).array();
+        if ((here < low).any() || (here > high).any()) {
+            continue;
+        }
+        ++shells.centres;
+        for (Index other = 0; other < positions.cols(); ++other) {
+            const int shell = other == centre ? -1 : shell_at((positions.col(other) - positions.col(centre)).norm() / diameter);
+            if (shell >= 0) {
+                shells.mean[static_cast<std::size_t>(shell)] += 1;
+            }
+        }
+    }
+    const auto count = static_cast<double>(std::max<Index>(1, shells.centres));
+    for (double& mean : shells.mean) {
+        // Most pairs are counted from both ends.
+        shells.standard_errors.push_back(std::sqrt(2 * std::max(mean, 1.0)) / count);
+        mean /= count;
+    }
+    return shells;
+}
+
+std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis) {
+    const double diameter = 2 * mean_radius(packing);
+    Packing seen = packing;
+    for (Index particle = 0; particle < seen.size(); ++particle) {
+        const auto number = 3 * static_cast<std::uint64_t>(particle);
+        seen.positions.col(particle) += Eigen::Vector3d(sigma_plane * normal_number(error_seed, 0, number),
+                                                        sigma_plane * normal_number(error_seed, 0, number + 1),
+                                                        sigma_axis * normal_number(error_seed, 0, number + 2));
+    }
+    const ContactNetwork pairs = find_contacts(seen, shell_reach - 1);
+    std::vector<double> mean(shell_count, 0);
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        if (const int shell = shell_at(pairs.branch.col(pair).norm() / diameter); shell >= 0) {
+            mean[static_cast<std::size_t>(shell)] += 2.0 / static_cast<double>(packing.size());
+        }
+    }
+    return mean;
+}
+
+}  // namespace coagula::diagnose

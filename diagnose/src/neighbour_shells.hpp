@@ -1,0 +1,32 @@
+// Mean number of neighbours of a particle in shells of distance: what coordinates say about contacts.
+#pragma once
+
+#include <coagula/common/packing.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Shells of equal width, the contact distance in the middle of one; all lengths over the diameter.
+constexpr int shell_count = 16;
+constexpr double shell_width = 0.1;
+constexpr double first_shell = 0.55;  ///< where the first begins
+constexpr double shell_reach = first_shell + shell_count * shell_width;
+
+struct NeighbourShells {
+    std::vector<double> mean;             ///< neighbours of a particle, one per shell
+    std::vector<double> standard_errors;  ///< as if pairs were independent; of an empty shell, as if it had one
+    Index centres = 0;
+};
+
+/// Of measured coordinates: particles farther than the reach of the shells from the faces of the box around all are the centres.
+/// @param positions 3 x N [m].
+NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diameter);
+
+/// Of a periodic structure whose particles are found with errors: independent normal ones with these standard deviations in the
+/// plane and along z [m], drawn from a fixed seed. Packings too small for the reach are refused by std::invalid_argument.
+std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis);
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,269 @@
+// Effects hidden in the instrument, the sample's age, the contacts and the microscope: raw torque and angle, positions and steps of
+// time by formulas and solvers that the diagnosis does not use, for other structures; the diagnosis sees the table only.
+#include "hidden_effects.hpp"
+
+#include <coagula/mechanics/frequency.hpp>
+#include <coagula/mechanics/rheometer.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coagula::diagnose {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+Simulator& simulator() {
+    static SimulationCache cache;
+    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
+    return made;
+}
+
+/// A structure that the diagnosis does not know.
+const Packing& sample() {
+    static const Packing made = structure(260, 77);
+    return made;
+}
+
+/// The faults of a plate-plate rheometer.
+struct Faults {
+    double gap_error = 0;  ///< [m]
+    double slip = 0;       ///< velocity of the sample at a plate over stress and angular frequency: displacement over stress [m/Pa]
+    double compliance = 0;  ///< [rad/(N m)]
+    double inertia = 0;     ///< [kg m^2]
+};
+
+constexpr double plate_radius = 0.0125;
+constexpr double usual_gap = 1e-3;
+
+/// What the rheometer shows for a sample whose rim turns by one unit of angle: torque of the motor over angle of the motor.
+Complex shown(Complex modulus, double angular_frequency, double gap, const Faults& faults) {
+    const double true_gap = gap + faults.gap_error;
+    const Complex rim_stress = modulus * plate_radius / true_gap;
+    const Complex torque = rim_stress * pi * std::pow(plate_radius, 3) / 2.0;
+    const Complex angle = 1.0 + 2.0 * faults.slip * rim_stress / plate_radius + faults.compliance * torque;
+    const Complex motor_torque = torque - faults.inertia * angular_frequency * angular_frequency * angle;
+    return motor_torque / angle * 2.0 * gap / (pi * std::pow(plate_radius, 4));
+}
+
+/// Modulus of the hidden sample by the frequency solver.
+Complex modulus_of(const ContactModel& model, double frequency) {
+    const auto response = mechanics::solve_frequency_sweep(sample(), find_contacts(sample(), 0.01), model, {&frequency, 1});
+    return response.points[0].mean_shear_modulus();
+}
+
+ContactModel springs(double stiffness) {
+    return {.normal_stiffness = stiffness, .shear_stiffness = 0.1 * stiffness};
+}
+
+/// Columns of moduli with a relative error of |G*|.
+void add_moduli(Measurement& table, const std::vector<Complex>& moduli, double error, std::uint64_t seed, bool with_loss) {
+    Column storage{"storage_modulus", "Pa", {}};
+    Column loss{"loss_modulus", "Pa", {}};
+    for (std::size_t k = 0; k < moduli.size(); ++k) {
+        const double deviation = error * std::abs(moduli[k]);
+        storage.values.push_back(moduli[k].real() + deviation * drawn_normal(seed, 2 * k));
+        loss.values.push_back(moduli[k].imag() + deviation * drawn_normal(seed, 2 * k + 1));
+        storage.standard_errors.push_back(deviation);
+        loss.standard_errors.push_back(deviation);
+    }
+    table.columns.push_back(storage);
+    if (with_loss) {
+        table.columns.push_back(loss);
+    }
+}
+
+Measurement table_of(MeasurementKind kind, const Column& axis) {
+    Measurement table;
+    table.kind = kind;
+    table.label = "hidden";
+    table.sample = "sample";
+    table.columns = {axis};
+    return table;
+}
+
+Measurement gap_series(const Faults& faults, std::uint64_t seed) {
+    std::vector<double> gaps = logarithmic(2e-3, 1.5e-4, 14);
+    Measurement table = table_of(MeasurementKind::gap_series, {"gap", "m", gaps});
+    std::vector<Complex> moduli;
+    const Complex modulus = modulus_of(springs(40), 1);
+    for (const double gap : gaps) {
+        moduli.push_back(shown(modulus, 2 * pi, gap, faults));
+    }
+    add_moduli(table, moduli, 0.02, seed, false);
+    return table;
+}
+
+Measurement frequency_sweep(const ContactModel& model, const Faults& faults, std::uint64_t seed) {
+    std::vector<double> angular;
+    std::vector<Complex> moduli;
+    for (const double frequency : logarithmic(100, 0.1, 20)) {  // what is held out are the low ones
+        angular.push_back(2 * pi * frequency);
+        moduli.push_back(shown(modulus_of(model, frequency), angular.back(), usual_gap, faults));
+    }
+    Measurement table = table_of(MeasurementKind::frequency_sweep, {"angular_frequency", "rad/s", angular});
+    add_moduli(table, moduli, 0.02, seed, true);
+    return table;
+}
+
+Diagnosis diagnose_table(const Measurement& table, Simulator& structures = simulator()) {
+    Experiment experiment;
+    experiment.sample.particle_radius = 0.25e-6;
+    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = plate_radius, .gap = usual_gap};
+    experiment.measurements = {table};
+    DiagnosisOptions options;
+    options.bootstrap = 399;
+    return diagnose(experiment, structures, options);
+}
+
+bool in_set(const Diagnosis& found, const std::string& name) {
+    return std::find(found.credible_set.begin(), found.credible_set.end(), name) != found.credible_set.end();
+}
+
+void expect_found(const Diagnosis& found, const std::string& name) {
+    EXPECT_TRUE(found.detected);
+    EXPECT_TRUE(in_set(found, name)) << found.credible_set.front();
+    EXPECT_GT(found.gain.rmse_ratio, 2);
+}
+
+void expect_named(const Diagnosis& found, const std::string& name) {
+    expect_found(found, name);
+    EXPECT_EQ(found.verdict, Verdict::named);
+    EXPECT_EQ(found.credible_set, std::vector<std::string>{name});
+}
+
+/// With the storage modulus of one sample alone, slip, gap and compliance have the same form: 1 / (1 + something / gap).
+TEST(HiddenEffects, SlipAtTheWallsIsInTheSet) {
+    const Diagnosis found = diagnose_table(gap_series({.slip = 1.5e-10}, 11));
+    expect_found(found, "wall-slip");
+    EXPECT_EQ(found.verdict, Verdict::tied);
+    EXPECT_TRUE(in_set(found, "tool-compliance"));
+    ASSERT_FALSE(found.proposals.empty());
+    EXPECT_NE(found.proposals.front().what.find("half the radius"), std::string::npos);
+}
+
+TEST(HiddenEffects, AnErrorOfTheGapIsInTheSet) {
+    expect_found(diagnose_table(gap_series({.gap_error = 5e-5}, 2)), "gap-error");
+}
+
+TEST(HiddenEffects, AToolThatYieldsIsInTheSet) {
+    expect_found(diagnose_table(gap_series({.compliance = 5e-3}, 3)), "tool-compliance");
+}
+
+TEST(HiddenEffects, InertiaOfTheToolIsNamed) {
+    expect_named(diagnose_table(frequency_sweep(springs(40), {.inertia = 4e-5}, 4)), "tool-inertia");
+}
+
+/// Inertia where the frequency is high, age where it is low and the sweep has lasted long.
+TEST(HiddenEffects, TwoEffectsAreFoundTogether) {
+    const std::vector<double> frequencies = logarithmic(100, 0.1, 24);
+    const std::vector<double> times = logarithmic(1, 10000, 24);
+    std::vector<double> angular;
+    std::vector<Complex> moduli;
+    for (std::size_t k = 0; k < frequencies.size(); ++k) {
+        angular.push_back(2 * pi * frequencies[k]);
+        const ContactModel model = springs(40 * (1 + 0.25 * std::log10(1 + times[k])));
+        moduli.push_back(shown(modulus_of(model, frequencies[k]), angular.back(), usual_gap, {.inertia = 6e-5}));
+    }
+    Measurement table = table_of(MeasurementKind::frequency_sweep, {"angular_frequency", "rad/s", angular});
+    add_moduli(table, moduli, 0.015, 5, true);
+    table.columns.push_back({"time", "s", times});
+    expect_found(diagnose_table(table), "tool-inertia + ageing");
+}
+
+TEST(HiddenEffects, AgeingAtConstantStrainIsFirst) {
+    const std::vector<double> times = logarithmic(1, 5000, 20);
+    std::vector<Complex> moduli;
+    for (const double time : times) {
+        moduli.push_back(modulus_of(springs(40 * (1 + 0.25 * std::log10(1 + time))), 1));
+    }
+    Measurement table = table_of(MeasurementKind::time_sweep, {"time", "s", times});
+    add_moduli(table, moduli, 0.02, 6, false);
+    const Diagnosis found = diagnose_table(table);
+    expect_found(found, "ageing");
+    EXPECT_EQ(found.causes.front().name, "ageing");
+}
+
+Measurement amplitude_sweep(const std::vector<double>& strains, const std::vector<Complex>& moduli, double error,
+                            std::uint64_t seed) {
+    Measurement table = table_of(MeasurementKind::amplitude_sweep, {"strain", "1", strains});
+    add_moduli(table, moduli, error, seed, false);
+    return table;
+}
+
+/// Hertz contacts by explicit steps. What their rate costs is the same at all strains.
+TEST(HiddenEffects, ContactsThatAreNotLinearAreFirst) {
+    const std::vector<double> strains = logarithmic(5e-5, 5e-3, 8);
+    mechanics::RheometerOptions run;
+    run.model = springs(40);
+    run.model.young_modulus = 70e9;
+    run.model.poisson_ratio = 0.2;
+    run.boundary = mechanics::RheometerBoundary::periodic;
+    run.growing = false;
+    run.oscillations = 2;
+    run.steps_per_oscillation = 2000;
+    run.compare_with_rest = false;
+    const Packing packing = structure(120, 78);
+    std::vector<Complex> moduli;
+    for (const double strain : strains) {
+        run.amplitude = strain;
+        const auto result = mechanics::run_rheometer(packing, find_contacts(packing, 0.01), run, {{1, 0}});
+        moduli.emplace_back(result.runs[0].oscillations[1].fundamental_storage);
+    }
+    const Diagnosis found = diagnose_table(amplitude_sweep(strains, moduli, 0.05, 7));
+    expect_found(found, "contact-nonlinearity");
+    EXPECT_EQ(found.causes.front().name, "contact-nonlinearity");
+}
+
+/// Designed tie: in one sweep upwards, strain and age rise together.
+TEST(HiddenEffects, OneSweepUpwardsTiesAgeAndStrain) {
+    const std::vector<double> strains = logarithmic(1e-4, 1e-3, 16);
+    const std::vector<double> times = logarithmic(10, 1000, 16);
+    const double modulus = modulus_of(springs(40), 1).real();
+    std::vector<Complex> moduli;
+    for (const double time : times) {
+        moduli.emplace_back(modulus * (1 + 0.3 * std::log10(1 + time)));
+    }
+    Measurement table = amplitude_sweep(strains, moduli, 0.12, 8);
+    table.columns.push_back({"time", "s", times});
+    const Diagnosis found = diagnose_table(table);
+    EXPECT_TRUE(found.detected);
+    EXPECT_EQ(found.verdict, Verdict::tied);
+    EXPECT_TRUE(in_set(found, "ageing"));
+    EXPECT_TRUE(in_set(found, "contact-nonlinearity"));
+    ASSERT_FALSE(found.proposals.empty());
+}
+
+/// Centres as a microscope finds them: errors, some particles missed, no periodic box.
+Measurement coordinates(double sigma_plane, double sigma_axis, double missed, std::uint64_t seed) {
+    const Packing hidden = structure(700, 79);
+    Column x{"x", "m", {}};
+    Column y{"y", "m", {}};
+    Column z{"z", "m", {}};
+    for (Index particle = 0; particle < hidden.size(); ++particle) {
+        const auto number = 4 * static_cast<std::uint64_t>(particle);
+        if (random_uniform(seed, RandomPurpose::test, 4, number)[0] < missed) {
+            continue;
+        }
+        x.values.push_back(hidden.positions(0, particle) + sigma_plane * drawn_normal(seed, number));
+        y.values.push_back(hidden.positions(1, particle) + sigma_plane * drawn_normal(seed, number + 1));
+        z.values.push_back(hidden.positions(2, particle) + sigma_axis * drawn_normal(seed, number + 2));
+    }
+    Measurement table = table_of(MeasurementKind::coordinates, x);
+    table.columns = {x, y, z};
+    return table;
+}
+
+TEST(HiddenEffects, ErrorsOfLocalisationAreNamed) {
+    const Diagnosis found = diagnose_table(coordinates(5e-8, 1.2e-7, 0.05, 9));
+    EXPECT_TRUE(found.detected);
+    EXPECT_EQ(found.verdict, Verdict::named);
+    EXPECT_EQ(found.credible_set, std::vector<std::string>{"localisation-error"});
+    ASSERT_FALSE(found.failures.empty());
+    EXPECT_EQ(found.failures.front().axis, "distance");
+    const Diagnosis nothing = diagnose_table(coordinates(0, 0, 0, 10));
+    EXPECT_FALSE(nothing.detected);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose

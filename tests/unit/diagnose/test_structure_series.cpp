@@ -1,0 +1,160 @@
+// Effects hidden in a structure series: moduli of structures of several coordinations, by the quasi-static solver, for other
+// structures with other seeds than those that the diagnosis knows.
+#include "hidden_effects.hpp"
+
+#include <coagula/mechanics/quasistatic.hpp>
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+namespace coagula::diagnose {
+namespace {
+
+/// The last rows, which are held out, are those of low coordination.
+const std::vector<double> coordinations{5.4, 5.0, 4.7, 4.4, 4.15};
+constexpr std::size_t structures_per_row = 2;
+constexpr double radius = 0.25e-6;
+
+/// The structures that the diagnosis has, some for each row.
+struct Known {
+    explicit Known(std::vector<Index> sizes) {
+        std::vector<Packing> packings;
+        std::vector<std::string> names;
+        for (std::size_t row = 0; row < coordinations.size(); ++row) {
+            for (std::size_t k = 0; k < structures_per_row; ++k) {
+                groups.push_back(row + 1);
+                packings.push_back(structure(sizes[row % sizes.size()], 100 * row + k + 1, coordinations[row]));
+                particles.push_back(static_cast<std::size_t>(packings.back().size()));
+                names.push_back(std::to_string(names.size()));
+            }
+        }
+        simulator.emplace(packings, names, cache, Progress{}, groups);
+    }
+    SimulationCache cache;
+    std::vector<std::size_t> groups;
+    std::vector<std::size_t> particles;
+    std::optional<Simulator> simulator;
+};
+
+Known& known() {
+    static Known made({200});
+    return made;
+}
+
+/// The structures that were measured, three for each row.
+const std::vector<Packing>& measured() {
+    static const std::vector<Packing> made = [] {
+        std::vector<Packing> all;
+        for (std::size_t row = 0; row < coordinations.size(); ++row) {
+            for (std::uint64_t k = 0; k < 3; ++k) {
+                all.push_back(structure(220, 5000 + 10 * row + k, coordinations[row]));
+            }
+        }
+        return all;
+    }();
+    return made;
+}
+
+/// A table of their moduli, mean of each row, with an error of 3 %; the standard error that it states also covers that a row is the
+/// mean of three small structures.
+Measurement series(const ContactModel& model, double tolerance, std::uint64_t seed) {
+    constexpr double error = 0.03;
+    constexpr double stated = 0.1;
+    Measurement made;
+    made.kind = MeasurementKind::structure_series;
+    made.label = "series";
+    made.sample = "series";
+    Column modulus{"storage_modulus", "Pa", {}};
+    double mean = 0;
+    for (std::size_t row = 0; row < coordinations.size(); ++row) {
+        double sum = 0;
+        for (std::size_t k = 3 * row; k < 3 * row + 3; ++k) {
+            const Packing& packing = measured()[k];
+            for (const double one : mechanics::small_strain_moduli(packing, find_contacts(packing, tolerance), model, 1e-6)) {
+                sum += one / 18;
+            }
+        }
+        modulus.values.push_back(sum * (1 + error * drawn_normal(seed, row)));
+        mean += sum / static_cast<double>(coordinations.size());
+    }
+    modulus.standard_errors.assign(coordinations.size(), stated * mean);
+    made.columns = {{"coordination", "1", coordinations}, modulus};
+    return made;
+}
+
+Diagnosis diagnose_series(const Measurement& table, Known& structures) {
+    Experiment experiment;
+    experiment.structure_groups = structures.groups;
+    experiment.structure_sizes = structures.particles;
+    experiment.measurements = {table};
+    DiagnosisOptions options;
+    options.bootstrap = 399;
+    return diagnose(experiment, *structures.simulator, options);
+}
+
+bool in_set(const Diagnosis& found, const std::string& name) {
+    return std::find(found.credible_set.begin(), found.credible_set.end(), name) != found.credible_set.end();
+}
+
+ContactModel springs(double stiffness) {
+    return {.normal_stiffness = stiffness, .shear_stiffness = 0.1 * stiffness};
+}
+
+TEST(StructureSeries, FindsNothingWhereNothingIsHidden) {
+    EXPECT_FALSE(diagnose_series(series(springs(40), 0.01, 1), known()).detected);
+}
+
+TEST(StructureSeries, FindsTheBendingOfBonds) {
+    ContactModel model = springs(40);
+    model.bending_stiffness = model.twisting_stiffness = 0.1 * 20 * radius * radius;
+    const Diagnosis found = diagnose_series(series(model, 0.01, 2), known());
+    EXPECT_TRUE(found.detected);
+    EXPECT_TRUE(in_set(found, "bond-bending"));
+    EXPECT_GT(found.gain.rmse_ratio, 2);
+}
+
+TEST(StructureSeries, FindsTheRangeOfBonds) {
+    const Diagnosis found = diagnose_series(series(springs(40), 0.045, 3), known());
+    EXPECT_TRUE(found.detected);
+    EXPECT_TRUE(in_set(found, "bond-range"));
+}
+
+TEST(StructureSeries, RefusesRowsThatNoStructureStandsFor) {
+    Measurement table;
+    table.kind = MeasurementKind::structure_series;
+    table.columns = {{"coordination", "1", coordinations},
+                     {"storage_modulus", "Pa", {1e6, 1e6, 1.1e6, 1.2e6, 1.3e6}},
+                     {"structure", "1", {1, 2, 3, 4, 7}}};
+    EXPECT_THROW(diagnose_series(table, known()), InputError);
+}
+
+/// What small structures leave: the standard deviation of repeated draws of a group's mean.
+TEST(StructureError, IsTheScatterOfMeansOfDrawnStructures) {
+    std::vector<Packing> packings;
+    std::vector<std::string> names;
+    std::vector<std::size_t> groups;
+    for (std::uint64_t k = 0; k < 24; ++k) {
+        packings.push_back(structure(150, 900 + k));
+        names.push_back(std::to_string(k));
+        groups.push_back(k / 4 + 1);
+    }
+    SimulationCache cache;
+    Simulator simulator(packings, names, cache, {}, groups);
+    double mean = 0;
+    double squared = 0;
+    for (std::size_t group = 1; group <= 6; ++group) {
+        const double modulus = simulator.exact_linear_modulus({}, group);
+        mean += modulus / 6;
+        squared += modulus * modulus / 6;
+    }
+    const double observed = std::sqrt((squared - mean * mean) * 6 / 5) / mean;
+    // Five degrees of freedom against eighteen: a ratio beyond these limits has a probability of 1 %.
+    EXPECT_GT(observed / simulator.structure_error(1), 0.25);
+    EXPECT_LT(observed / simulator.structure_error(1), 2.2);
+    const double all = simulator.structure_error(0) * simulator.exact_linear_modulus({}, 0);
+    EXPECT_NEAR(all / (simulator.structure_error(1) * simulator.exact_linear_modulus({}, 1)), std::sqrt(4.0 / 24), 1e-12);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose
