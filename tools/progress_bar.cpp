@@ -14,6 +14,19 @@ namespace coagula::tools {
 
 namespace {
 
+/// Such as "40 s left", "12 min left", "3.5 h left".
+std::string time_left(double seconds) {
+    char text[32];
+    if (seconds < 100) {
+        std::snprintf(text, sizeof text, "%.0f s left", seconds);
+    } else if (seconds < 6000) {
+        std::snprintf(text, sizeof text, "%.0f min left", seconds / 60);
+    } else {
+        std::snprintf(text, sizeof text, "%.1f h left", seconds / 3600);
+    }
+    return text;
+}
+
 /// One line that is drawn over again and wiped at the end.
 class ProgressBar {
 public:
@@ -35,8 +48,8 @@ public:
         const double done = std::clamp(fraction, 0.0, 1.0);
         std::string bar(static_cast<std::size_t>(done * width), '#');
         bar.resize(width, '.');
-        const std::string line =
-            std::string(stage) + " [" + bar + "] " + std::to_string(static_cast<int>(100 * done)) + " %  " + std::string(remark);
+        const std::string line = std::string(stage) + " [" + bar + "] " + std::to_string(static_cast<int>(100 * done)) + " %  " +
+                                 estimate(stage, done, now) + std::string(remark);
         std::fprintf(stderr, "\r%.100s\033[K", line.c_str());
         std::fflush(stderr);
         last_ = now;
@@ -44,8 +57,27 @@ public:
     }
 
 private:
-    std::chrono::steady_clock::time_point last_;
+    using Time = std::chrono::steady_clock::time_point;
+
+    /// From the pace since the stage began; empty in its first two seconds and as long as it has not moved.
+    std::string estimate(std::string_view stage, double done, Time now) {
+        if (stage != stage_ || done < first_done_) {
+            stage_ = stage;
+            first_done_ = done;
+            began_ = now;
+        }
+        const std::chrono::duration<double> elapsed = now - began_;
+        if (elapsed.count() < 2 || done <= first_done_) {
+            return "";
+        }
+        return time_left(elapsed.count() * (1 - done) / (done - first_done_)) + "  ";
+    }
+
+    Time last_;
     bool drawn_ = false;
+    std::string stage_;
+    double first_done_ = 0;
+    Time began_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 """coagula generate brownian from outside: options, files, restart, refusals."""
 
 import os
+import pty
 import signal
 import subprocess
 import time
@@ -162,6 +163,22 @@ class Restart(ProgramTest):
         self.fail_with(2, "generate", "brownian", "--start", "points.h5", "--surface-potential", "0", "--stop-time", "1us", "-o",
                        "b.h5", says="overlap by")
         self.assertFalse((self.folder / "b.h5").exists())
+
+
+class OnATerminal(ProgramTest):
+    def test_progress_names_the_time_left(self):
+        terminal, other = pty.openpty()
+        program = subprocess.Popen([PROGRAM, *SUSPENSION, "--surface-potential", "12mV", "--stop-time", "1s", "-o", "b.h5"],
+                                   cwd=self.folder, stderr=other, stdout=subprocess.DEVNULL)
+        os.close(other)
+        seen = ""
+        until = time.monotonic() + 100
+        while " left  coordination" not in seen and time.monotonic() < until:
+            seen += os.read(terminal, 4096).decode()
+        program.kill()
+        program.wait()
+        os.close(terminal)
+        self.assertRegex(seen, r"Brownian dynamics \[[#.]+\] +\d+ %  \d+ (s|min) left  coordination")
 
 
 class Refusals(ProgramTest):
