@@ -190,6 +190,9 @@ private:
         }
         const BrownianCheckpoint& from = *control_.resume;
         require(from.positions.cols() == start_.size(), "the checkpoint is that of another number of particles");
+        const bool turning = !std::isnan(options_.resistance.tangential_stiffness);
+        require(from.rotations.cols() == (turning ? start_.size() : 0),
+                "the checkpoint is that of a run with other resistance of the contacts");
         return {from.step,       from.positions, from.list_reference,      from.near_reference,
                 from.far_forces, from.rotations, to_springs(from.memories)};
     }

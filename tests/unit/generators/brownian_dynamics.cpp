@@ -288,6 +288,13 @@ TEST(BrownianDynamics, RefusesWhatIsImpossible) {
     options.cutoff_gap = 5 * radius;
     says(options, "take more particles");
 
+    BrownianCheckpoint smooth;
+    smooth.positions = smooth.list_reference = smooth.near_reference = smooth.far_forces = start.positions;
+    BrownianControl control;
+    control.resume = &smooth;
+    EXPECT_NE(complaint([&] { simulate_brownian(start, dlvo(0), rough_run(), {}, control); }).find("other resistance"),
+              std::string::npos);
+
     Packing overlapping = start;
     overlapping.positions.col(7) = overlapping.positions.col(3) + Eigen::Vector3d(1.8 * radius, 0, 0);
     overlapping.positions.col(7) = overlapping.cell.wrap(overlapping.positions.col(7));
