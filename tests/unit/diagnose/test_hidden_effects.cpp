@@ -154,6 +154,23 @@ TEST(HiddenEffects, InertiaOfTheToolIsNamed) {
     expect_named(diagnose_table(frequency_sweep(springs(40), {.inertia = 4e-5}, 4)), "tool-inertia");
 }
 
+/// A modulus alone shows a shear stiffness only where the normal stiffness is known.
+TEST(HiddenEffects, ShearStiffnessIsInTheSetWhereTheNormalStiffnessIsKnown) {
+    ContactModel model = springs(40);
+    model.shear_stiffness = 32;
+    Experiment experiment;
+    experiment.sample.normal_stiffness = 40;
+    experiment.sample.normal_stiffness_error = 0.1;
+    experiment.measurements = {frequency_sweep(model, {}, 12)};
+    DiagnosisOptions options;
+    options.bootstrap = 399;
+    const Diagnosis found = diagnose(experiment, simulator(), options);
+    EXPECT_TRUE(found.detected);
+    EXPECT_TRUE(in_set(found, "shear-stiffness"));
+    experiment.measurements = {frequency_sweep(springs(40), {}, 13)};
+    EXPECT_FALSE(diagnose(experiment, simulator(), options).detected);
+}
+
 /// Inertia where the frequency is high, age where it is low and the sweep has lasted long.
 TEST(HiddenEffects, TwoEffectsAreFoundTogether) {
     const std::vector<double> frequencies = logarithmic(100, 0.1, 24);
