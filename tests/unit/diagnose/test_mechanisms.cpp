@@ -1,4 +1,5 @@
 // Each mechanism, switched on in the simulation, shows the signature that the catalogue claims.
+#include "forward.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/diagnose/extended_model.hpp>
@@ -82,6 +83,28 @@ TEST(ContactNonlinearity, AgreesWithExplicitSteps) {
     // Unloading keeps the shear displacement and so loses shear force, which the secants of loading do not.
     EXPECT_NEAR(large / linear / alone.contact_response(settings, 1e-2), 0.9, 0.1);
     EXPECT_NEAR(large / small, std::sqrt(10), 0.25);
+}
+
+/// The prediction departs the more the fewer particles a structure has, and not at all without drift.
+TEST(Numerical, DriftsWithTheNumberOfParticles) {
+    Experiment experiment;
+    experiment.structure_groups = {1, 2};
+    Measurement table;
+    table.kind = MeasurementKind::structure_series;
+    table.columns = {{"coordination", "1", {4.7, 4.7}}, {"storage_modulus", "Pa", {1e6, 1e6}}};
+    experiment.measurements = {table};
+    SimulationCache cache;
+    Simulator two({structure(64, 1), structure(512, 2)}, {"small", "large"}, cache, {}, experiment.structure_groups);
+    const std::vector<Observation> observations = observations_of(experiment);
+    const Forward forward(experiment, observations, two);
+    Settings settings;
+    const Eigen::VectorXd base = forward.predict(settings);
+    EXPECT_NEAR(base[0], two.exact_linear_modulus(settings, 1), 1e-9 * base[0]);
+    EXPECT_NEAR(base[1], two.exact_linear_modulus(settings, 2), 1e-9 * base[1]);
+    settings.size_drift = 0.2;
+    const Eigen::ArrayXd departure = forward.predict(settings).array() / base.array() - 1;
+    EXPECT_NEAR(departure[0], 0.5, 1e-9);
+    EXPECT_NEAR(departure[1], 0.25, 1e-9);
 }
 
 }  // namespace
