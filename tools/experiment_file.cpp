@@ -1,6 +1,7 @@
 #include "experiment_file.hpp"
 
 #include "measured_tables.hpp"
+#include "table_selection.hpp"
 #include "toml_keys.hpp"
 
 #include <coagula/common/checks.hpp>
@@ -86,6 +87,7 @@ void ExperimentReader::read_sample() {
     sample.temperature = keys.quantity("temperature", "K").value_or(unset);
     sample.normal_stiffness = keys.quantity("normal_stiffness", "N/m").value_or(unset);
     sample.normal_stiffness_error = keys.quantity("normal_stiffness_error", "1").value_or(unset);
+    sample.sheared_before = keys.flag("sheared_before");
     keys.refuse_other_keys();
 }
 
@@ -344,6 +346,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
     const io::MeasuredFile file = io::read_measured_file(resolved(name));
     const std::vector<const io::PlainTable*> tables = chosen_tables(keys, file, *kind);
     const ColumnRules rules = column_rules(keys);
+    const TableSelection selection = read_selection(keys);
     keys.refuse_other_keys();
     const bool several = file.tables.size() > 1;
     for (const io::PlainTable* chosen : tables) {
@@ -352,6 +355,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         diagnose::Measurement measurement = to_measurement(file, *chosen, *kind, label, rules);
         measurement.sample = sample;
         measurement.run_order = run_order;
+        select(measurement, selection);
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +
                                     " points, but has " + std::to_string(chosen->rows()));

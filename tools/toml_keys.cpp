@@ -88,6 +88,14 @@ std::optional<std::int64_t> TomlKeys::whole(const std::string& key) {
     return node == nullptr ? std::nullopt : node->value<std::int64_t>();
 }
 
+bool TomlKeys::flag(const std::string& key) {
+    const toml::node* node = take(key);
+    if (node != nullptr && !node->is_boolean()) {
+        fail(key, "must be true or false");
+    }
+    return node != nullptr && *node->value<bool>();
+}
+
 std::vector<std::string> TomlKeys::texts(const std::string& key) {
     const toml::node* node = take(key);
     std::vector<std::string> list;

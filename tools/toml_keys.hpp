@@ -24,6 +24,8 @@ public:
     /// A number in `unit`, or a text with a unit of its own.
     std::optional<double> quantity(const std::string& key, const std::string& unit);
     std::optional<std::int64_t> whole(const std::string& key);
+    /// True or false; false without the key.
+    bool flag(const std::string& key);
     /// A list of texts, or one text.
     std::vector<std::string> texts(const std::string& key);
     /// A list of whole numbers, or one.

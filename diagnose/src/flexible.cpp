@@ -81,10 +81,18 @@ Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, 
 }
 
 double flexible_evidence(const DataSet& data, const Forward& forward) {
+    // In proportion to the base model and not to the data: data that grow by orders of magnitude would be one constant over the
+    // measured levels, whatever the reason.
+    const Likelihood plain(data);
+    const Eigen::VectorXd base = forward.predict(Inference(forward, plain).fit({}).settings);
+    std::vector<Observation> expected = data.observations;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        expected[k].value = base[static_cast<Index>(k)];
+    }
     std::vector<double> evidence;
     for (const double amplitude : amplitudes) {
         for (const double length : lengths) {
-            const Likelihood likelihood(data, smooth_covariance(data.observations, amplitude, length));
+            const Likelihood likelihood(data, smooth_covariance(expected, amplitude, length));
             const Inference inference(forward, likelihood);
             evidence.push_back(inference.fit({}).log_evidence);
         }

@@ -8,7 +8,7 @@
 namespace coagula::diagnose {
 
 /// Covariance of a smooth multiplicative correction of size `amplitude` and correlation length `length` (part of the range of each
-/// coordinate, which is taken as a rank) of each observable, around the measured levels.
+/// coordinate, which is taken as a rank) of each observable, in proportion to |G*| of the observations' values.
 Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, double amplitude, double length);
 
 /// Log evidence of the base model with that correction, averaged over amplitudes and lengths; the same normalisation as

@@ -275,6 +275,7 @@ std::vector<Complex> Forward::material(const Settings& settings, bool exact) con
                                    std::pow(Complex(0, observation.angular_frequency / (2 * pi)), settings.springpot_exponent);
         }
         if (std::isfinite(observation.time)) {
+            moduli[k] *= std::pow(1 + observation.time / settings.build_up_time, settings.build_up_exponent);
             moduli[k] *= 1 + settings.ageing_per_decade * std::log10(1 + observation.time / settings.ageing_start);
         }
     }

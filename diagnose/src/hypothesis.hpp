@@ -41,7 +41,7 @@ struct Fit {
 
 /// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
 /// posterior is, with the Laplace approximation for the stiffness, which scales the moduli. The prior of the stiffness is normal in
-/// its logarithm where the experiment knows it, else uniform over 0.1 .. 1e5 N/m.
+/// its logarithm where the experiment knows it, else uniform over 1e-3 .. 1e5 N/m.
 class Inference {
 public:
     Inference(const Forward& forward, const Likelihood& likelihood) : forward_(forward), likelihood_(likelihood) {}

@@ -17,18 +17,12 @@ double MechanismParameter::place_of(double given) const {
 
 std::span<const Mechanism> catalogue() {
     // One line per mechanism.
-    static const std::vector<Mechanism> all{mechanisms::shear_stiffness(),
-                                            mechanisms::bond_bending(),
-                                            mechanisms::bond_range(),
-                                            mechanisms::bond_strength(),
-                                            mechanisms::contact_nonlinearity(),
-                                            mechanisms::contact_loss(),
-                                            mechanisms::ageing(),
-                                            mechanisms::wall_slip(),
-                                            mechanisms::gap_error(),
-                                            mechanisms::tool_compliance(),
-                                            mechanisms::tool_inertia(),
-                                            mechanisms::numerical(), mechanisms::localisation_error()};
+    static const std::vector<Mechanism> all{
+        mechanisms::shear_stiffness(), mechanisms::bond_bending(),         mechanisms::bond_range(),
+        mechanisms::bond_strength(),   mechanisms::contact_nonlinearity(), mechanisms::contact_loss(),
+        mechanisms::ageing(),          mechanisms::ageing_after_shear(),   mechanisms::wall_slip(),
+        mechanisms::gap_error(),       mechanisms::tool_compliance(),      mechanisms::tool_inertia(),
+        mechanisms::numerical(),       mechanisms::localisation_error()};
     return all;
 }
 

@@ -79,6 +79,20 @@ class Check(ProgramTest):
         self.assertTrue(columns["storage_modulus"]["standard_errors"])
         self.assertAlmostEqual(columns["heterogeneity"]["min"], 0.37)
 
+    def test_rows_columns_and_clock_are_chosen(self):
+        self.write("sweep.csv", sweep(9))
+        chosen = '\nrows = [2, 9]\nwithout = ["stress", "loss_modulus"]\ntime_per_row = "3 s"'
+        (table,) = self.found(experiment(SWEEP + chosen))["measurements"]
+        columns = {column["name"]: column for column in table["columns"]}
+        self.assertEqual((table["rows"], sorted(columns)), (8, ["storage_modulus", "strain", "time"]))
+        self.assertEqual((columns["time"]["min"], columns["time"]["max"]), (6, 27))
+        lines = "".join(f"{10 + 5 * k},{100 + k},{10 + k % 3}\n" for k in range(30))
+        self.write("sweep.csv", "time [s],storage modulus [Pa],loss modulus [Pa]\n" + lines.replace("\n40,", "\n40,x", 1))
+        (table,) = self.found(experiment('kind = "time-sweep"\nfile = "sweep.csv"\nrows = [1, 30, 3]\ntime_zero = "10 s"'))["measurements"]
+        columns = {column["name"]: column for column in table["columns"]}
+        self.assertEqual((table["rows"], columns["time"]["min"], columns["time"]["max"]), (10, 0, 135))
+        self.assertEqual([(cell["column"], cell["row"]) for cell in table["left_out"]], [("storage_modulus", 3)])
+
     def test_trios_steps_are_chosen_by_section_and_result(self):
         rows = "".join(f"{10 ** (0.5 * i)}\t{100 + i}\t{10}\n" for i in range(6))
         self.write("t.txt", "Filename\tx\n[step]\nConditioning\nTime\tTemperature\ns\t°C\n1\t20\n\n"
@@ -147,6 +161,11 @@ class BadInput(ProgramTest):
             (experiment(SWEEP + '\nvalues = { angular_frequency = "0 rad/s" }'), "must be > 0"),
             (experiment(SWEEP + '\nvalues = { stress = "3 Pa" }'), "has a column of it"),
             (experiment(SWEEP + "\nmood = 1"), "key 'mood'"),
+            (experiment(SWEEP + "\nrows = [3, 1]"), "must be [first, last]"),
+            (experiment(SWEEP + "\nrows = [30, 40]"), "none of its 8 rows"),
+            (experiment(SWEEP + '\nwithout = "torque"'), "no column 'torque'"),
+            (experiment(SWEEP + '\ntime_per_row = "0 s"'), "must be > 0 s"),
+            (experiment(SWEEP + '\ntime_zero = "1 s"'), "has no times"),
             ("[[measurement]\n", "not TOML"),
         ):
             with self.subTest(text=text):

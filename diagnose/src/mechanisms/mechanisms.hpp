@@ -15,6 +15,7 @@ Mechanism bond_strength();
 Mechanism contact_nonlinearity();
 Mechanism contact_loss();
 Mechanism ageing();
+Mechanism ageing_after_shear();
 Mechanism wall_slip();
 Mechanism gap_error();
 Mechanism tool_compliance();

@@ -103,6 +103,7 @@ struct Sample {
     double temperature = unset;             ///< K
     double normal_stiffness = unset;        ///< of a particle, where it is known [N/m]
     double normal_stiffness_error = unset;  ///< standard deviation of its logarithm
+    bool sheared_before = false;            ///< every run follows a shear that destroyed the structure
 };
 
 enum class Geometry { plate_plate, cone_plate, concentric_cylinders };

@@ -23,7 +23,10 @@ struct Settings {
                                  ///< the load at rest; 0: linear springs
 
     double ageing_per_decade = 0;  ///< stiffness grows by this share of its first value in a decade of time
-    double ageing_start = 1;       ///< age of the sample when the first run begins [s]
+    double build_up_exponent =
+        0;  ///< after a shear that destroyed the structure stiffness grows as (1 + t / build_up_time) to this power
+    double build_up_time = 1;  ///< [s]
+    double ageing_start = 1;   ///< age of the sample when the first run begins [s]
 
     double size_drift = 0;  ///< measured moduli over those simulated exceed 1 by this share times (1000 / particles)^(1/3)
 

@@ -1,0 +1,25 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+bool sheared_before(const Experiment& experiment) {
+    return experiment.sample.sheared_before;
+}
+
+}  // namespace
+
+/// Cement and clay pastes gain orders of magnitude within minutes after mixing (Roussel, Cement and Concrete Research 36 (2006)
+/// 1797, has them linear in time), far beyond the logarithm of a gel that is old.
+Mechanism ageing_after_shear() {
+    return {.name = "ageing-after-shear",
+            .term = "the structure that the shear before the run destroyed builds up again: the stiffness grows as a power of time",
+            .signature = "follows the time since the shear, not the strain, over orders of magnitude",
+            .parameters = {{"exponent", "1", 0.1, 3, true, &Settings::build_up_exponent},
+                           {"time", "s", 1, 1000, true, &Settings::build_up_time}},
+            .in_contact = false,
+            .applies = sheared_before};
+}
+
+}  // namespace coagula::diagnose::mechanisms

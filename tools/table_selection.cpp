@@ -1,0 +1,99 @@
+#include "table_selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace coagula::tools {
+
+namespace {
+
+void set_clock(diagnose::Measurement& table, const TableSelection& selection) {
+    const auto time = std::find_if(table.columns.begin(), table.columns.end(), [](const auto& one) { return one.name == "time"; });
+    const bool there = time != table.columns.end();
+    if (std::isfinite(selection.time_per_row)) {
+        if (there) {
+            throw InputError(table.label + ": 'time_per_row' is given, but the table has a column of times");
+        }
+        diagnose::Column clock{"time", "s", {}};
+        for (std::size_t row = 1; row <= table.rows(); ++row) {
+            clock.values.push_back(static_cast<double>(row) * selection.time_per_row);
+        }
+        table.columns.push_back(std::move(clock));
+    } else if (selection.time_zero != 0 && !there) {
+        throw InputError(table.label + ": 'time_zero' is given, but the table has no times");
+    } else if (there) {
+        for (double& value : time->values) {
+            value -= selection.time_zero;
+        }
+    }
+}
+
+void drop_columns(diagnose::Measurement& table, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        if (std::erase_if(table.columns, [&](const diagnose::Column& column) { return column.name == name; }) == 0) {
+            throw InputError(table.label + ": there is no column '" + name + "' to do without");
+        }
+        std::erase_if(table.left_out, [&](const diagnose::LeftOutCell& cell) { return cell.column == name; });
+    }
+}
+
+void keep(std::vector<double>& values, const std::vector<std::size_t>& rows) {
+    std::vector<double> kept;
+    for (std::size_t k = 0; k < rows.size() && !values.empty(); ++k) {
+        kept.push_back(values[rows[k]]);
+    }
+    values = std::move(kept);
+}
+
+}  // namespace
+
+TableSelection read_selection(TomlKeys& keys) {
+    TableSelection selection;
+    const std::vector<std::int64_t> rows = keys.wholes("rows");
+    if (!rows.empty()) {
+        if (rows.size() < 2 || rows.size() > 3 || rows[0] < 1 || rows[1] < rows[0] || (rows.size() == 3 && rows[2] < 1)) {
+            keys.fail("rows", "must be [first, last] or [first, last, step], counted from 1");
+        }
+        selection.first = rows[0];
+        selection.last = rows[1];
+        selection.step = rows.size() == 3 ? rows[2] : 1;
+    }
+    selection.without = keys.texts("without");
+    selection.time_per_row = keys.quantity("time_per_row", "s").value_or(unset);
+    if (selection.time_per_row <= 0) {
+        keys.fail("time_per_row", "must be > 0 s");
+    }
+    selection.time_zero = keys.quantity("time_zero", "s").value_or(0);
+    return selection;
+}
+
+void select(diagnose::Measurement& table, const TableSelection& selection) {
+    set_clock(table, selection);
+    drop_columns(table, selection.without);
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const auto number = static_cast<std::int64_t>(row) + 1;
+        if (number >= selection.first && number <= selection.last && (number - selection.first) % selection.step == 0) {
+            rows.push_back(row);
+        }
+    }
+    if (rows.empty()) {
+        throw InputError(table.label + ": none of its " + std::to_string(table.rows()) + " rows is among those chosen");
+    }
+    std::map<std::size_t, std::size_t> place;  // of a row among those that remain
+    for (const std::size_t row : rows) {
+        place.emplace(row, place.size());
+    }
+    for (diagnose::Column& column : table.columns) {
+        keep(column.values, rows);
+        keep(column.standard_errors, rows);
+    }
+    std::erase_if(table.left_out, [&](const diagnose::LeftOutCell& cell) { return !place.contains(cell.row); });
+    for (diagnose::LeftOutCell& cell : table.left_out) {
+        cell.row = place.at(cell.row);
+    }
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,32 @@
+// Which rows and columns of a measured table are meant, and on which clock it was measured.
+#pragma once
+
+#include "toml_keys.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/measurement.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+struct TableSelection {
+    std::int64_t first = 1;  ///< row
+    std::int64_t last = std::numeric_limits<std::int64_t>::max();
+    std::int64_t step = 1;
+    std::vector<std::string> without = {};  ///< columns not to be used
+    double time_per_row = unset;            ///< [s] where the table has no time; the first row ends after the first of them
+    double time_zero = 0;                   ///< [s] on the clock of the table
+};
+
+/// Takes the keys rows, without, time_per_row and time_zero. Throws InputError.
+TableSelection read_selection(TomlKeys& keys);
+
+/// Takes away rows and columns that are not meant, and sets the clock. Cells left out are listed by the rows that remain. Throws
+/// InputError naming the table when nothing remains or a column is missing.
+void select(diagnose::Measurement& table, const TableSelection& selection);
+
+}  // namespace coagula::tools
