@@ -15,11 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double softest = 1e-3;  ///< particle [N/m]: fresh pastes of some pascal
-constexpr double stiffest = 1e5;
-constexpr double log_stiffness_range = 18.42;  ///< of these
-constexpr double relevant = 14;                // logarithms below the best node that count
-constexpr double heavy = 6;                    // logarithms below the best node that are not to lie at the edge of the grid
+constexpr double log_stiffness_range = 13.8;  // of 0.1 .. 1e5 N/m
+constexpr double relevant = 14;               // logarithms below the best node that count
 constexpr int most_rounds = 8;
 constexpr int posterior_draws = 64;
 
@@ -112,8 +109,8 @@ Inference::Node Inference::best_stiffness(Settings settings, double start) const
     double place = start;
     double best = 0;
     double curvature = 1;
-    double longest = 1;  // step; halved when it turns, because with sample effects the density flattens on both sides of its peak
-    double last = 0;
+    double longest = 1;  // step; shorter each time that the slope turns, for the density has long tails
+    double slope_before = 0;
     for (int iteration = 0; iteration < 40; ++iteration) {
         const Eigen::VectorXd here = predict(place);
         const Eigen::VectorXd slope_of_prediction = (predict(place + step) - here) / step;
@@ -125,10 +122,10 @@ Inference::Node Inference::best_stiffness(Settings settings, double start) const
         const double below = density(-step);
         const double slope = (above - below) / (2 * step);
         curvature = (2 * best - above - below) / (step * step);
-        const double change = curvature > 0 ? slope / curvature : (slope > 0 ? 1.0 : -1.0);
-        longest *= change * last < 0 ? 0.5 : 1.0;
-        last = change;
-        const double moved = std::clamp(place + std::clamp(change, -longest, longest), std::log(softest), std::log(stiffest));
+        longest *= slope * slope_before < 0 ? 0.4 : 1.0;
+        slope_before = slope;
+        const double change = curvature > 0 ? slope / curvature : std::copysign(longest, slope);
+        const double moved = std::clamp(place + std::clamp(change, -longest, longest), std::log(0.1), std::log(1e5));
         const bool done = std::abs(moved - place) < 1e-3 / std::sqrt(std::max(curvature, 1.0)) + 1e-9;
         if (done) {
             break;
@@ -167,27 +164,21 @@ Fit Inference::fit(const Hypothesis& hypothesis) const {
         }
         const double largest = *std::max_element(weights.begin(), weights.end());
         Box next = box;
-        bool smaller = false;  // or elsewhere
+        bool smaller = false;
         for (std::size_t axis = 0; axis < axes; ++axis) {
             int first = nodes;
             int last = -1;
-            bool cut_below = false;
-            bool cut_above = false;
             for (std::size_t number = 0; number < count; ++number) {
                 if (weights[number] > largest - relevant) {
                     const int place = split(number, axes, nodes)[axis];
                     first = std::min(first, place);
                     last = std::max(last, place);
-                    cut_below = cut_below || (place == 0 && weights[number] > largest - heavy);
-                    cut_above = cut_above || (place == nodes - 1 && weights[number] > largest - heavy);
                 }
             }
             const double cell = (box.high[axis] - box.low[axis]) / nodes;
-            // Beyond a box that cuts the posterior: a ridge between the nodes of a coarse grid may lead out of it.
-            next.low[axis] = std::max(cut_below ? 0.0 : box.low[axis], box.low[axis] + cell * (first - 1));
-            next.high[axis] = std::min(cut_above ? 1.0 : box.high[axis], box.low[axis] + cell * (last + 2));
-            const bool moved = next.low[axis] < box.low[axis] || next.high[axis] > box.high[axis];
-            smaller = smaller || moved || next.high[axis] - next.low[axis] < 0.6 * (box.high[axis] - box.low[axis]);
+            next.low[axis] = std::max(box.low[axis], box.low[axis] + cell * (first - 1));
+            next.high[axis] = std::min(box.high[axis], box.low[axis] + cell * (last + 2));
+            smaller = smaller || next.high[axis] - next.low[axis] < 0.6 * (box.high[axis] - box.low[axis]);
         }
         if (!smaller) {
             break;
