@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -88,11 +89,29 @@ std::vector<Fit> fit_all(const Experiment& experiment, const Inference& inferenc
     return fits;
 }
 
+/// Prior weight of a hypothesis over that of a single mechanism, as a logarithm.
+double log_prior_of(const Fit& fit, const DiagnosisOptions& options) {
+    return fit.hypothesis.size() > 1 ? std::log(options.pair_prior) : 0.0;
+}
+
+/// The most probable of all but the base model.
+const Fit& best_cause(const std::vector<Fit>& fits, const DiagnosisOptions& options) {
+    return *std::max_element(fits.begin() + 1, fits.end(), [&](const Fit& a, const Fit& b) {
+        return a.log_evidence + log_prior_of(a, options) < b.log_evidence + log_prior_of(b, options);
+    });
+}
+
+/// By how much a p-value can speak against a hypothesis at most: the bound -e p ln p of the Bayes factor (Sellke, Bayarri and
+/// Berger 2001), as the logarithm of its inverse.
+double most_evidence_against(double p_value) {
+    return p_value < 1 / std::numbers::e ? -std::log(-std::numbers::e * p_value * std::log(p_value)) : 0.0;
+}
+
 /// Posterior of each fit and, last, of "none of the catalogue".
 std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidence, const DiagnosisOptions& options) {
     std::vector<double> logarithms;
     for (const Fit& fit : fits) {
-        logarithms.push_back(fit.log_evidence + (fit.hypothesis.size() > 1 ? std::log(options.pair_prior) : 0.0));
+        logarithms.push_back(fit.log_evidence + log_prior_of(fit, options));
     }
     logarithms.push_back(none_evidence + std::log(options.none_prior));
     return probabilities_of(std::move(logarithms));
@@ -229,12 +248,12 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.failures = localise(data.observations, detection, likelihood.residual(base_prediction), base_prediction);
 
     const std::vector<Fit> fits = fit_all(experiment, inference, options, progress);
-    const double none = flexible_evidence(data, forward);
-    rank_causes(fits, none, options, diagnosis);
-    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
-                                   [](const Cause& cause) { return cause.name != none_name && cause.name != "base"; });
-    const Fit& winner = fit_named(fits, best->name);
+    const Fit& winner = best_cause(fits, options);
     diagnosis.extended_p_value = test(inference, winner, options, nullptr);
+    // A smooth correction also takes up noise that is larger than stated; the test knows how uncertain the noise is.
+    const double none = std::min(flexible_evidence(data, forward), winner.log_evidence + log_prior_of(winner, options) +
+                                                                       most_evidence_against(diagnosis.extended_p_value));
+    rank_causes(fits, none, options, diagnosis);
     diagnosis.verdict = verdict_of(diagnosis, options.level);
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, held_out, experiment, simulator, winner.hypothesis, options.seed);

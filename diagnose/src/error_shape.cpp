@@ -50,6 +50,7 @@ ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseMod
     // Kurtosis of Student's t: 6 / (nu - 4); residuals carry about `degrees` independent numbers.
     if (kurtosis / values > significant * std::sqrt(24 / degrees)) {
         shape.law.tail = 4 + 6 * values / kurtosis;
+        shape.law.degrees /= 1 + 0.5 * kurtosis / values;  // variance of a variance
     }
     return shape;
 }

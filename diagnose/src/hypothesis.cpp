@@ -1,13 +1,13 @@
 #include "hypothesis.hpp"
 
+#include "departures.hpp"
 #include "weights.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace coagula::diagnose {
 
@@ -16,57 +16,10 @@ namespace {
 using std::numbers::pi;
 
 constexpr double log_stiffness_range = 13.8;  // of 0.1 .. 1e5 N/m
-constexpr double relevant = 14;               // logarithms below the best node that count
-constexpr int most_rounds = 8;
 constexpr int posterior_draws = 64;
 
-/// Nodes along an axis for so many parameters.
-int nodes_for(std::size_t parameters) {
-    constexpr std::array<int, 5> nodes{1, 41, 15, 9, 7};
-    return parameters < nodes.size() ? nodes.at(parameters) : 5;
-}
-
-/// A box of the prior, 0 .. 1 along each axis.
-struct Box {
-    std::vector<double> low;
-    std::vector<double> high;
-
-    double at(std::size_t axis, int node, int nodes) const { return low[axis] + (high[axis] - low[axis]) * (node + 0.5) / nodes; }
-    double log_cell(int nodes) const {
-        double sum = 0;
-        for (std::size_t axis = 0; axis < low.size(); ++axis) {
-            sum += std::log((high[axis] - low[axis]) / nodes);
-        }
-        return sum;
-    }
-};
-
-/// The places along all axes of node number `number`.
-std::vector<int> split(std::size_t number, std::size_t axes, int nodes) {
-    std::vector<int> place(axes);
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-        place[axis] = static_cast<int>(number % static_cast<std::size_t>(nodes));
-        number /= static_cast<std::size_t>(nodes);
-    }
-    return place;
-}
-
-/// The value below which a part of the weight lies.
-double quantile(std::vector<std::pair<double, double>> values_and_weights, double part) {
-    std::sort(values_and_weights.begin(), values_and_weights.end());
-    double total = 0;
-    for (const auto& entry : values_and_weights) {
-        total += entry.second;
-    }
-    double below = 0;
-    for (const auto& [value, weight] : values_and_weights) {
-        below += weight;
-        if (below >= part * total) {
-            return value;
-        }
-    }
-    return values_and_weights.back().first;
-}
+/// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
+constexpr double enough_nodes = 2.5;
 
 }  // namespace
 
@@ -100,7 +53,7 @@ double Inference::log_prior(double log_stiffness) const {
 
 /// Gauss and Newton's method for the logarithm of the stiffness: the prediction's logarithmic derivative by a difference, the
 /// density along it by itself.
-Inference::Node Inference::best_stiffness(Settings settings, double start) const {
+Node Inference::best_stiffness(Settings settings, double start) const {
     constexpr double step = 1e-3;
     const auto predict = [&](double log_stiffness) {
         settings.normal_stiffness = std::exp(log_stiffness);
@@ -136,97 +89,117 @@ Inference::Node Inference::best_stiffness(Settings settings, double start) const
     return {place, 1 / std::sqrt(curvature), best, best + 0.5 * std::log(2 * pi / curvature)};
 }
 
-Fit Inference::fit(const Hypothesis& hypothesis) const {
-    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
-    const std::size_t axes = parameters.size();
-    const int nodes = nodes_for(axes);
-    std::size_t count = 1;
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-        count *= static_cast<std::size_t>(nodes);
+Settings Inference::settings_at(const std::vector<MechanismParameter>& parameters, const Eigen::VectorXd& place) {
+    Settings settings;
+    for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
+        settings.*parameters[axis].value = parameters[axis].at(place[static_cast<Index>(axis)]);
     }
-    const auto settings_at = [&](const Box& box, const std::vector<int>& place) {
-        Settings settings;
-        for (std::size_t axis = 0; axis < axes; ++axis) {
-            settings.*parameters[axis].value = parameters[axis].at(box.at(axis, place[axis], nodes));
-        }
-        return settings;
-    };
+    return settings;
+}
 
-    Box box{std::vector<double>(axes, 0.0), std::vector<double>(axes, 1.0)};
-    std::vector<Node> grid(count);
-    std::vector<double> weights(count);
-    double start = std::log(100.0);
-    for (int round = 0; round < most_rounds; ++round) {
-        for (std::size_t number = 0; number < count; ++number) {
-            grid[number] = best_stiffness(settings_at(box, split(number, axes, nodes)), start);
-            start = grid[number].log_stiffness;
-            weights[number] = grid[number].log_weight;
+/// Gauss and Newton's method from a place of the prior for stiffness, parameters and sample effects together, kept inside the
+/// prior; then the grid about what it finds, by the covariance of the parameters.
+std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
+                                                        const EvaluateNode& evaluate) const {
+    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
+    const Index axes = place.size();
+    Node here = evaluate(place);
+    Eigen::MatrixXd covariance;
+    for (int iteration = 0; iteration < 30; ++iteration) {
+        Fit fit{.hypothesis = hypothesis, .settings = settings_at(parameters, place), .parameters = {}, .draws = {}};
+        fit.settings.normal_stiffness = std::exp(here.log_stiffness);
+        const Departures departures = departures_of(*this, fit);
+        const Eigen::MatrixXd information = departures.jacobian.transpose() * departures.jacobian;
+        const Eigen::LDLT<Eigen::MatrixXd> factor(information);
+        if (factor.info() != Eigen::Success || factor.rcond() < 1e-13) {
+            return std::nullopt;  // not all parameters are determined
         }
-        const double largest = *std::max_element(weights.begin(), weights.end());
-        Box next = box;
-        bool smaller = false;
-        for (std::size_t axis = 0; axis < axes; ++axis) {
-            int first = nodes;
-            int last = -1;
-            for (std::size_t number = 0; number < count; ++number) {
-                if (weights[number] > largest - relevant) {
-                    const int place = split(number, axes, nodes)[axis];
-                    first = std::min(first, place);
-                    last = std::max(last, place);
-                }
+        covariance = factor.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols())).block(1, 1, axes, axes);
+        const Eigen::VectorXd step = factor.solve(departures.jacobian.transpose() * departures.residual).segment(1, axes);
+        bool better = false;
+        for (double part = 1; part > 1e-3 && !better; part *= 0.5) {
+            const Eigen::VectorXd moved = (place + part * step).cwiseMax(1e-3).cwiseMin(1 - 1e-3);
+            const Node there = evaluate(moved);
+            better = there.log_weight > here.log_weight + 1e-6;
+            if (better) {
+                place = moved;
+                here = there;
             }
-            const double cell = (box.high[axis] - box.low[axis]) / nodes;
-            next.low[axis] = std::max(box.low[axis], box.low[axis] + cell * (first - 1));
-            next.high[axis] = std::min(box.high[axis], box.low[axis] + cell * (last + 2));
-            smaller = smaller || next.high[axis] - next.low[axis] < 0.6 * (box.high[axis] - box.low[axis]);
         }
-        if (!smaller) {
+        if (!better) {
             break;
         }
-        if (round + 1 < most_rounds) {
-            box = next;
+    }
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    if (root.info() != Eigen::Success) {
+        return std::nullopt;
+    }
+    return diagnose::grid_about(place, root.matrixL(), evaluate);
+}
+
+PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
+    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
+    const auto axes = static_cast<Index>(parameters.size());
+    double start = std::log(100.0);
+    const auto evaluate = [&](const Eigen::VectorXd& place) {
+        const Node node = best_stiffness(settings_at(parameters, place), start);
+        start = node.log_stiffness;
+        return node;
+    };
+    PosteriorGrid grid = grid_along_axes(axes, evaluate);
+    if (axes > 1 && grid.effective_nodes() < std::pow(enough_nodes, axes)) {
+        // A narrow ridge between the axes: the grid along these misses it.
+        auto about = grid_about_mode(hypothesis, grid.places[grid.best()], evaluate);
+        if (about && !about->nodes.empty() && about->nodes[about->best()].log_weight > grid.nodes[grid.best()].log_weight - 1) {
+            return *about;
         }
     }
+    return grid;
+}
 
-    Fit fit;
-    fit.hypothesis = hypothesis;
-    fit.log_evidence = log_sum(weights) + box.log_cell(nodes);
-    const auto best = static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
-    fit.settings = settings_at(box, split(best, axes, nodes));
-    fit.settings.normal_stiffness = std::exp(grid[best].log_stiffness);
-    fit.log_density = grid[best].log_density;
-
-    std::vector<double> probability(count);
-    std::transform(weights.begin(), weights.end(), probability.begin(), [&](double w) { return std::exp(w - weights[best]); });
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-        std::vector<std::pair<double, double>> marginal;
-        for (std::size_t number = 0; number < count; ++number) {
-            marginal.emplace_back(box.at(axis, split(number, axes, nodes)[axis], nodes), probability[number]);
-        }
-        // A node stands for its cell.
-        const double half = 0.5 * (box.high[axis] - box.low[axis]) / nodes;
-        fit.parameters.push_back({fit.settings.*parameters[axis].value, parameters[axis].at(quantile(marginal, 0.05) - half),
-                                  parameters[axis].at(quantile(marginal, 0.95) + half)});
+/// Draws at equal steps of the cumulated probability.
+Eigen::MatrixXd Inference::draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters) {
+    std::vector<double> weights;
+    for (const Node& node : grid.nodes) {
+        weights.push_back(node.log_weight);
     }
-    const double spread = 1.645 * grid[best].deviation;
-    fit.stiffness = {fit.settings.normal_stiffness, fit.settings.normal_stiffness * std::exp(-spread),
-                     fit.settings.normal_stiffness * std::exp(spread)};
-
-    // Draws at equal steps of the cumulated probability.
-    fit.draws.resize(static_cast<Index>(axes) + 1, posterior_draws);
-    const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
+    const std::vector<double> probability = probabilities_of(std::move(weights));
+    Eigen::MatrixXd draws(static_cast<Index>(parameters.size()) + 1, posterior_draws);
     double below = 0;
     std::size_t number = 0;
     for (int draw = 0; draw < posterior_draws; ++draw) {
-        while (number + 1 < count && below + probability[number] < (draw + 0.5) / posterior_draws * total) {
+        while (number + 1 < grid.nodes.size() && below + probability[number] < (draw + 0.5) / posterior_draws) {
             below += probability[number++];
         }
-        fit.draws(0, draw) = std::exp(grid[number].log_stiffness);
-        for (std::size_t axis = 0; axis < axes; ++axis) {
-            fit.draws(static_cast<Index>(axis) + 1, draw) =
-                parameters[axis].at(box.at(axis, split(number, axes, nodes)[axis], nodes));
+        draws(0, draw) = std::exp(grid.nodes[number].log_stiffness);
+        for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
+            const auto row = static_cast<Index>(axis);
+            draws(row + 1, draw) = parameters[axis].at(grid.places[number][row]);
         }
     }
+    return draws;
+}
+
+Fit Inference::fit(const Hypothesis& hypothesis) const {
+    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
+    const PosteriorGrid grid = grid_for(hypothesis);
+    const std::size_t best = grid.best();
+    const Node& node = grid.nodes[best];
+    Fit fit{.hypothesis = hypothesis,
+            .settings = settings_at(parameters, grid.places[best]),
+            .parameters = {},
+            .log_density = node.log_density,
+            .log_evidence = grid.log_evidence(),
+            .draws = draws_from(grid, parameters)};
+    fit.settings.normal_stiffness = std::exp(node.log_stiffness);
+    for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
+        const auto row = static_cast<Index>(axis);
+        fit.parameters.push_back({fit.settings.*parameters[axis].value, parameters[axis].at(grid.quantile(row, 0.05)),
+                                  parameters[axis].at(grid.quantile(row, 0.95))});
+    }
+    const double spread = 1.645 * node.deviation;
+    fit.stiffness = {fit.settings.normal_stiffness, fit.settings.normal_stiffness * std::exp(-spread),
+                     fit.settings.normal_stiffness * std::exp(spread)};
     return fit;
 }
 

@@ -3,11 +3,13 @@
 
 #include "forward.hpp"
 #include "likelihood.hpp"
+#include "posterior_grid.hpp"
 
 #include <coagula/diagnose/mechanism.hpp>
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -40,8 +42,9 @@ struct Fit {
 };
 
 /// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
-/// posterior is, with the Laplace approximation for the stiffness, which scales the moduli. The prior of the stiffness is normal in
-/// its logarithm where the experiment knows it, else uniform over 1e-3 .. 1e5 N/m.
+/// posterior is (along its principal axes where it is a narrow ridge), with the Laplace approximation for the stiffness, which
+/// scales the moduli. The prior of the stiffness is normal in its logarithm where the experiment knows it, else uniform over 0.1 ..
+/// 1e5 N/m.
 class Inference {
 public:
     Inference(const Forward& forward, const Likelihood& likelihood) : forward_(forward), likelihood_(likelihood) {}
@@ -59,12 +62,11 @@ public:
     const Likelihood& likelihood() const { return likelihood_; }
 
 private:
-    struct Node {
-        double log_stiffness;
-        double deviation;  ///< of log_stiffness
-        double log_density;
-        double log_weight;  ///< stiffness integrated out
-    };
+    static Settings settings_at(const std::vector<MechanismParameter>& parameters, const Eigen::VectorXd& place);
+    static Eigen::MatrixXd draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters);
+    PosteriorGrid grid_for(const Hypothesis& hypothesis) const;
+    std::optional<PosteriorGrid> grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
+                                                 const EvaluateNode& evaluate) const;
     double log_prior(double log_stiffness) const;
     Node best_stiffness(Settings settings, double start) const;
 

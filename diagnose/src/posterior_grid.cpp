@@ -1,0 +1,146 @@
+#include "posterior_grid.hpp"
+
+#include "weights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr double relevant = 14;  // logarithms below the best node that count
+constexpr int most_rounds = 8;
+constexpr double reach = 5;  // standard deviations
+
+/// Nodes along an axis for so many axes.
+int nodes_for(Index axes) {
+    constexpr std::array<int, 5> nodes{1, 41, 15, 9, 7};
+    const auto place = static_cast<std::size_t>(axes);
+    return place < nodes.size() ? nodes.at(place) : 5;
+}
+
+/// Every node of a grid, as middles of cells 0 .. 1 along each axis.
+std::vector<Eigen::VectorXd> middles(Index axes, int nodes) {
+    std::size_t count = 1;
+    for (Index axis = 0; axis < axes; ++axis) {
+        count *= static_cast<std::size_t>(nodes);
+    }
+    std::vector<Eigen::VectorXd> all;
+    for (std::size_t number = 0; number < count; ++number) {
+        Eigen::VectorXd place(axes);
+        std::size_t rest = number;
+        for (Index axis = 0; axis < axes; ++axis) {
+            place[axis] = (static_cast<double>(rest % static_cast<std::size_t>(nodes)) + 0.5) / nodes;
+            rest /= static_cast<std::size_t>(nodes);
+        }
+        all.push_back(std::move(place));
+    }
+    return all;
+}
+
+std::vector<double> log_weights(const PosteriorGrid& grid) {
+    std::vector<double> weights;
+    for (const Node& node : grid.nodes) {
+        weights.push_back(node.log_weight);
+    }
+    return weights;
+}
+
+}  // namespace
+
+std::size_t PosteriorGrid::best() const {
+    const auto found =
+        std::max_element(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.log_weight < b.log_weight; });
+    return static_cast<std::size_t>(found - nodes.begin());
+}
+
+double PosteriorGrid::log_evidence() const {
+    return log_sum(log_weights(*this)) + log_cell;
+}
+
+double PosteriorGrid::effective_nodes() const {
+    double squares = 0;
+    for (const double probability : probabilities_of(log_weights(*this))) {
+        squares += probability * probability;
+    }
+    return 1 / squares;
+}
+
+double PosteriorGrid::quantile(Index axis, double part) const {
+    const std::vector<double> probability = probabilities_of(log_weights(*this));
+    std::vector<std::pair<double, double>> sorted;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        sorted.emplace_back(places[k][axis], probability[k]);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    // Half of a node's probability lies on either side of it.
+    double below = 0;
+    double place_before = sorted.front().first;
+    double sum_before = 0;
+    for (const auto& [place, weight] : sorted) {
+        const double sum = below + 0.5 * weight;
+        if (sum >= part) {
+            const double between = sum > sum_before ? (part - sum_before) / (sum - sum_before) : 1.0;
+            return place_before + between * (place - place_before);
+        }
+        below += weight;
+        place_before = place;
+        sum_before = sum;
+    }
+    return sorted.back().first;
+}
+
+PosteriorGrid grid_along_axes(Index axes, const EvaluateNode& evaluate) {
+    const int nodes = nodes_for(axes);
+    const std::vector<Eigen::VectorXd> cells = middles(axes, nodes);
+    Eigen::ArrayXd low = Eigen::ArrayXd::Zero(axes);
+    Eigen::ArrayXd high = Eigen::ArrayXd::Ones(axes);
+    PosteriorGrid grid;
+    for (int round = 0; round < most_rounds; ++round) {
+        grid = {};
+        for (const Eigen::VectorXd& cell : cells) {
+            grid.places.emplace_back((low + (high - low) * cell.array()).matrix());
+            grid.nodes.push_back(evaluate(grid.places.back()));
+        }
+        const Eigen::ArrayXd width = (high - low) / nodes;
+        grid.log_cell = width.log().sum();
+        Eigen::ArrayXd next_low = Eigen::ArrayXd::Constant(axes, 1.0);
+        Eigen::ArrayXd next_high = Eigen::ArrayXd::Zero(axes);
+        const double largest = grid.nodes[grid.best()].log_weight;
+        for (std::size_t k = 0; k < grid.nodes.size(); ++k) {
+            if (grid.nodes[k].log_weight > largest - relevant) {
+                next_low = next_low.min(grid.places[k].array() - 1.5 * width);
+                next_high = next_high.max(grid.places[k].array() + 1.5 * width);
+            }
+        }
+        next_low = next_low.max(low);
+        next_high = next_high.min(high);
+        if (axes == 0 || ((next_high - next_low) > 0.6 * (high - low)).all()) {
+            break;
+        }
+        low = next_low;
+        high = next_high;
+    }
+    return grid;
+}
+
+PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& factor, const EvaluateNode& evaluate) {
+    const int nodes = nodes_for(mode.size()) > 15 ? 15 : nodes_for(mode.size());
+    PosteriorGrid grid;
+    grid.log_cell = static_cast<double>(mode.size()) * std::log(2 * reach / nodes) + factor.diagonal().array().abs().log().sum();
+    for (const Eigen::VectorXd& cell : middles(mode.size(), nodes)) {
+        const Eigen::VectorXd place = mode + factor * (2 * reach * (cell.array() - 0.5)).matrix();
+        if (place.minCoeff() >= 0 && place.maxCoeff() <= 1) {
+            grid.places.push_back(place);
+            grid.nodes.push_back(evaluate(place));
+        }
+    }
+    return grid;
+}
+
+}  // namespace coagula::diagnose

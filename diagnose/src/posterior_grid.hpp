@@ -1,0 +1,42 @@
+// Nodes where a posterior is evaluated.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// What is known at one place of the prior, 0 .. 1 along each axis, the stiffness integrated out.
+struct Node {
+    double log_stiffness = 0;
+    double deviation = 0;    ///< of log_stiffness
+    double log_density = 0;  ///< at the best stiffness
+    double log_weight = 0;   ///< stiffness integrated out
+};
+
+using EvaluateNode = std::function<Node(const Eigen::VectorXd& place)>;
+
+/// Nodes of equal volume.
+struct PosteriorGrid {
+    std::vector<Eigen::VectorXd> places;
+    std::vector<Node> nodes;
+    double log_cell = 0;
+
+    std::size_t best() const;
+    double log_evidence() const;
+    /// Number of nodes of equal weight that would say as much: few where the grid is too coarse.
+    double effective_nodes() const;
+    /// Place along an axis below which a part of the probability lies.
+    double quantile(Eigen::Index axis, double part) const;
+};
+
+/// A grid along the axes that closes in on where the posterior is.
+PosteriorGrid grid_along_axes(Eigen::Index axes, const EvaluateNode& evaluate);
+
+/// A grid along the principal axes of a normal posterior, clipped to the prior.
+/// @param factor of its covariance, lower triangular.
+PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& factor, const EvaluateNode& evaluate);
+
+}  // namespace coagula::diagnose
