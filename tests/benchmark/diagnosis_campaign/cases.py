@@ -36,9 +36,9 @@ def logarithmic(low, high):
 
 def effects(generator, session):
     """Function of 0 .. 1 that makes each effect stronger."""
-    exponent = round(float(generator.uniform(0.02, 0.25)), 2)
+    exponent = round(float(generator.uniform(0.015, 0.1)), 3)
     load = float(generator.choice([4.0, 8.0]))
-    within = {"contact-loss": logarithmic(0.03, 3.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
+    within = {"contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
               "tool-inertia": logarithmic(1e-8, 0.9e-4), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
     return {
         "contact-loss": lambda place: Hidden("contact-loss", loss=(float(f"{within['contact-loss'](place):.3g}"), exponent)),

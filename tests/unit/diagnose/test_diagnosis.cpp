@@ -142,8 +142,10 @@ TEST(Diagnosis, NamesTheLossOfTheContacts) {
     const auto cause =
         std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& c) { return c.name == "contact-loss"; });
     ASSERT_EQ(cause->parameters.size(), 3U);
-    EXPECT_LT(cause->parameters[2].low, 0.08);
-    EXPECT_GT(cause->parameters[2].high, 0.08);
+    const EstimatedParameter& exponent = cause->parameters[2];
+    const double half = 0.5 * (exponent.high - exponent.low);  // 1.6 standard deviations
+    EXPECT_NEAR(0.5 * (exponent.low + exponent.high), 0.08, 2 * half);
+    EXPECT_LT(half, 0.03);
     EXPECT_FALSE(found.failures.empty());
 }
 
