@@ -15,7 +15,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double log_stiffness_range = 13.8;  // of 0.1 .. 1e5 N/m
+constexpr double softest = 1e-3;  ///< particle [N/m]: fresh pastes of some pascal
+constexpr double stiffest = 1e5;
+constexpr double log_stiffness_range = 18.42;  ///< of these
 constexpr int posterior_draws = 64;
 
 /// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
@@ -78,7 +80,7 @@ Node Inference::best_stiffness(Settings settings, double start) const {
         longest *= slope * slope_before < 0 ? 0.4 : 1.0;
         slope_before = slope;
         const double change = curvature > 0 ? slope / curvature : std::copysign(longest, slope);
-        const double moved = std::clamp(place + std::clamp(change, -longest, longest), std::log(0.1), std::log(1e5));
+        const double moved = std::clamp(place + std::clamp(change, -longest, longest), std::log(softest), std::log(stiffest));
         const bool done = std::abs(moved - place) < 1e-3 / std::sqrt(std::max(curvature, 1.0)) + 1e-9;
         if (done) {
             break;

@@ -14,6 +14,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double relevant = 14;  // logarithms below the best node that count
+constexpr double heavy = 6;      // logarithms below the best node that are not to lie at the edge of the grid
 constexpr int most_rounds = 8;
 constexpr double reach = 5;  // standard deviations
 
@@ -111,16 +112,25 @@ PosteriorGrid grid_along_axes(Index axes, const EvaluateNode& evaluate) {
         grid.log_cell = width.log().sum();
         Eigen::ArrayXd next_low = Eigen::ArrayXd::Constant(axes, 1.0);
         Eigen::ArrayXd next_high = Eigen::ArrayXd::Zero(axes);
+        // A ridge between the nodes of a coarse grid may lead out of the box: where it cuts the posterior, go beyond.
+        Eigen::ArrayXd lowest = low;
+        Eigen::ArrayXd highest = high;
         const double largest = grid.nodes[grid.best()].log_weight;
         for (std::size_t k = 0; k < grid.nodes.size(); ++k) {
+            const Eigen::ArrayXd place = grid.places[k].array();
             if (grid.nodes[k].log_weight > largest - relevant) {
-                next_low = next_low.min(grid.places[k].array() - 1.5 * width);
-                next_high = next_high.max(grid.places[k].array() + 1.5 * width);
+                next_low = next_low.min(place - 1.5 * width);
+                next_high = next_high.max(place + 1.5 * width);
+            }
+            if (grid.nodes[k].log_weight > largest - heavy) {
+                lowest = (place < low + width).select(0.0, lowest);
+                highest = (place > high - width).select(1.0, highest);
             }
         }
-        next_low = next_low.max(low);
-        next_high = next_high.min(high);
-        if (axes == 0 || ((next_high - next_low) > 0.6 * (high - low)).all()) {
+        next_low = next_low.max(lowest);
+        next_high = next_high.min(highest);
+        const bool inside = (next_low >= low).all() && (next_high <= high).all();
+        if (axes == 0 || (inside && ((next_high - next_low) > 0.6 * (high - low)).all())) {
             break;
         }
         low = next_low;
