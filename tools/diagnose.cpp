@@ -77,6 +77,7 @@ Json noise_json(const NoiseModel& noise) {
                  {"relative", estimate_json(noise.relative, "1")},
                  {"sample", estimate_json(noise.sample, "1")},
                  {"autocorrelation", noise.autocorrelation},
+                 {"excess_kurtosis", noise.excess_kurtosis},
                  {"sample_effects", Json::object()},
                  {"statement", noise.statement}};
     for (const diagnose::SampleEffect& effect : noise.sample_effects) {

@@ -74,26 +74,22 @@ double PosteriorGrid::effective_nodes() const {
 
 double PosteriorGrid::quantile(Index axis, double part) const {
     const std::vector<double> probability = probabilities_of(log_weights(*this));
-    std::vector<std::pair<double, double>> sorted;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        sorted.emplace_back(places[k][axis], probability[k]);
-    }
-    std::sort(sorted.begin(), sorted.end());
-    // Half of a node's probability lies on either side of it.
-    double below = 0;
-    double place_before = sorted.front().first;
-    double sum_before = 0;
-    for (const auto& [place, weight] : sorted) {
-        const double sum = below + 0.5 * weight;
-        if (sum >= part) {
-            const double between = sum > sum_before ? (part - sum_before) / (sum - sum_before) : 1.0;
-            return place_before + between * (place - place_before);
+    const double half = half_widths[axis];
+    // A node stands for its cell.
+    const auto below = [&](double place) {
+        double sum = 0;
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            sum += probability[k] * std::clamp((place - places[k][axis] + half) / (2 * half), 0.0, 1.0);
         }
-        below += weight;
-        place_before = place;
-        sum_before = sum;
+        return sum;
+    };
+    double low = 0;
+    double high = 1;
+    for (int halving = 0; halving < 50; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (below(middle) < part ? low : high) = middle;
     }
-    return sorted.back().first;
+    return 0.5 * (low + high);
 }
 
 PosteriorGrid grid_along_axes(Index axes, const EvaluateNode& evaluate) {
@@ -110,6 +106,7 @@ PosteriorGrid grid_along_axes(Index axes, const EvaluateNode& evaluate) {
         }
         const Eigen::ArrayXd width = (high - low) / nodes;
         grid.log_cell = width.log().sum();
+        grid.half_widths = (0.5 * width).matrix();
         Eigen::ArrayXd next_low = Eigen::ArrayXd::Constant(axes, 1.0);
         Eigen::ArrayXd next_high = Eigen::ArrayXd::Zero(axes);
         // A ridge between the nodes of a coarse grid may lead out of the box: where it cuts the posterior, go beyond.
@@ -143,6 +140,7 @@ PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& fac
     const int nodes = nodes_for(mode.size()) > 15 ? 15 : nodes_for(mode.size());
     PosteriorGrid grid;
     grid.log_cell = static_cast<double>(mode.size()) * std::log(2 * reach / nodes) + factor.diagonal().array().abs().log().sum();
+    grid.half_widths = reach / nodes * factor.rowwise().norm();
     for (const Eigen::VectorXd& cell : middles(mode.size(), nodes)) {
         const Eigen::VectorXd place = mode + factor * (2 * reach * (cell.array() - 0.5)).matrix();
         if (place.minCoeff() >= 0 && place.maxCoeff() <= 1) {

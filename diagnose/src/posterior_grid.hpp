@@ -23,6 +23,7 @@ struct PosteriorGrid {
     std::vector<Eigen::VectorXd> places;
     std::vector<Node> nodes;
     double log_cell = 0;
+    Eigen::VectorXd half_widths;  ///< of a cell along each axis
 
     std::size_t best() const;
     double log_evidence() const;

@@ -1,0 +1,90 @@
+#include <coagula/common/random.hpp>
+#include <coagula/diagnose/noise.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace coagula::diagnose {
+namespace {
+
+constexpr Eigen::Index conditions = 40;
+constexpr int samples = 5;
+
+double normal(std::uint64_t seed, Eigen::Index condition, int sample, std::uint64_t step) {
+    return random_normal(seed, RandomPurpose::test, 100 * step + static_cast<std::uint64_t>(condition),
+                         static_cast<std::uint64_t>(sample))
+        .x();
+}
+
+/// A constant modulus whose errors, 2 %, are as `error` says.
+NoiseModel model_of(std::uint64_t seed, const std::function<double(Eigen::Index, int)>& error) {
+    Replicates replicates;
+    replicates.observable = "storage_modulus";
+    replicates.axis = Eigen::VectorXd::LinSpaced(conditions, 1, 40);
+    replicates.floor_weights = Eigen::VectorXd::Ones(conditions);
+    replicates.values.resize(conditions, samples);
+    for (int s = 0; s < samples; ++s) {
+        replicates.samples.push_back("sample " + std::to_string(s));
+        const double effect = 1 + 0.1 * normal(seed, 0, s, 9);
+        for (Eigen::Index c = 0; c < conditions; ++c) {
+            replicates.values(c, s) = 1000 * effect * (1 + 0.02 * error(c, s));
+        }
+    }
+    return fit_noise(replicates);
+}
+
+TEST(ErrorShape, FindsNoCorrelationAndNoTailsInIndependentNormalErrors) {
+    const NoiseModel model = model_of(1, [](Eigen::Index c, int s) { return normal(1, c, s, 1); });
+    const ErrorShape shape = shape_of_errors({model}, model);
+    EXPECT_EQ(shape.law.correlation, 0);
+    EXPECT_FALSE(std::isfinite(shape.law.tail));
+    EXPECT_EQ(shape.law.degrees, conditions * samples - conditions - (samples - 1));
+    EXPECT_NEAR(shape.factor, 1, 1e-12);
+}
+
+TEST(ErrorShape, FindsTheCorrelationOfNeighboursAndTheirFullDeviation) {
+    Eigen::MatrixXd errors(conditions, samples);
+    for (int s = 0; s < samples; ++s) {
+        for (Eigen::Index c = 0; c < conditions; ++c) {
+            errors(c, s) = c == 0 ? normal(2, c, s, 1) : 0.6 * errors(c - 1, s) + 0.8 * normal(2, c, s, 1);
+        }
+    }
+    const NoiseModel model = model_of(2, [&](Eigen::Index c, int s) { return errors(c, s); });
+    const ErrorShape shape = shape_of_errors({model}, model);
+    EXPECT_NEAR(shape.law.correlation, 0.6, 0.13);  // standard deviation 0.8 / sqrt(160) = 0.064
+    EXPECT_GT(shape.factor, 1);
+    EXPECT_NEAR(shape.factor * model.relative.value, 0.02, 0.005);  // three standard deviations of 73 degrees of freedom
+}
+
+TEST(ErrorShape, FindsHeavyTails) {
+    // Student's t with five degrees of freedom, of unit variance.
+    const auto error = [](Eigen::Index c, int s) {
+        double squares = 0;
+        for (std::uint64_t k = 2; k < 7; ++k) {
+            squares += std::pow(normal(4, c, s, k), 2);
+        }
+        return normal(4, c, s, 1) / std::sqrt(squares / 5) * std::sqrt(3.0 / 5);
+    };
+    const NoiseModel model = model_of(4, error);
+    const ErrorShape shape = shape_of_errors({model}, model);
+    ASSERT_TRUE(std::isfinite(shape.law.tail));
+    EXPECT_GT(shape.law.tail, 4);
+    EXPECT_LT(shape.law.tail, 12);  // the kurtosis of a finite sample falls short of the true one
+    EXPECT_LT(shape.law.degrees, model.degrees);
+}
+
+TEST(ErrorShape, DrawsFewReplicatesTowardsTheOthers) {
+    NoiseModel few = model_of(5, [](Eigen::Index c, int s) { return normal(5, c, s, 1); });
+    const NoiseModel many = few;
+    few.relative.value = 0.005;
+    few.degrees = 4;
+    const ErrorShape shape = shape_of_errors({few, many}, few);
+    EXPECT_GT(shape.factor * few.relative.value, 0.015);
+    EXPECT_EQ(shape.law.degrees, 24);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose

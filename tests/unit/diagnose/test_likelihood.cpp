@@ -1,0 +1,95 @@
+#include "likelihood.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace coagula::diagnose {
+namespace {
+
+/// Two samples with two tables each whose rows follow each other with a correlation of 0.4.
+DataSet correlated() {
+    constexpr Index rows = 40;
+    DataSet data;
+    data.values.resize(rows);
+    data.noise.deviation.resize(rows);
+    data.noise.correlation = Eigen::VectorXd::Zero(rows);
+    data.sample_names = {"A", "B"};
+    data.effect = 0.05;
+    for (Index row = 0; row < rows; ++row) {
+        data.values[row] = 100 + 3 * std::sin(7.0 * static_cast<double>(row)) + (row < 20 ? 4 : -2);
+        data.noise.deviation[row] = 2 + 0.1 * static_cast<double>(row % 7);
+        data.noise.previous.push_back(row % 10 == 0 ? -1 : row - 1);
+        data.noise.correlation[row] = row % 10 == 0 ? 0 : 0.4;
+        data.sample.push_back(row / 20);
+    }
+    return data;
+}
+
+Eigen::VectorXd prediction() {
+    return Eigen::VectorXd::LinSpaced(40, 90, 110);
+}
+
+/// By the covariance in full.
+double direct(const DataSet& data, double effect) {
+    Eigen::MatrixXd covariance = data.noise.covariance();
+    for (Index sample = 0; sample < 2; ++sample) {
+        Eigen::VectorXd level = prediction();
+        for (Index row = 0; row < level.size(); ++row) {
+            level[row] *= data.sample[static_cast<std::size_t>(row)] == sample ? 1 : 0;
+        }
+        covariance += effect * effect * level * level.transpose();
+    }
+    const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+    const Eigen::VectorXd white = factor.matrixL().solve(data.values - prediction());
+    return -0.5 * white.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
+}
+
+TEST(Likelihood, AgreesWithTheCovarianceInFull) {
+    const DataSet data = correlated();
+    EXPECT_NEAR(Likelihood(data).log_density(prediction()), direct(data, data.effect), 1e-9);
+    const Likelihood dense(data, Eigen::MatrixXd::Zero(data.size(), data.size()));
+    EXPECT_NEAR(dense.log_density(prediction()), direct(data, data.effect), 1e-9);
+    EXPECT_NEAR(dense.residual(prediction()).squaredNorm(), Likelihood(data).residual(prediction()).squaredNorm(), 1e-9);
+}
+
+TEST(Likelihood, AveragesOverAnUncertainSampleEffect) {
+    DataSet data = correlated();
+    data.effect_degrees = 4;
+    double sum = 0;
+    constexpr int nodes = 20000;  // middles of equal parts of the scaled inverse chi-square distribution
+    for (int k = 0; k < nodes; ++k) {
+        // Inverse of the normal distribution by bisection.
+        const double part = (k + 0.5) / nodes;
+        double low = -6;
+        double high = 6;
+        for (int halving = 0; halving < 40; ++halving) {
+            const double middle = 0.5 * (low + high);
+            (0.5 * std::erfc(-middle / std::numbers::sqrt2) < part ? low : high) = middle;
+        }
+        if (k % 100 == 50) {
+            sum += std::exp(direct(data, data.effect / std::sqrt(scaled_chi_square(4, low))) + 100);
+        }
+    }
+    const double exact = std::log(sum / (nodes / 100)) - 100;
+    EXPECT_NEAR(Likelihood(data).log_density(prediction()), exact, 0.1);
+    EXPECT_GT(std::abs(direct(data, data.effect) - exact), 0.1) << "the uncertainty makes no difference here";
+}
+
+TEST(RowNoise, WhitensToUnitCovariance) {
+    const DataSet data = correlated();
+    const Eigen::MatrixXd covariance = data.noise.covariance();
+    Eigen::MatrixXd white(40, 40);
+    for (Index column = 0; column < 40; ++column) {
+        white.col(column) = data.noise.whiten(covariance.col(column));
+    }
+    Eigen::MatrixXd both(40, 40);
+    for (Index row = 0; row < 40; ++row) {
+        both.col(row) = data.noise.whiten(white.row(row).transpose());
+    }
+    EXPECT_LT((both - Eigen::MatrixXd::Identity(40, 40)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose

@@ -1,0 +1,54 @@
+#include "posterior_grid.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace coagula::diagnose {
+namespace {
+
+/// A normal density in the unit square, of integral 1.
+EvaluateNode normal_density(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance) {
+    return [=](const Eigen::VectorXd& place) {
+        const Eigen::Vector2d away = place - mean;
+        const double exponent = -0.5 * away.dot(covariance.inverse() * away);
+        return Node{.log_weight = exponent - std::log(2 * std::numbers::pi * std::sqrt(covariance.determinant()))};
+    };
+}
+
+TEST(PosteriorGrid, IntegratesWhatLiesAlongTheAxes) {
+    const Eigen::Matrix2d covariance = Eigen::Vector2d(1e-4, 4e-6).asDiagonal();
+    const PosteriorGrid grid = grid_along_axes(2, normal_density({0.3, 0.62}, covariance));
+    EXPECT_NEAR(grid.log_evidence(), 0, 1e-3);
+    EXPECT_NEAR(grid.quantile(0, 0.5), 0.3, 1e-4);
+    EXPECT_NEAR(grid.quantile(0, 0.95) - grid.quantile(0, 0.05), 2 * 1.645 * 0.01, 0.06 * 0.0329);  // a cell is a deviation wide
+    EXPECT_NEAR(grid.quantile(1, 0.95) - grid.quantile(1, 0.05), 2 * 1.645 * 0.002, 0.06 * 0.00658);
+}
+
+TEST(PosteriorGrid, FollowsARidgeAcrossTheAxes) {
+    Eigen::Matrix2d covariance;
+    covariance << 1e-4, 0.9999e-4, 0.9999e-4, 1e-4;
+    const Eigen::Vector2d mean(0.41, 0.57);
+    const EvaluateNode density = normal_density(mean, covariance);
+    EXPECT_LT(grid_along_axes(2, density).effective_nodes(), 2.5 * 2.5) << "the grid along the axes would do";
+    const PosteriorGrid grid = grid_about(mean, Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL(), density);
+    EXPECT_NEAR(grid.log_evidence(), 0, 1e-3);
+    EXPECT_NEAR(grid.quantile(1, 0.95) - grid.quantile(1, 0.05), 2 * 1.645 * 0.01, 1e-3);
+    EXPECT_GT(grid.effective_nodes(), 2.5 * 2.5);
+}
+
+TEST(PosteriorGrid, LeavesOutWhatThePriorDoesNotAllow) {
+    const Eigen::Matrix2d covariance = 1e-4 * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d corner(0.0, 0.5);  // half of it lies below 0
+    const PosteriorGrid grid =
+        grid_about(corner, Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL(), normal_density(corner, covariance));
+    EXPECT_NEAR(std::exp(grid.log_evidence()), 0.5, 0.15);  // to the half of a row of nodes
+    EXPECT_GE(grid.quantile(0, 0.01), 0);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose
