@@ -204,6 +204,47 @@ Complex Forward::seen_by_instrument(const Settings& settings, const Observation&
     return modulus;
 }
 
+/// The strains of the runs that were made on the sample before this table, in their order.
+std::vector<double> Forward::strains_before(std::size_t table) const {
+    const std::vector<Measurement>& tables = experiment_.measurements;
+    std::vector<std::pair<int, double>> earlier;
+    for (const Observation& observation : observations_) {
+        const Measurement& other = tables[observation.measurement];
+        if (other.sample == tables[table].sample && other.run_order < tables[table].run_order && !observation.loss &&
+            std::isfinite(observation.strain)) {
+            earlier.emplace_back(other.run_order, observation.strain);
+        }
+    }
+    std::stable_sort(earlier.begin(), earlier.end(), [](const auto& one, const auto& two) { return one.first < two.first; });
+    std::vector<double> strains;
+    for (const auto& [order, strain] : earlier) {
+        strains.push_back(strain);
+    }
+    return strains;
+}
+
+/// G* / G of one table by a run at its own amplitudes after those before it on the sample, by row.
+std::map<std::size_t, Complex> Forward::exact_factors(const Settings& settings, std::size_t table) const {
+    std::vector<std::size_t> rows;
+    std::vector<double> amplitudes = strains_before(table);
+    const std::size_t history = amplitudes.size();
+    for (const Observation& observation : observations_) {
+        if (observation.measurement == table && !observation.loss && std::isfinite(observation.strain)) {
+            rows.push_back(observation.row);
+            amplitudes.push_back(observation.strain);
+        }
+    }
+    std::map<std::size_t, Complex> factors;
+    if (rows.empty()) {
+        return factors;
+    }
+    const std::vector<Complex> run = simulator_.exact_amplitude_response(settings, amplitudes);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        factors[rows[k]] = run[history + k];
+    }
+    return factors;
+}
+
 /// G* / G from breaking bonds for every observation. A bond that broke stays broken: the largest strain so far counts.
 std::vector<Complex> Forward::amplitude_factors(const Settings& settings, bool exact) const {
     std::vector<Complex> factors(observations_.size(), 1.0);
@@ -211,17 +252,10 @@ std::vector<Complex> Forward::amplitude_factors(const Settings& settings, bool e
         return factors;
     }
     for (std::size_t table = 0; table < experiment_.measurements.size(); ++table) {
-        std::vector<double> amplitudes;
-        std::map<std::size_t, std::size_t> place;  // of a row
-        for (const Observation& observation : observations_) {
-            if (observation.measurement == table && !observation.loss && std::isfinite(observation.strain)) {
-                place[observation.row] = amplitudes.size();
-                amplitudes.push_back(observation.strain);
-            }
-        }
-        const std::vector<Complex> run =
-            exact && !amplitudes.empty() ? simulator_.exact_amplitude_response(settings, amplitudes) : std::vector<Complex>{};
-        double largest = 0;
+        const std::map<std::size_t, Complex> run = exact ? exact_factors(settings, table) : std::map<std::size_t, Complex>{};
+        const std::vector<double> earlier = strains_before(table);
+        const double before = earlier.empty() ? 0.0 : *std::max_element(earlier.begin(), earlier.end());
+        double largest = before;
         std::size_t row_before = 0;
         for (std::size_t k = 0; k < observations_.size(); ++k) {
             const Observation& observation = observations_[k];
@@ -229,11 +263,11 @@ std::vector<Complex> Forward::amplitude_factors(const Settings& settings, bool e
                 continue;
             }
             if (observation.row <= row_before) {
-                largest = 0;  // the other modulus, from the start of the sweep
+                largest = before;  // the other modulus, from the start of the sweep
             }
             row_before = observation.row;
-            if (exact && place.contains(observation.row)) {
-                factors[k] = run[place[observation.row]];
+            if (const auto found = run.find(observation.row); found != run.end()) {
+                factors[k] = found->second;
                 continue;
             }
             const bool falls = observation.strain < largest;

@@ -60,6 +60,8 @@ public:
 private:
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
                                             std::complex<double> modulus) const;
+    std::vector<double> strains_before(std::size_t table) const;
+    std::map<std::size_t, std::complex<double>> exact_factors(const Settings& settings, std::size_t table) const;
     std::vector<std::complex<double>> amplitude_factors(const Settings& settings, bool exact) const;
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
     std::vector<std::complex<double>> material(const Settings& settings, bool exact) const;

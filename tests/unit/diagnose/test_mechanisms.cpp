@@ -19,6 +19,44 @@ Simulator& simulator() {
     return made;
 }
 
+/// An amplitude sweep at these strains; the moduli do not matter.
+Measurement sweep_at(const std::vector<double>& strains, int run_order) {
+    const std::vector<double> ones(strains.size(), 1.0);
+    Measurement made;
+    made.kind = MeasurementKind::amplitude_sweep;
+    made.sample = "one";
+    made.run_order = run_order;
+    made.columns = {{"strain", "1", strains},
+                    {"angular_frequency", "rad/s", ones},
+                    {"storage_modulus", "Pa", ones},
+                    {"loss_modulus", "Pa", ones}};
+    return made;
+}
+
+/// A run down again as a table of its own predicts what it does as the second half of one table: broken bonds stay broken.
+TEST(BondStrength, IsRememberedInTheNextRunOnTheSample) {
+    const std::vector<double> up{1e-5, 1e-4, 3e-4, 5e-4};
+    const std::vector<double> down{3e-4, 1e-4, 1e-5};
+    std::vector<double> both = up;
+    both.insert(both.end(), down.begin(), down.end());
+    Settings settings;
+    settings.critical_strain = 1e-4;
+    Experiment joined;
+    joined.measurements = {sweep_at(both, 0)};
+    Experiment apart;
+    apart.measurements = {sweep_at(up, 0), sweep_at(down, 1)};
+    const auto joined_rows = observations_of(joined);
+    const auto apart_rows = observations_of(apart);
+    for (const bool exact : {false, true}) {
+        const Eigen::VectorXd whole = Forward(joined, joined_rows, simulator()).predict(settings, exact);
+        const Eigen::VectorXd parts = Forward(apart, apart_rows, simulator()).predict(settings, exact);
+        for (Eigen::Index k = 0; k < 3; ++k) {
+            EXPECT_NEAR(parts[8 + k] / whole[4 + k], 1, 1e-12) << exact << " " << k;
+        }
+        EXPECT_LT(parts[10], 0.7 * parts[0]) << "nothing broke";
+    }
+}
+
 TEST(ContactNonlinearity, StiffensAsTheSquareRootOfTheStrain) {
     Settings settings;
     settings.contact_preload = 1e-5;
