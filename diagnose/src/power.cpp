@@ -151,6 +151,7 @@ PowerPoint Search::measure(double place, int data_sets) const {
     int found = 0;
     for (int k = 0; k < data_sets; ++k) {
         const Experiment drawn = planned_.draw(expected, static_cast<std::uint64_t>(k));
+        test_only.seed = options_.diagnosis.seed + static_cast<std::uint64_t>(k);  // or all share the errors of one bootstrap
         found += diagnose(drawn, simulator_, test_only).p_value <= options_.diagnosis.level ? 1 : 0;
     }
     return {value, share_of(found, data_sets)};
@@ -304,6 +305,7 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     int found = 0;
     for (int k = 0; k < options.data_sets; ++k) {
         const Experiment drawn = planned.draw(expected, static_cast<std::uint64_t>(k));
+        test_only.seed = options.diagnosis.seed + static_cast<std::uint64_t>(k);
         found += diagnose(drawn, simulator, test_only).p_value <= options.diagnosis.level ? 1 : 0;
     }
     power.by_chance = share_of(found, options.data_sets);

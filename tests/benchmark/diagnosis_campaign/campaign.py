@@ -48,7 +48,8 @@ def run(row, number, program, folder):
     place = folder / "runs" / f"{row}_{number}"
     experiment = write(session, material, place, generator, [folder / "bank" / f"known_{k}.h5" for k in range(2)])
     started = time.time()
-    found = diagnose(program, experiment, folder / "simulations.txt")
+    seed = ("--seed", str(number + 1))  # or all tests share the errors of one bootstrap
+    found = diagnose(program, experiment, folder / "simulations.txt", *seed)
     entry = {"row": row, "number": number, "truth": session.hidden.name, "hidden": vars(session.hidden), "stiffness": session.stiffness,
              "gain": gain(session, material), "wall": time.time() - started}
     keep = ("detected", "p_value", "verdict", "credible_set", "gain", "extended_p_value", "proposed_measurement", "seconds")
@@ -58,7 +59,7 @@ def run(row, number, program, folder):
                                 if cause["posterior"] > 0.01 or cause["name"] == session.hidden.name]
     told = session.hidden.name
     if found["detected"] and row not in ("outside",) and found["causes"][0]["name"] != told and told != "nothing" and " + " not in told:
-        entry["told"] = diagnose(program, experiment, folder / "simulations.txt", "--causes", told).get("gain")
+        entry["told"] = diagnose(program, experiment, folder / "simulations.txt", "--causes", told, *seed).get("gain")
     shutil.rmtree(place)
     return entry
 
