@@ -97,7 +97,9 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
                                        : std::hypot(noise.storage_floor, noise.storage_relative * one.value);
         deviation[row] = std::isfinite(one.standard_error) ? one.standard_error : stated;
         if (!(deviation[row] > 0)) {
-            throw std::runtime_error("the covariance of the data is singular: the stated noise of some rows is zero");
+            const Measurement& table = experiment.measurements[one.measurement];
+            throw InputError(table.label + ": row " + std::to_string(one.row + 1) + " of " + observable_of(one) +
+                             " has no error: state a noise or standard error above zero");
         }
         const std::string& name = experiment.measurements[one.measurement].sample;
         const auto found = std::find(data.sample_names.begin(), data.sample_names.end(), name);

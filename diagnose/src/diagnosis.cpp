@@ -40,17 +40,11 @@ Cause cause_of(const Fit& fit) {
 }
 
 /// The causes that the experiment can show and that are asked for.
-std::vector<const Mechanism*> possible_causes(const Experiment& experiment, const DiagnosisOptions& options) {
-    const std::vector<std::string>& wanted = options.causes;
-    for (const std::string& name : wanted) {
-        if (find_mechanism(name) == nullptr) {
-            throw InputError("'" + name + "' is no cause of the catalogue");
-        }
-    }
+std::vector<const Mechanism*> possible_causes(const Experiment& experiment, const std::vector<std::string>& wanted) {
+    require_causes(wanted);
     std::vector<const Mechanism*> possible;
     for (const Mechanism& mechanism : catalogue()) {
-        if (mechanism.applies(experiment) &&
-            (wanted.empty() || std::find(wanted.begin(), wanted.end(), mechanism.name) != wanted.end())) {
+        if (is_asked_for(mechanism, wanted) && mechanism.applies(experiment)) {
             possible.push_back(&mechanism);
         }
     }
@@ -60,45 +54,52 @@ std::vector<const Mechanism*> possible_causes(const Experiment& experiment, cons
     return possible;
 }
 
-/// Fits single causes; the base model comes first. Where the best does not pass the test with ease, it is paired with those causes
-/// towards which the data still depart from it.
-std::vector<Fit> fit_all(const Experiment& experiment, const Inference& inference, const DiagnosisOptions& options,
-                         const Progress& progress) {
-    std::vector<Fit> fits{inference.fit({})};
-    const std::vector<const Mechanism*> possible = possible_causes(experiment, options);
+/// Prior weight of a hypothesis over that of a single mechanism, as a logarithm.
+double log_prior_of(const Fit& fit, const DiagnosisOptions& options) {
+    return fit.hypothesis.size() > 1 ? std::log(options.pair_prior) : 0.0;
+}
+
+/// What was compared.
+struct Comparison {
+    std::vector<Fit> fits;   ///< the base model first
+    std::size_t winner = 0;  ///< the most probable of all but the base model
+    double p_value = 1;      ///< of the test, applied to the winner
+};
+
+std::size_t most_probable_cause(const std::vector<Fit>& fits, const DiagnosisOptions& options) {
+    const auto best = std::max_element(fits.begin() + 1, fits.end(), [&](const Fit& a, const Fit& b) {
+        return a.log_evidence + log_prior_of(a, options) < b.log_evidence + log_prior_of(b, options);
+    });
+    return static_cast<std::size_t>(best - fits.begin());
+}
+
+/// Fits single causes; where the best does not pass the test with ease, it is paired with those causes towards which the data still
+/// depart from it.
+Comparison compare(const Fit& base, const std::vector<const Mechanism*>& possible, const Inference& inference,
+                   const DiagnosisOptions& options, const Progress& progress) {
+    Comparison comparison{.fits = {base}};
+    std::vector<Fit>& fits = comparison.fits;
     for (const Mechanism* mechanism : possible) {
         progress.update("attributing", 0.5, mechanism->name);
         fits.push_back(inference.fit({mechanism}));
     }
-    if (possible.size() < 2) {
-        return fits;
-    }
-    const Fit best =
-        *std::max_element(fits.begin() + 1, fits.end(), [](const Fit& a, const Fit& b) { return a.log_evidence < b.log_evidence; });
-    const Detection rest = detect(inference, best, options.seed, options.bootstrap);
+    const std::size_t best = most_probable_cause(fits, options);
+    const Detection rest = detect(inference, fits[best], options.seed, options.bootstrap);
     std::size_t pairs = 0;
     for (const MisfitStatistic& statistic : rest.statistics) {
         const auto partner =
             std::find_if(possible.begin(), possible.end(), [&](const Mechanism* one) { return one->name == statistic.cause; });
         if (rest.p_value < with_ease && partner != possible.end() && pairs < most_pairs) {
             progress.update("attributing", 0.8, "pairs");
-            fits.push_back(inference.fit({best.hypothesis[0], *partner}));
+            fits.push_back(inference.fit({fits[best].hypothesis[0], *partner}));
             ++pairs;
         }
     }
-    return fits;
-}
-
-/// Prior weight of a hypothesis over that of a single mechanism, as a logarithm.
-double log_prior_of(const Fit& fit, const DiagnosisOptions& options) {
-    return fit.hypothesis.size() > 1 ? std::log(options.pair_prior) : 0.0;
-}
-
-/// The most probable of all but the base model.
-const Fit& best_cause(const std::vector<Fit>& fits, const DiagnosisOptions& options) {
-    return *std::max_element(fits.begin() + 1, fits.end(), [&](const Fit& a, const Fit& b) {
-        return a.log_evidence + log_prior_of(a, options) < b.log_evidence + log_prior_of(b, options);
-    });
+    comparison.winner = most_probable_cause(fits, options);
+    comparison.p_value = comparison.winner == best
+                             ? rest.p_value
+                             : detect(inference, fits[comparison.winner], options.seed, options.bootstrap).p_value;
+    return comparison;
 }
 
 /// By how much a p-value can speak against a hypothesis at most: the bound -e p ln p of the Bayes factor (Sellke, Bayarri and
@@ -115,15 +116,6 @@ std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidenc
     }
     logarithms.push_back(none_evidence + std::log(options.none_prior));
     return probabilities_of(std::move(logarithms));
-}
-
-double test(const Inference& inference, const Fit& fit, const DiagnosisOptions& options, Detection* detection) {
-    Detection found = detect(inference, fit, options.seed, options.bootstrap);
-    const double p_value = found.p_value;
-    if (detection != nullptr) {
-        *detection = std::move(found);
-    }
-    return p_value;
 }
 
 std::vector<SampleEffect> effects_of(const Likelihood& likelihood, const Eigen::VectorXd& prediction) {
@@ -204,6 +196,22 @@ const Fit& fit_named(const std::vector<Fit>& fits, const std::string& name) {
     return *std::find_if(fits.begin(), fits.end(), [&](const Fit& fit) { return name_of(fit.hypothesis) == name; });
 }
 
+/// What to measure next, to tell the causes of the credible set apart.
+std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Fit>& fits, const Experiment& experiment,
+                                    Simulator& simulator, const DiagnosisOptions& options) {
+    std::vector<Fit> candidates;
+    std::vector<double> weights;
+    for (const Cause& cause : diagnosis.causes) {
+        const bool in_set =
+            std::find(diagnosis.credible_set.begin(), diagnosis.credible_set.end(), cause.name) != diagnosis.credible_set.end();
+        if (in_set && cause.name != none_name && cause.name != "base") {
+            candidates.push_back(fit_named(fits, cause.name));
+            weights.push_back(cause.posterior);
+        }
+    }
+    return propose(experiment, simulator, candidates, weights, options);
+}
+
 Verdict verdict_of(const Diagnosis& diagnosis, double level) {
     if (!diagnosis.detected) {
         return Verdict::no_discrepancy;
@@ -222,6 +230,7 @@ const char* name_of(Verdict verdict) {
 }
 
 Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options, const Progress& progress) {
+    const std::vector<const Mechanism*> possible = possible_causes(experiment, options.causes);
     DataSet data = data_set_of(experiment, options.noise);
     const Forward forward(experiment, data.observations, simulator);
     data.noise.deviation =
@@ -236,40 +245,30 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     progress.update("fitting the base model", 0.1);
     const Fit base = inference.fit({});
     diagnosis.base = cause_of(base);
-    Detection detection;
-    diagnosis.p_value = test(inference, base, options, &detection);
+    const Detection detection = detect(inference, base, options.seed, options.bootstrap);
+    diagnosis.p_value = detection.p_value;
     diagnosis.detected = diagnosis.p_value <= options.level;
     keep_statistics(detection, diagnosis);
-    const Eigen::VectorXd base_prediction = forward.predict(base.settings);
     if (!diagnosis.detected) {
         predict_rows(data, inference, base.settings, base.settings, held_out, diagnosis);
         return diagnosis;
     }
+    const Eigen::VectorXd base_prediction = forward.predict(base.settings);
     diagnosis.failures = localise(data.observations, detection, likelihood.residual(base_prediction), base_prediction);
 
-    const std::vector<Fit> fits = fit_all(experiment, inference, options, progress);
-    const Fit& winner = best_cause(fits, options);
-    diagnosis.extended_p_value = test(inference, winner, options, nullptr);
+    const Comparison comparison = compare(base, possible, inference, options, progress);
+    const Fit& winner = comparison.fits[comparison.winner];
+    diagnosis.extended_p_value = comparison.p_value;
     // A smooth correction also takes up noise that is larger than stated; the test knows how uncertain the noise is.
-    const double none = std::min(flexible_evidence(data, forward), winner.log_evidence + log_prior_of(winner, options) +
-                                                                       most_evidence_against(diagnosis.extended_p_value));
-    rank_causes(fits, none, options, diagnosis);
+    const double none = std::min(flexible_evidence(data, forward, base_prediction),
+                                 winner.log_evidence + most_evidence_against(diagnosis.extended_p_value));
+    rank_causes(comparison.fits, none, options, diagnosis);
     diagnosis.verdict = verdict_of(diagnosis, options.level);
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, held_out, experiment, simulator, winner.hypothesis, options.seed);
     predict_rows(data, inference, base.settings, winner.settings, held_out, diagnosis);
     if (diagnosis.verdict == Verdict::tied) {
-        std::vector<Fit> candidates;
-        std::vector<double> weights;
-        for (const Cause& cause : diagnosis.causes) {
-            const bool in_set =
-                std::find(diagnosis.credible_set.begin(), diagnosis.credible_set.end(), cause.name) != diagnosis.credible_set.end();
-            if (in_set && cause.name != none_name && cause.name != "base") {
-                candidates.push_back(fit_named(fits, cause.name));
-                weights.push_back(cause.posterior);
-            }
-        }
-        diagnosis.proposals = propose(experiment, simulator, candidates, weights, options);
+        diagnosis.proposals = proposals_for(diagnosis, comparison.fits, experiment, simulator, options);
     }
     return diagnosis;
 }

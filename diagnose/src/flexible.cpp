@@ -80,11 +80,9 @@ Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, 
     return covariance;
 }
 
-double flexible_evidence(const DataSet& data, const Forward& forward) {
+double flexible_evidence(const DataSet& data, const Forward& forward, const Eigen::VectorXd& base) {
     // In proportion to the base model and not to the data: data that grow by orders of magnitude would be one constant over the
     // measured levels, whatever the reason.
-    const Likelihood plain(data);
-    const Eigen::VectorXd base = forward.predict(Inference(forward, plain).fit({}).settings);
     std::vector<Observation> expected = data.observations;
     for (std::size_t k = 0; k < expected.size(); ++k) {
         expected[k].value = base[static_cast<Index>(k)];

@@ -13,7 +13,8 @@ Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, 
 
 /// Log evidence of the base model with that correction, averaged over amplitudes and lengths; the same normalisation as
 /// Fit::log_evidence.
-double flexible_evidence(const DataSet& data, const Forward& forward);
+/// @param base prediction of the base model fitted to the data.
+double flexible_evidence(const DataSet& data, const Forward& forward, const Eigen::VectorXd& base);
 
 /// Prediction of all observations by the best of these corrections, conditioned on the observations in `known`.
 Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& base, const std::vector<Index>& known);

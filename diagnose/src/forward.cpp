@@ -1,6 +1,7 @@
 #include "forward.hpp"
 
 #include "neighbour_shells.hpp"
+#include "table_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +24,6 @@ constexpr double row_duration = 10;
 bool has_moduli(MeasurementKind kind) {
     return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
            kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
-}
-
-double cell(const Measurement& table, std::string_view name, std::size_t row) {
-    const Column* column = find_column(table, name);
-    return column == nullptr ? unset : column->values[row];
 }
 
 double angular_frequency(const Measurement& table, std::size_t row) {

@@ -1,5 +1,7 @@
 #include <coagula/diagnose/mechanism.hpp>
 
+#include <coagula/common/checks.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,6 +32,18 @@ const Mechanism* find_mechanism(const std::string& name) {
     const auto all = catalogue();
     const auto found = std::find_if(all.begin(), all.end(), [&](const Mechanism& entry) { return entry.name == name; });
     return found == all.end() ? nullptr : &*found;
+}
+
+void require_causes(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        if (find_mechanism(name) == nullptr) {
+            throw InputError("'" + name + "' is no cause of the catalogue");
+        }
+    }
+}
+
+bool is_asked_for(const Mechanism& mechanism, const std::vector<std::string>& names) {
+    return names.empty() || std::find(names.begin(), names.end(), mechanism.name) != names.end();
 }
 
 }  // namespace coagula::diagnose

@@ -286,11 +286,7 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     PowerOptions options = given;
     options.diagnosis.noise.sample = given.noise.stated_sample;
     const Planned planned(prepared(experiment), simulator, options);
-    for (const std::string& name : options.causes) {
-        if (find_mechanism(name) == nullptr) {
-            throw InputError("'" + name + "' is no cause of the catalogue");
-        }
-    }
+    require_causes(options.causes);
     Power power;
     Settings base;
     const double modulus = simulator.exact_linear_modulus(base);
@@ -313,9 +309,7 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     double done = 0;
     for (const Mechanism& mechanism : catalogue()) {
         progress.update("simulating the experiment", done++ / static_cast<double>(catalogue().size()), mechanism.name);
-        const auto& wanted = options.causes;
-        const bool asked = wanted.empty() || std::find(wanted.begin(), wanted.end(), mechanism.name) != wanted.end();
-        if (asked && mechanism.applies(planned.experiment())) {
+        if (is_asked_for(mechanism, options.causes) && mechanism.applies(planned.experiment())) {
             power.causes.push_back(Search(planned, simulator, options, mechanism, base.normal_stiffness).run());
         }
     }

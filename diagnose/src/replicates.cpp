@@ -1,5 +1,7 @@
 #include <coagula/diagnose/noise.hpp>
 
+#include "table_cells.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,14 +10,8 @@ namespace coagula::diagnose {
 
 namespace {
 
-/// Set values that agree to this are the same.
-constexpr double same = 0.02;
 constexpr std::size_t fewest_shared = 3;
 constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-bool alike(double a, double b) {
-    return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
-}
 
 bool has_moduli(MeasurementKind kind) {
     return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
@@ -76,13 +72,6 @@ bool are_replicates(const Measurement& a, const Measurement& b) {
     const auto shared =
         std::count_if(axis.begin(), axis.end(), [&](double position) { return std::isfinite(position) && row_at(b, position); });
     return static_cast<std::size_t>(shared) >= fewest_shared;
-}
-
-/// |G*| of a row; NaN unless both moduli are known.
-double complex_modulus(const Measurement& table, std::size_t row) {
-    const Column* storage = find_column(table, "storage_modulus");
-    const Column* loss = find_column(table, "loss_modulus");
-    return storage == nullptr || loss == nullptr ? unset : std::hypot(storage->values[row], loss->values[row]);
 }
 
 using Group = std::vector<const Measurement*>;

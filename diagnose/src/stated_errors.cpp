@@ -1,5 +1,7 @@
 #include <coagula/diagnose/stated_errors.hpp>
 
+#include "table_cells.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,17 +11,11 @@ namespace coagula::diagnose {
 
 namespace {
 
-/// Of a table with both moduli.
-double complex_modulus(const Measurement& table, std::size_t row) {
-    return std::hypot(find_column(table, "storage_modulus")->values[row], find_column(table, "loss_modulus")->values[row]);
-}
-
 /// Mean of the replicates in this row, so that a row's error does not depend on its own; its value where there are none.
 double level_at(const NoiseModel& model, const Measurement& table, const Column& column, std::size_t row) {
-    constexpr double same = 0.02;
     const double place = axis_of(table)->values[row];
     for (Eigen::Index condition = 0; condition < model.axis.size(); ++condition) {
-        if (std::abs(model.axis[condition] - place) <= same * std::abs(place)) {
+        if (alike(model.axis[condition], place)) {
             return model.levels[condition];
         }
     }

@@ -27,8 +27,8 @@ inline Packing structure(Index particles, std::uint64_t seed, double target_coor
     return generators::expand_voids(options).packing;
 }
 
-inline double drawn_normal(std::uint64_t seed, std::uint64_t number) {
-    const auto u = random_uniform(seed, RandomPurpose::test, 3, number);
+inline double drawn_normal(std::uint64_t seed, std::uint64_t number, std::uint64_t step = 3) {
+    const auto u = random_uniform(seed, RandomPurpose::test, step, number);
     return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * std::numbers::pi * u[1]);
 }
 

@@ -1,12 +1,11 @@
 // Hidden effects: data from another way of computing, other structures and other noise than the diagnosis uses; it must say what
 // was hidden.
-#include <coagula/common/random.hpp>
-#include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/extended_model.hpp>
-#include <coagula/generators/void_expansion.hpp>
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>
 #include <coagula/mechanics/rheometer.hpp>
+
+#include "hidden_effects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,16 +18,6 @@ namespace {
 
 using std::numbers::pi;
 
-Packing structure(Index particles, std::uint64_t seed) {
-    generators::VoidExpansionOptions options;
-    options.particles = particles;
-    options.voids = particles / 2;
-    options.volume_fraction = 0.4;
-    options.radii = Eigen::VectorXd::Constant(particles, 0.25e-6);
-    options.seed = seed;
-    return generators::expand_voids(options).packing;
-}
-
 /// The structures that the diagnosis knows, and what it has simulated of them.
 Simulator& simulator() {
     static SimulationCache cache;
@@ -40,19 +29,6 @@ Simulator& simulator() {
 const Packing& sample() {
     static const Packing made = structure(250, 77);
     return made;
-}
-
-double normal_number(std::uint64_t seed, std::uint64_t number) {
-    const auto u = random_uniform(seed, RandomPurpose::test, 3, number);
-    return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * pi * u[1]);
-}
-
-std::vector<double> logarithmic(double from, double to, int count) {
-    std::vector<double> values;
-    for (int k = 0; k < count; ++k) {
-        values.push_back(from * std::pow(to / from, static_cast<double>(k) / (count - 1)));
-    }
-    return values;
 }
 
 /// A table of moduli with noise; the loss modulus also has a floor, a part of the largest storage modulus.
@@ -75,9 +51,9 @@ Measurement table(MeasurementKind kind, const std::vector<double>& strain, const
         const double storage_error = relative_noise * modulus[k].real();
         const double loss_error = std::hypot(relative_noise * modulus[k].imag(), loss_floor * largest);
         const std::uint64_t number = 2 * k;
-        storage.values.push_back(modulus[k].real() + storage_error * normal_number(seed, number));
+        storage.values.push_back(modulus[k].real() + storage_error * drawn_normal(seed, number));
         storage.standard_errors.push_back(storage_error);
-        loss.values.push_back(modulus[k].imag() + loss_error * normal_number(seed, number + 1));
+        loss.values.push_back(modulus[k].imag() + loss_error * drawn_normal(seed, number + 1));
         loss.standard_errors.push_back(loss_error);
     }
     made.columns = {{"angular_frequency", "rad/s", angular}, {"strain", "1", strain}, storage, loss};

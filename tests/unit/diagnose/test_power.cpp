@@ -1,8 +1,8 @@
 // What a planned experiment is said to find is held against diagnoses of data that another code path makes.
-#include <coagula/common/random.hpp>
 #include <coagula/diagnose/power.hpp>
-#include <coagula/generators/void_expansion.hpp>
 #include <coagula/mechanics/frequency.hpp>
+
+#include "hidden_effects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,31 +15,19 @@ namespace {
 
 using std::numbers::pi;
 
-const Packing& structure() {
-    static const Packing made = [] {
-        generators::VoidExpansionOptions options;
-        options.particles = 200;
-        options.voids = 100;
-        options.volume_fraction = 0.4;
-        options.radii = Eigen::VectorXd::Constant(200, 0.25e-6);
-        options.seed = 1;
-        return generators::expand_voids(options).packing;
-    }();
+const Packing& known() {
+    static const Packing made = structure(200, 1);
     return made;
 }
 
 Simulator& simulator() {
     static SimulationCache cache;
-    static Simulator made({structure()}, {"one"}, cache);
+    static Simulator made({known()}, {"one"}, cache);
     return made;
 }
 
 std::vector<double> frequencies() {
-    std::vector<double> values;
-    for (int k = 0; k < 16; ++k) {
-        values.push_back(0.1 * std::pow(1000.0, k / 15.0));
-    }
-    return values;
+    return logarithmic(0.1, 100, 16);
 }
 
 /// A frequency sweep that somebody plans.
@@ -64,22 +52,17 @@ PowerOptions options_for(const std::string& cause) {
     return options;
 }
 
-double normal_number(std::uint64_t seed, std::uint64_t number) {
-    const auto u = random_uniform(seed, RandomPurpose::test, 11, number);
-    return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * pi * u[1]);
-}
-
 /// Measured moduli with errors and the effect of a sample.
 Experiment measured(const mechanics::FrequencyResponse& truth, const NoiseOptions& noise, std::uint64_t seed) {
-    const double sample = 1 + noise.stated_sample * normal_number(seed, 1000);
+    const double sample = 1 + noise.stated_sample * drawn_normal(seed, 1000, 11);
     Column storage{"storage_modulus", "Pa", {}, {}};
     Column loss{"loss_modulus", "Pa", {}, {}};
     for (std::size_t k = 0; k < truth.points.size(); ++k) {
         const std::complex<double> modulus = sample * truth.points[k].mean_shear_modulus();
         storage.standard_errors.push_back(noise.stated_relative * modulus.real());
         loss.standard_errors.push_back(std::hypot(noise.stated_relative * modulus.imag(), noise.stated_phase * std::abs(modulus)));
-        storage.values.push_back(modulus.real() + storage.standard_errors[k] * normal_number(seed, 2 * k));
-        loss.values.push_back(modulus.imag() + loss.standard_errors[k] * normal_number(seed, 2 * k + 1));
+        storage.values.push_back(modulus.real() + storage.standard_errors[k] * drawn_normal(seed, 2 * k, 11));
+        loss.values.push_back(modulus.imag() + loss.standard_errors[k] * drawn_normal(seed, 2 * k + 1, 11));
     }
     Experiment experiment = planned();
     experiment.measurements[0].columns.push_back(storage);
@@ -94,7 +77,7 @@ double found_share(const PowerOptions& options, double springpot_over_spring, do
     model.shear_springpot_stiffness = springpot_over_spring * 5;
     model.normal_springpot_time = model.shear_springpot_time = 1 / (2 * pi);
     model.normal_springpot_exponent = model.shear_springpot_exponent = exponent;
-    const auto truth = mechanics::solve_frequency_sweep(structure(), find_contacts(structure(), 0.01), model, frequencies());
+    const auto truth = mechanics::solve_frequency_sweep(known(), find_contacts(known(), 0.01), model, frequencies());
     DiagnosisOptions diagnosis = options.diagnosis;
     diagnosis.noise.sample = options.noise.stated_sample;
     diagnosis.level = 0;  // nothing is asked but the p-value of the base model

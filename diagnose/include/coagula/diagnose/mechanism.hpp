@@ -42,4 +42,10 @@ std::span<const Mechanism> catalogue();
 /// Null when there is none of this name.
 const Mechanism* find_mechanism(const std::string& name);
 
+/// Throws InputError when one of these names no cause of the catalogue.
+void require_causes(const std::vector<std::string>& names);
+
+/// Whether a mechanism is among these names; no names stand for all.
+bool is_asked_for(const Mechanism& mechanism, const std::vector<std::string>& names);
+
 }  // namespace coagula::diagnose

@@ -1,0 +1,29 @@
+// Cells of a table by name and row.
+#pragma once
+
+#include <coagula/diagnose/measurement.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace coagula::diagnose {
+
+/// NaN where the table has no such column.
+inline double cell(const Measurement& table, std::string_view name, std::size_t row) {
+    const Column* column = find_column(table, name);
+    return column == nullptr ? unset : column->values[row];
+}
+
+/// |G*| of a row; NaN unless both moduli are known.
+inline double complex_modulus(const Measurement& table, std::size_t row) {
+    return std::hypot(cell(table, "storage_modulus", row), cell(table, "loss_modulus", row));
+}
+
+/// Whether two set values are the same, as far as an instrument keeps to them.
+inline bool alike(double a, double b) {
+    constexpr double same = 0.02;
+    return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
+}
+
+}  // namespace coagula::diagnose
