@@ -11,12 +11,20 @@ namespace coagula::diagnose {
 
 namespace {
 
-/// Mean of the replicates in this row, so that a row's error does not depend on its own; its value where there are none.
+/// b of the sample of a table; 0 where it was not estimated.
+double sample_effect(const NoiseModel& model, const Measurement& table) {
+    const auto found = std::find_if(model.sample_effects.begin(), model.sample_effects.end(),
+                                    [&](const SampleEffect& effect) { return effect.sample == table.sample; });
+    return found == model.sample_effects.end() ? 0.0 : found->effect;
+}
+
+/// What is expected of this sample in this row by the replicates, so that a row's error does not depend on its own; its value where
+/// there are none.
 double level_at(const NoiseModel& model, const Measurement& table, const Column& column, std::size_t row) {
     const double place = axis_of(table)->values[row];
     for (Eigen::Index condition = 0; condition < model.axis.size(); ++condition) {
         if (alike(model.axis[condition], place)) {
-            return model.levels[condition];
+            return model.levels[condition] * (1 + sample_effect(model, table));
         }
     }
     return column.values[row];
