@@ -1,6 +1,8 @@
 // The command line of a verb: a table of options from which parsing, range checks, the help text and the provenance follow.
 #pragma once
 
+#include <coagula/common/checks.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
@@ -86,6 +88,15 @@ public:
     const std::string& text(const std::string& name) const;
     /// The text of an option, or `otherwise` when it was not given.
     std::string text(const std::string& name, const std::string& otherwise) const;
+    /// What `parse` makes of the text of an option; its InputError then names the option.
+    template <class Parse>
+    auto parsed(const std::string& name, const Parse& parse) const {
+        try {
+            return parse(text(name));
+        } catch (const InputError& error) {
+            throw InputError("--" + name + ": " + error.what());
+        }
+    }
     const std::string& input() const { return text("input"); }
     /// Of a verb that takes many, in the order given.
     const std::vector<std::string>& inputs() const { return std::get<std::vector<std::string>>(values_.at("input")); }

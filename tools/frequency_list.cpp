@@ -1,16 +1,15 @@
 #include "frequency_list.hpp"
 
+#include "logarithmic_sweep.hpp"
+
 #include <coagula/common/checks.hpp>
 #include <coagula/io/units.hpp>
-
-#include <charconv>
-#include <cmath>
 
 namespace coagula::tools {
 
 namespace {
 
-constexpr int most_frequencies = 10000;
+constexpr std::size_t most_frequencies = 10000;
 
 double parse_frequency(const std::string& word) {
     const double value = io::parse_quantity(word, "Hz");
@@ -18,25 +17,6 @@ double parse_frequency(const std::string& word) {
         throw InputError("'" + word + "' is out of range: a frequency must be > 0 Hz");
     }
     return value;
-}
-
-int parse_number(const std::string& word) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || value < 2 || value > most_frequencies) {
-        throw InputError("'" + word + "' is no number of frequencies between 2 and " + std::to_string(most_frequencies));
-    }
-    return value;
-}
-
-/// Names the option in front of the sentence.
-template <class Parse>
-std::vector<double> named(const std::string& option, const std::string& text, const Parse& parse) {
-    try {
-        return parse(text);
-    } catch (const InputError& error) {
-        throw InputError("--" + option + ": " + error.what());
-    }
 }
 
 }  // namespace
@@ -53,21 +33,10 @@ std::vector<double> parse_frequency_list(const std::string& text) {
 }
 
 std::vector<double> parse_frequency_sweep(const std::string& text) {
-    const std::vector<std::string> parts = split(text, ':');
-    if (parts.size() != 3) {
-        throw InputError("'" + text + "' is no sweep FROM:TO:NUMBER, such as 0.1Hz:1kHz:20");
-    }
-    const double from = parse_frequency(parts[0]);
-    const double to = parse_frequency(parts[1]);
-    const int number = parse_number(parts[2]);
-    if (!(from < to)) {
+    std::vector<double> frequencies = parse_logarithmic_sweep(text, parse_frequency, "0.1Hz:1kHz:20");
+    if (!(frequencies.front() < frequencies.back())) {
         throw InputError("'" + text + "' must run from a lower to a higher frequency");
     }
-    std::vector<double> frequencies;
-    for (int k = 0; k + 1 < number; ++k) {
-        frequencies.push_back(from * std::pow(to / from, static_cast<double>(k) / (number - 1)));
-    }
-    frequencies.push_back(to);
     return frequencies;
 }
 
@@ -76,10 +45,9 @@ std::vector<double> frequencies_of(const Arguments& arguments) {
         throw InputError("--frequency and --frequency-sweep exclude each other");
     }
     if (arguments.has("frequency-sweep")) {
-        return named("frequency-sweep", arguments.text("frequency-sweep"), parse_frequency_sweep);
+        return arguments.parsed("frequency-sweep", parse_frequency_sweep);
     }
-    return arguments.has("frequency") ? named("frequency", arguments.text("frequency"), parse_frequency_list)
-                                      : std::vector<double>{};
+    return arguments.has("frequency") ? arguments.parsed("frequency", parse_frequency_list) : std::vector<double>{};
 }
 
 }  // namespace coagula::tools

@@ -1,5 +1,6 @@
 #include "quasistatic_run.hpp"
 
+#include "logarithmic_sweep.hpp"
 #include "network_keys.hpp"
 #include "orientation_list.hpp"
 
@@ -8,7 +9,6 @@
 #include <coagula/mechanics/quasistatic.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace coagula::tools {
@@ -30,9 +30,21 @@ struct Test {
 double parse_strain(const std::string& word) {
     const double value = io::parse_quantity(word, "1");
     if (!(value > 0)) {
-        throw InputError("--amplitudes: '" + word + "' is out of range: an amplitude of strain must be > 0");
+        throw InputError("'" + word + "' is out of range: an amplitude of strain must be > 0");
     }
     return value;
+}
+
+/// "1e-4,1e-3" or "1e-4:1e-2:10".
+std::vector<double> parse_amplitudes(const std::string& text) {
+    if (text.find(':') != std::string::npos) {
+        return parse_logarithmic_sweep(text, parse_strain, "1e-4:1e-2:10");
+    }
+    std::vector<double> amplitudes;
+    for (const std::string& word : split(text)) {
+        amplitudes.push_back(parse_strain(word));
+    }
+    return amplitudes;
 }
 
 mechanics::QuasistaticOptions solver_options(const Arguments& arguments, const ShearOrientation& orientation) {
@@ -57,7 +69,7 @@ mechanics::RampOptions ramp_options(const Arguments& arguments, const ShearOrien
 }
 
 std::vector<double> amplitudes_of(const Arguments& arguments) {
-    std::vector<double> amplitudes = parse_amplitudes(arguments.text("amplitudes"));
+    std::vector<double> amplitudes = arguments.parsed("amplitudes", parse_amplitudes);
     if (arguments.flag("down")) {
         const std::vector<double> up = amplitudes;
         amplitudes.insert(amplitudes.end(), up.rbegin(), up.rend());
@@ -229,29 +241,6 @@ std::vector<Option> quasistatic_options() {
             count("steps-per-cycle", "quasistatic: equilibria in a cycle, a multiple of 4", "32", within(4, 100000)),
             quantity("ramp", "1", "quasistatic: shear to this strain instead of cycles", "", Range{}),
             count("ramp-steps", "quasistatic: equally spaced equilibria on the ramp", "50", within(1, 100000))};
-}
-
-std::vector<double> parse_amplitudes(const std::string& text) {
-    const std::vector<std::string> parts = split(text, ':');
-    std::vector<double> amplitudes;
-    if (parts.size() == 1) {
-        for (const std::string& word : split(text)) {
-            amplitudes.push_back(parse_strain(word));
-        }
-        return amplitudes;
-    }
-    int number = 0;
-    const bool three = parts.size() == 3;
-    const auto read = three ? std::from_chars(parts[2].data(), parts[2].data() + parts[2].size(), number).ec : std::errc{};
-    if (!three || read != std::errc{} || number < 2 || number > 10000) {
-        throw InputError("--amplitudes: '" + text + "' is no range FROM:TO:NUMBER, such as 1e-4:1e-2:10");
-    }
-    const double from = parse_strain(parts[0]);
-    const double to = parse_strain(parts[1]);
-    for (int k = 0; k < number; ++k) {
-        amplitudes.push_back(from * std::pow(to / from, static_cast<double>(k) / (number - 1)));
-    }
-    return amplitudes;
 }
 
 Findings quasistatic_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,

@@ -58,6 +58,8 @@ class Quasistatic(ProgramTest):
         refuse("exclude", "--amplitudes", "1e-3", "--ramp", "1e-3")
         refuse("--amplitudes", "--amplitudes", "1e-3:1e-2")
         refuse("--amplitudes", "--amplitudes", "-1")
+        refuse("--amplitudes: '10x' is no number", "--amplitudes", "1e-3:1e-2:10x")
+        refuse("--amplitudes: '-1' is out of range", "--amplitudes", "-1:1e-2:10")
         self.write("model.toml", 'normal_viscosity = "1 mN.s/m"\n')
         refuse("dashpot", "--model", "model.toml")
 

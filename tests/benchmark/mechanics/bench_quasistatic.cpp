@@ -1,10 +1,10 @@
 // Quasi-static amplitude sweep with breaking bonds: time and effort, amplitude by amplitude.
 // Usage: bench_quasistatic [N [N_V [seed [strength N [from [to [amplitudes]]]]]]]
+#include <coagula/common/logarithmic_steps.hpp>
 #include <coagula/generators/void_expansion.hpp>
 #include <coagula/mechanics/quasistatic.hpp>
 
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -20,10 +20,7 @@ double argument(int argc, char** argv, int position, double otherwise) {
 
 /// Amplitudes in logarithmic steps, up and down again.
 std::vector<double> up_and_down(double from, double to, int number) {
-    std::vector<double> amplitudes;
-    for (int k = 0; k < number; ++k) {
-        amplitudes.push_back(number > 1 ? from * std::pow(to / from, static_cast<double>(k) / (number - 1)) : to);
-    }
+    std::vector<double> amplitudes = logarithmic_steps(from, to, number);
     const std::vector<double> up = amplitudes;
     amplitudes.insert(amplitudes.end(), up.rbegin(), up.rend());
     return amplitudes;

@@ -6,6 +6,7 @@
 
 #include "plateau.hpp"
 #include "support/brownian_pairs.hpp"
+#include "support/complaint.hpp"
 
 #include <numbers>
 #include <numeric>
@@ -15,6 +16,7 @@
 namespace coagula::generators {
 namespace {
 
+using coagula::testing::complaint;
 using examples::dlvo;
 using examples::radius;
 
@@ -235,16 +237,6 @@ TEST(BrownianDynamics, MeanFieldSlowing) {
     EXPECT_EQ(mean_field_slowing(0), 1);
     EXPECT_NEAR((1 - mean_field_slowing(1e-4)) / 1e-4, 1.83, 0.005);  // Batchelor 1976, dilute hard spheres
     EXPECT_NEAR(mean_field_slowing(0.4), 0.3354, 1e-4);
-}
-
-template <class Call>
-std::string complaint(Call&& call) {
-    try {
-        call();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
 }
 
 TEST(BrownianDynamics, RefusesWhatIsImpossible) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/brownian_pairs.hpp"
+#include "support/complaint.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -13,6 +14,7 @@
 namespace coagula::generators {
 namespace {
 
+using coagula::testing::complaint;
 using examples::dlvo;
 using examples::radius;
 using examples::thermal;
@@ -113,16 +115,6 @@ TEST(PairPotential, RestsAtTheEquilibriumGap) {
         EXPECT_LT(potential.force(0.005 * radius), 0);
         EXPECT_NEAR(potential.force(potential.cut_gap() * (1 - 1e-9)), potential.force(potential.cut_gap()), 1e-6 * contact_force);
     }
-}
-
-template <class Call>
-std::string complaint(Call&& call) {
-    try {
-        call();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
 }
 
 TEST(PairPotential, RefusesWhatIsImpossible) {

@@ -10,11 +10,14 @@
 #include <numbers>
 #include <string>
 
+#include "support/complaint.hpp"
+
 namespace coagula::mechanics {
 namespace {
 
 using coagula::testing::alike;
 using coagula::testing::bonds_between;
+using coagula::testing::complaint;
 using coagula::testing::random_spheres;
 
 /// A straight row of touching spheres along x, its ends held.
@@ -80,19 +83,9 @@ TEST(BondTangents, TensionHoldsTheRowAsAString) {
     EXPECT_NEAR(row.response().elastic_tensor(5, 5), expected, 1e-7 * expected);
 }
 
-template <class Action>
-std::string sentence_of(const Action& action) {
-    try {
-        action();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
-}
-
 TEST(BondTangents, CompressionBucklesTheRow) {
     const Row row({.shear_stiffness = 0, .prestress = 1e-7});
-    const std::string said = sentence_of([&] { row.response(); });
+    const std::string said = complaint([&] { row.response(); });
     EXPECT_NE(said.find("not stable under its prestress"), std::string::npos) << said;
 }
 
@@ -112,7 +105,7 @@ TEST(BondTangents, HertzAndJohnsonKendallRobertsGiveTheirStiffness) {
     EXPECT_NEAR(adhesive.response().elastic_tensor(0, 0), adhesive.constant(jkr * d, d), 1e-8 * adhesive.constant(jkr * d, d));
 
     const Row loose({.young_modulus = 70e9, .poisson_ratio = 0.25});
-    const std::string said = sentence_of([&] { loose.response(); });
+    const std::string said = complaint([&] { loose.response(); });
     EXPECT_NE(said.find("needs prestress or adhesion"), std::string::npos) << said;
 }
 

@@ -9,6 +9,8 @@
 #include <functional>
 #include <string>
 
+#include "support/complaint.hpp"
+
 namespace coagula::mechanics {
 namespace {
 
@@ -225,12 +227,7 @@ TEST(PowerLaw, DataWithoutAThreshold) {
 
 TEST(PowerLaw, RefusesWhatCannotBeFitted) {
     const auto sentence = [](const PowerLawData& data, const PowerLawOptions& options = {}) -> std::string {
-        try {
-            fit_power_law(data, options);
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "no error";
+        return coagula::testing::complaint([&] { fit_power_law(data, options); });
     };
     const Eigen::VectorXd a = vector({0.4, 0.5, 0.6});
     const Eigen::VectorXd modulus = vector({1e6, 2e6, 3e6});
