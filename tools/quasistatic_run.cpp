@@ -1,5 +1,6 @@
 #include "quasistatic_run.hpp"
 
+#include "broken_bonds.hpp"
 #include "logarithmic_sweep.hpp"
 #include "network_keys.hpp"
 #include "orientation_list.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace coagula::tools {
 
@@ -116,12 +118,10 @@ void append_broken(Results& results, const std::string& path, const std::vector<
         results.push_back(io::integers(path + "broken/bond", bond, "column in the list of bonds, in the order of breakage"));
         results.push_back(io::vector(path + "broken/strain", collect(broken, [](const auto& entry) { return entry.strain; }), "1",
                                      "strain at which it broke"));
-        Eigen::VectorXi cause(bond.size());
-        std::transform(broken.begin(), broken.end(), cause.begin(),
-                       [](const auto& entry) { return static_cast<int>(entry.cause); });
-        results.push_back(io::integers(path + "broken/cause", cause, "limit it reached: 0 normal, 1 shear, 2 bending, 3 pull-off"));
     }
-    results.push_back(io::integer(path + "broken_bonds", static_cast<Index>(broken.size()), "number of bonds that broke"));
+    std::vector<BreakageCause> causes;
+    std::transform(broken.begin(), broken.end(), std::back_inserter(causes), [](const auto& entry) { return entry.cause; });
+    append_causes(results, path, causes);
 }
 
 void append_points(Results& results, const std::string& path, const mechanics::RampResponse& ramp,

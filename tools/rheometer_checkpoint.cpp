@@ -150,7 +150,7 @@ void put_run(std::vector<io::Dataset>& all, const std::string& group, const Rheo
     Integers where;
     Numbers strains;
     for (const mechanics::BrokenInShear& bond : run.broken) {
-        where.insert(where.end(), {bond.first, bond.second, bond.oscillation});
+        where.insert(where.end(), {bond.first, bond.second, bond.oscillation, static_cast<std::int64_t>(bond.cause)});
         strains.push_back(bond.strain);
     }
     put(all, group + "broken", std::move(where));
@@ -185,9 +185,14 @@ RheometerRun read_run(const Reader& file, const std::string& group) {
         file.table<Numbers>(group + "sphere_stress", static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[1]));
     run.sphere_stress = Eigen::MatrixXd::Map(stress.data(), shape[0], shape[1]);
     const Numbers& strains = file.get<Numbers>(group + "broken_strain");
-    const Integers& where = file.table<Integers>(group + "broken", 3, strains.size());
+    const Integers& where = file.table<Integers>(group + "broken", 4, strains.size());
     for (std::size_t entry = 0; entry < strains.size(); ++entry) {
-        run.broken.push_back({where[3 * entry], where[3 * entry + 1], strains[entry], static_cast<int>(where[3 * entry + 2])});
+        const std::int64_t* whole = &where[4 * entry];
+        if (whole[3] < 0 || whole[3] > static_cast<std::int64_t>(BreakageCause::pull_off)) {
+            file.fail("has a cause of breakage " + std::to_string(whole[3]) + ", which does not exist: the checkpoint is damaged");
+        }
+        run.broken.push_back(
+            {whole[0], whole[1], strains[entry], static_cast<int>(whole[2]), static_cast<BreakageCause>(whole[3])});
     }
     return run;
 }

@@ -1,5 +1,6 @@
 #include "rheometer_results.hpp"
 
+#include "broken_bonds.hpp"
 #include "orientation_list.hpp"
 
 #include <coagula/io/contact_model_file.hpp>
@@ -159,14 +160,16 @@ void append_series(Results& results, const RheometerResult& result) {
 void append_broken(Results& results, const RheometerResult& result) {
     std::vector<double> strains;
     std::vector<std::int64_t> where;
+    std::vector<BreakageCause> causes;
     for (std::size_t run = 0; run < result.runs.size(); ++run) {
         for (const mechanics::BrokenInShear& bond : result.runs[run].broken) {
             strains.push_back(bond.strain);
+            causes.push_back(bond.cause);
             where.insert(where.end(), {static_cast<std::int64_t>(run), bond.oscillation, bond.first, bond.second});
         }
     }
     const std::size_t count = strains.size();
-    results.push_back(io::integer(group + "broken_bonds", static_cast<std::int64_t>(count), "in all orientations together"));
+    append_causes(results, group, causes);
     if (count > 0) {
         results.push_back({group + "broken/strain", {count}, std::move(strains), "1", "strain at which each bond broke"});
         results.push_back({group + "broken/bond",

@@ -261,31 +261,36 @@ ContactTangent GeneralContact::tangent(const ContactMemory& memory, double first
             moment * or_zero(model_.twisting_stiffness), -response.force / distance};
 }
 
-double GeneralContact::load_ratio(const ContactMemory& memory, double first_radius, double second_radius) const {
+BondLoad GeneralContact::load(const ContactMemory& memory, double first_radius, double second_radius) const {
+    BondLoad load;
     if (!memory.bonded) {
-        return 0;
+        return load;
     }
+    const auto compare = [&load](double ratio, BreakageCause limit) {
+        if (ratio > load.ratio) {
+            load = {ratio, limit};
+        }
+    };
     const double distance = memory.branch.norm();
     const double radius = effective(first_radius, second_radius);
     const double overlap = memory.rest_length - distance;
-    double ratio = 0;
     if (adhesion_ > 0 && overlap < 0) {
         const Jkr law{contact_modulus_, radius, adhesion_};
-        ratio = overlap / (law.overlap(law.end()) - law.overlap(law.rest()));
+        compare(overlap / (law.overlap(law.end()) - law.overlap(law.rest())), BreakageCause::pull_off);
     }
     if (!std::isnan(model_.normal_strength)) {
-        ratio = std::max(ratio, -normal(overlap, radius, true).force / model_.normal_strength);
+        compare(-normal(overlap, radius, true).force / model_.normal_strength, BreakageCause::normal);
     }
     if (!std::isnan(model_.shear_strength)) {
-        ratio = std::max(ratio, memory.shear_stiffness * memory.shear.norm() / model_.shear_strength);
+        compare(memory.shear_stiffness * memory.shear.norm() / model_.shear_strength, BreakageCause::shear);
     }
     if (!std::isnan(model_.bending_strength)) {
         const Vector3d twist = along(memory.bend, memory.branch / distance);
         const double bending = or_zero(model_.bending_stiffness) * (memory.bend - twist).norm();
         const double twisting = or_zero(model_.twisting_stiffness) * twist.norm();
-        ratio = std::max(ratio, age_ * std::max(bending, twisting) / model_.bending_strength);
+        compare(age_ * std::max(bending, twisting) / model_.bending_strength, BreakageCause::bending);
     }
-    return ratio;
+    return load;
 }
 
 double GeneralContact::break_bond(ContactMemory& memory, double first_radius, double second_radius) const {

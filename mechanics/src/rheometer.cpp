@@ -66,11 +66,11 @@ double reach(double strength, double stiffness) {
 
 SimpleInteractions simple_interactions(const GeneralContact& law) {
     const NormalResponse response = law.normal(0, 1, true);
-    SimpleInteractions laws{{RepulsiveSpring(response.stiffness), BondedContact(response.stiffness, response.shear_stiffness)}};
-    laws.longest_stretch = reach(law.model().normal_strength, response.stiffness);
-    // A square that stays finite.
-    laws.longest_shear = std::min(reach(law.model().shear_strength, response.shear_stiffness), 1e100);
-    return laws;
+    return {{RepulsiveSpring(response.stiffness), BondedContact(response.stiffness, response.shear_stiffness)},
+            law,
+            reach(law.model().normal_strength, response.stiffness),
+            // A square that stays finite.
+            std::min(reach(law.model().shear_strength, response.shear_stiffness), 1e100)};
 }
 
 /// One run per orientation, from the start or from a checkpoint.

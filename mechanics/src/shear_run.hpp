@@ -19,8 +19,9 @@ namespace coagula::mechanics {
 
 /// Linear springs and strengths, the contact of the paper: the fast way.
 struct SimpleInteractions : dem::Interactions<RepulsiveSpring, BondedContact> {
-    double longest_stretch = 0;  ///< a bond breaks beyond [m]
-    double longest_shear = 0;    ///< [m]
+    GeneralContact law;      ///< that these stand for
+    double longest_stretch;  ///< a bond breaks beyond [m]
+    double longest_shear;    ///< [m]
 };
 
 /// What differs between the interactions.
@@ -35,10 +36,11 @@ inline std::vector<dem::BrokenBond> break_overloaded(dem::ParticleSystem& system
              return held.memory.branch.norm() - held.memory.rest_length > laws.longest_stretch ||
                     held.memory.shear.squaredNorm() > shear_squared;
          })) {
-        const double stretch = bond.memory.branch.norm() - bond.memory.rest_length;
-        const Eigen::Vector3d normal = bond.memory.branch.normalized();
+        ContactMemory memory = bond.memory;
+        memory.shear_stiffness = laws.law.normal(0, 1, true).shear_stiffness;
+        // Of linear springs nothing depends on the radii.
         broken.push_back(
-            {bond.first, bond.second, bond.memory.branch, laws.bond.energy(stretch * normal + bond.memory.shear, normal)});
+            {bond.first, bond.second, memory.branch, laws.law.energy(memory, 1, 1), laws.law.load(memory, 1, 1).limit});
     }
     return broken;
 }
@@ -224,7 +226,7 @@ private:
     void note_broken(double strain, int oscillation) {
         for (const dem::BrokenBond& bond : break_overloaded(system_, laws_)) {
             run_.broken.push_back({mounted_.origin[static_cast<std::size_t>(bond.first)],
-                                   mounted_.origin[static_cast<std::size_t>(bond.second)], strain, oscillation});
+                                   mounted_.origin[static_cast<std::size_t>(bond.second)], strain, oscillation, bond.cause});
         }
     }
 

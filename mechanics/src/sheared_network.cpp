@@ -295,9 +295,9 @@ std::vector<ContactMemory> ShearedNetwork::memories() const {
 ShearedNetwork::Worst ShearedNetwork::most_loaded(const std::vector<ContactMemory>& memory) const {
     Worst worst;
     for (std::size_t k = 0; k < static_cast<std::size_t>(bonds_); ++k) {
-        const double ratio = law_.load_ratio(memory[k], radii_[contacts_[k].first], radii_[contacts_[k].second]);
-        if (ratio > worst.ratio) {
-            worst = {ratio, static_cast<Index>(k)};
+        const BondLoad load = law_.load(memory[k], radii_[contacts_[k].first], radii_[contacts_[k].second]);
+        if (load.ratio > worst.ratio) {
+            worst = {load.ratio, load.limit, static_cast<Index>(k)};
         }
     }
     return worst;
@@ -307,35 +307,13 @@ double ShearedNetwork::first_to_break(const std::vector<ContactMemory>& memory) 
     double first = 2;
     for (std::size_t k = 0; k < static_cast<std::size_t>(bonds_); ++k) {
         const ShearedContact& bond = contacts_[k];
-        const double then = law_.load_ratio(memory[k], radii_[bond.first], radii_[bond.second]);
+        const double then = law_.load(memory[k], radii_[bond.first], radii_[bond.second]).ratio;
         if (then > 1) {
-            const double now = std::min(law_.load_ratio(bond.memory, radii_[bond.first], radii_[bond.second]), 1.0);
+            const double now = std::min(law_.load(bond.memory, radii_[bond.first], radii_[bond.second]).ratio, 1.0);
             first = std::min(first, (1 - now) / (then - now));
         }
     }
     return first;
-}
-
-BreakageCause ShearedNetwork::cause_of_breakage(Index contact) const {
-    const ShearedContact& bond = contacts_[static_cast<std::size_t>(contact)];
-    const std::array<double ContactModel::*, 3> strengths{&ContactModel::normal_strength, &ContactModel::shear_strength,
-                                                          &ContactModel::bending_strength};
-    const std::array<BreakageCause, 3> causes{BreakageCause::normal, BreakageCause::shear, BreakageCause::bending};
-    BreakageCause cause = BreakageCause::pull_off;
-    const double all = law_.load_ratio(bond.memory, radii_[bond.first], radii_[bond.second]);
-    for (std::size_t k = 0; k < strengths.size(); ++k) {
-        if (std::isnan(law_.model().*strengths[k])) {
-            continue;
-        }
-        ContactModel without = law_.model();
-        without.*strengths[k] = unset;
-        GeneralContact law(without);
-        law.set_age_factor(law_.age_factor());
-        if (law.load_ratio(bond.memory, radii_[bond.first], radii_[bond.second]) < all) {
-            cause = causes[k];
-        }
-    }
-    return cause;
 }
 
 void ShearedNetwork::break_bond(Index contact) {

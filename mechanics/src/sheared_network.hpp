@@ -77,9 +77,10 @@ public:
     /// How far a motion may go before neighbours must be looked for, as a fraction of what is left; above 1 contacts may be missed.
     double reach_used(double strain_increment, const Motion& motion) const;
 
-    /// Largest load ratio of the bonds, and which contact has it (-1: none).
+    /// Largest load of the bonds, and which contact has it (-1: none).
     struct Worst {
         double ratio = 0;
+        BreakageCause limit = BreakageCause::normal;
         Index contact = -1;
     };
     Worst most_loaded(const std::vector<ContactMemory>& memory) const;
@@ -87,7 +88,6 @@ public:
     double first_to_break(const std::vector<ContactMemory>& memory) const;
     std::vector<ContactMemory> memories() const;
 
-    BreakageCause cause_of_breakage(Index contact) const;
     void break_bond(Index contact);
 
     /// Energy in the contacts [J].

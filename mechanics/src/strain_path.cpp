@@ -201,7 +201,7 @@ void StrainPath::break_overloaded(const Record& record) {
             return;
         }
         const ShearedContact& bond = network_.contacts()[static_cast<std::size_t>(worst.contact)];
-        broken_.push_back({bond.bond, network_.strain(), network_.cause_of_breakage(worst.contact), follows, section_});
+        broken_.push_back({bond.bond, network_.strain(), worst.limit, follows, section_});
         network_.break_bond(worst.contact);
         const double dissipated = settle();
         const double stored = network_.energy(network_.memories());

@@ -49,6 +49,7 @@ class Quasistatic(ProgramTest):
         ramp = found["ramp"]["zx"]
         self.assertGreater(ramp["broken_bonds"], 0)
         self.assertEqual(ramp["broken"]["cause"], [1] * ramp["broken_bonds"])
+        self.assertEqual(ramp["broken_by_cause"], {"normal": 0, "shear": ramp["broken_bonds"], "bending": 0, "pull_off": 0})
         self.assertEqual(ramp["broken"]["strain"], sorted(ramp["broken"]["strain"]))
 
     def test_refused(self):

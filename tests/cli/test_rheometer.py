@@ -61,6 +61,8 @@ class Rheometer(ProgramTest):
         self.assertFalse((self.folder / "killed.h5").exists())
         again = self.succeed_json(*call)
         self.assertGreater(whole["broken_bonds"], 0)
+        self.assertEqual(whole["broken"]["cause"], [0] * whole["broken_bonds"])
+        self.assertEqual(whole["broken_by_cause"], {"normal": whole["broken_bonds"], "shear": 0, "bending": 0, "pull_off": 0})
         for key in ("storage_modulus", "loss_modulus", "oscillations", "samples", "broken", "rate_error"):
             self.assertEqual(again[key], whole[key])
         self.fail_with(2, *call, "--damping", "0.8", "--force", says=["state.h5", "other options"])

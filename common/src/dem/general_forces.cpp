@@ -96,11 +96,12 @@ std::vector<BrokenBond> break_bonds(ParticleSystem& system, const GeneralContact
     std::vector<BrokenBond> broken;
     const Slots& slots = system.slots();
     for_each_contact(system, [&](SlotContact& contact, double first_radius, double second_radius) {
-        if (law.load_ratio(contact.memory, first_radius, second_radius) > 1) {
+        const BondLoad load = law.load(contact.memory, first_radius, second_radius);
+        if (load.ratio > 1) {
             const Eigen::Vector3d branch = contact.memory.branch;
             const double lost = law.break_bond(contact.memory, first_radius, second_radius);
-            broken.push_back(
-                {slots.particle[detail::at(contact.ends.first)], slots.particle[detail::at(contact.ends.second)], branch, lost});
+            broken.push_back({slots.particle[detail::at(contact.ends.first)], slots.particle[detail::at(contact.ends.second)],
+                              branch, lost, load.limit});
         }
     });
     return broken;

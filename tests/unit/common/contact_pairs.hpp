@@ -43,7 +43,8 @@ struct ContactPair {
     }
 
     double energy() const { return law.energy(memory, first_radius, second_radius); }
-    double load_ratio() const { return law.load_ratio(memory, first_radius, second_radius); }
+    BondLoad load() const { return law.load(memory, first_radius, second_radius); }
+    double load_ratio() const { return load().ratio; }
 };
 
 }  // namespace coagula::testing

@@ -180,22 +180,40 @@ TEST(ContactStrength, RatioIsOneAtTheLoadThatBreaks) {
     ContactPair pulled = pair;
     pulled.stretch(1e-7 / 50);
     EXPECT_NEAR(pulled.load_ratio(), 1, 1e-7);
+    EXPECT_EQ(pulled.load().limit, BreakageCause::normal);
     ContactPair pressed = pair;
     pressed.stretch(-1e-7 / 50);
     EXPECT_NEAR(pressed.load_ratio(), 0, 1e-12);
     ContactPair sheared = pair;
     sheared.slide(2e-8 / 5);
     EXPECT_NEAR(sheared.load_ratio(), 1, 1e-9);
+    EXPECT_EQ(sheared.load().limit, BreakageCause::shear);
     ContactPair bent = pair;
     // Opposite turns in the ratio of the levers: the contact point does not move.
     const double angle = 1e-15 / 3e-13;
     const double share = pair.first_radius / pair.touching_distance();
     bent.move(pair.memory.branch, -(1 - share) * angle * ContactPair::across(), share * angle * ContactPair::across());
     EXPECT_NEAR(bent.load_ratio(), 1, 1e-9);
+    EXPECT_EQ(bent.load().limit, BreakageCause::bending);
     EXPECT_LT(bent.memory.shear.norm(), 1e-9 * 0.45e-6);
     ContactPair twisted = pair;
     twisted.move(pair.memory.branch, Vector3d::Zero(), 1e-15 / 2e-13 * ContactPair::normal());
     EXPECT_NEAR(twisted.load_ratio(), 1, 1e-9);
+    EXPECT_EQ(twisted.load().limit, BreakageCause::bending);
+}
+
+/// The nearest limit decides, at every age: twice as stiff springs bear twice the force at the same stretch.
+TEST(ContactStrength, NearestLimitIsTheCause) {
+    ContactPair pair{GeneralContact(breakable())};
+    pair.law.set_age_factor(2);
+    pair.bond(0.45e-6);
+    pair.stretch(0.6e-7 / 50);
+    pair.slide(0.4e-8 / 5);
+    EXPECT_NEAR(pair.load_ratio(), 1.2, 1e-6);
+    EXPECT_EQ(pair.load().limit, BreakageCause::normal);
+    pair.slide(1e-8 / 5);
+    EXPECT_NEAR(pair.load_ratio(), 1.4, 1e-6);
+    EXPECT_EQ(pair.load().limit, BreakageCause::shear);
 }
 
 TEST(ContactStrength, AdhesiveBondEndsWhereItsLawDoes) {
@@ -208,6 +226,7 @@ TEST(ContactStrength, AdhesiveBondEndsWhereItsLawDoes) {
     const double reach = 3 * end * end / radius + rest * rest / (3 * radius);
     pair.stretch(reach);
     EXPECT_NEAR(pair.load_ratio(), 1, 1e-9);
+    EXPECT_EQ(pair.load().limit, BreakageCause::pull_off);
     EXPECT_NEAR(pair.memory.shear_stiffness / (8 * 70e9 / (4 * 1.25 * 1.75)), end, 1e-4 * end);
 }
 

@@ -260,6 +260,44 @@ TEST(GeneralContacts, BreakAChainAtItsStrength) {
     FAIL() << "the chain did not break";
 }
 
+/// Two bonded particles, one held, the other moved or turned a little at a time until the bond breaks.
+BreakageCause cause_of_breakage(const ContactModel& model, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin) {
+    Packing pair{Cell::periodic({20, 20, 20}), Eigen::Matrix3Xd(3, 2), Eigen::VectorXd::Ones(2)};
+    pair.positions << 9, 11, 10, 10, 10, 10;
+    GeneralContact law(model);
+    ParticleSystem system = bonded_system(pair, law);
+    system.hold({0, 1});
+    system.set_velocity({1}, velocity);
+    Eigen::Matrix3Xd spins = Eigen::Matrix3Xd::Zero(3, 2);
+    spins.col(1) = spin;
+    for (int count = 0; count < 1000; ++count) {
+        system.set_spins(spins);
+        step(system, GeneralInteractions{law}, {.time_step = 0.1});
+        const std::vector<BrokenBond> broken = break_bonds(system, law);
+        if (!broken.empty()) {
+            return broken[0].cause;
+        }
+    }
+    ADD_FAILURE() << "the bond did not break";
+    return BreakageCause::normal;
+}
+
+TEST(GeneralContacts, SayWhyABondBroke) {
+    ContactModel model = unit_model();
+    model.bending_stiffness = 1;
+    model.twisting_stiffness = 1;
+    model.normal_strength = 0.01;
+    model.shear_strength = 0.01;
+    model.bending_strength = 0.01;
+    const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+    EXPECT_EQ(cause_of_breakage(model, {0.01, 0, 0}, none), BreakageCause::normal);
+    EXPECT_EQ(cause_of_breakage(model, {0, 0.01, 0}, none), BreakageCause::shear);
+    EXPECT_EQ(cause_of_breakage(model, none, {0.01, 0, 0}), BreakageCause::bending);
+    EXPECT_EQ(cause_of_breakage(model, none, {0, 0, 0.01}), BreakageCause::bending);
+    model = {.young_modulus = 1, .poisson_ratio = 0.3, .work_of_adhesion = 1e-3};
+    EXPECT_EQ(cause_of_breakage(model, {0.01, 0, 0}, none), BreakageCause::pull_off);
+}
+
 TEST(Held, ParticlesMoveAsTold) {
     const Packing packing = loose_packing();
     const GeneralContact law(unit_model());

@@ -251,9 +251,41 @@ TEST(Rheometer, BreaksTheSameBondsEitherWay) {
         EXPECT_EQ(fast.broken[k].first, general.broken[k].first);
         EXPECT_EQ(fast.broken[k].second, general.broken[k].second);
         EXPECT_EQ(fast.broken[k].strain, general.broken[k].strain);
+        EXPECT_EQ(fast.broken[k].cause, general.broken[k].cause);
     }
     EXPECT_NEAR(static_cast<double>(fast.broken.size()), static_cast<double>(general.broken.size()), 5);
     EXPECT_NEAR(fast.oscillations[0].storage_modulus / general.oscillations[0].storage_modulus, 1, 0.04);
+}
+
+/// One limit within reach, the others far: the fast way and the general one, and the limits that only the general one knows.
+TEST(Rheometer, SaysWhyEachBondBroke) {
+    const auto causes = [](const ContactModel& model) {
+        RheometerOptions options = gentle();
+        options.steps_per_oscillation = 1200;
+        options.model = model;
+        std::set<BreakageCause> found;
+        for (const BrokenInShear& bond : run(options).runs[0].broken) {
+            found.insert(bond.cause);
+        }
+        return found;
+    };
+    using Causes = std::set<BreakageCause>;
+    const RheometerOptions common = gentle();
+    for (const double friction : {unset, 0.0}) {  // the second makes it general
+        ContactModel model = common.model;
+        model.friction = friction;
+        model.normal_strength = 3e-11;
+        model.shear_strength = 1;
+        EXPECT_EQ(causes(model), Causes{BreakageCause::normal});
+        model.normal_strength = 1;
+        model.shear_strength = 1e-11;
+        EXPECT_EQ(causes(model), Causes{BreakageCause::shear});
+    }
+    ContactModel moments = common.model;
+    moments.bending_stiffness = moments.twisting_stiffness = 1e-13;
+    moments.normal_strength = moments.shear_strength = 1;
+    moments.bending_strength = 3e-19;
+    EXPECT_EQ(causes(moments), Causes{BreakageCause::bending});
 }
 
 TEST(Rheometer, AgesBetweenOscillations) {

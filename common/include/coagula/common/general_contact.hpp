@@ -34,6 +34,16 @@ struct ContactTangent {
     double tension = 0;   ///< -(normal force) / distance, the geometric stiffness across the line of centres [N/m]
 };
 
+/// Which limit a bond reached; bending is the larger of bending and twisting moment, pull-off the end of a JKR law. The numbers are
+/// those in result files.
+enum class BreakageCause { normal = 0, shear = 1, bending = 2, pull_off = 3 };
+
+/// How near a bond is to breaking.
+struct BondLoad {
+    double ratio = 0;                             ///< to the limit; above 1 the bond breaks
+    BreakageCause limit = BreakageCause::normal;  ///< that is nearest
+};
+
 /// Law of one contact, bonded or not, for a contact model.
 ///
 /// Normal force by overlap U = rest length - distance: k_n U; or with `young_modulus` Hertz's 4/3 E* sqrt(R*) U^(3/2); or with
@@ -76,9 +86,9 @@ public:
 
     ContactTangent tangent(const ContactMemory& memory, double first_radius, double second_radius) const;
 
-    /// Largest ratio of tension, shear force and moment of the springs to its strength; above 1 the bond breaks. 0 without a
-    /// strength and for contacts without a bond. A JKR bond also breaks where its law ends (pull-off at controlled distance).
-    double load_ratio(const ContactMemory& memory, double first_radius, double second_radius) const;
+    /// Largest ratio of tension, shear force and moment of the springs to its strength; 0 without a strength and for contacts
+    /// without a bond. A JKR bond also breaks where its law ends (pull-off at controlled distance).
+    BondLoad load(const ContactMemory& memory, double first_radius, double second_radius) const;
 
     /// Breaks the bond: what remains, at the same rest length, is a touching contact within the limit of friction, or nothing.
     /// Returns the energy lost [J].

@@ -5,6 +5,7 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/common/contact_model.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/general_contact.hpp>
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
 #include <coagula/mechanics/orientation.hpp>
@@ -47,9 +48,6 @@ struct StrainPoint {
     /// work - (stored - start) - dissipated - breakage - released [J].
     double imbalance(const StrainPoint& start) const;
 };
-
-/// Which limit a bond reached.
-enum class BreakageCause { normal, shear, bending, pull_off };
 
 struct BrokenBond {
     Index bond = 0;  ///< column in the network of bonds

@@ -6,6 +6,7 @@
 #include <coagula/common/contact_model.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/common/dem/particle_system.hpp>
+#include <coagula/common/general_contact.hpp>
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
 #include <coagula/mechanics/orientation.hpp>
@@ -63,6 +64,7 @@ struct BrokenInShear {
     Index second;
     double strain;
     int oscillation;
+    BreakageCause cause;
 };
 
 /// One orientation.

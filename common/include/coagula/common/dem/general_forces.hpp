@@ -111,6 +111,7 @@ struct BrokenBond {
     std::int32_t second;
     Eigen::Vector3d branch;  ///< when it broke [m]
     double lost;             ///< energy [J]
+    BreakageCause cause;
 };
 
 /// Breaks every bond that is above a strength at the last force evaluation; in the order of the chunks.

@@ -1,0 +1,17 @@
+// What the methods that break bonds say about why.
+#pragma once
+
+#include "report.hpp"
+
+#include <coagula/common/general_contact.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+/// How many bonds broke, how many by each cause, and the cause of each.
+/// @param path of the group they go into, with the slash at its end.
+void append_causes(Results& results, const std::string& path, const std::vector<BreakageCause>& causes);
+
+}  // namespace coagula::tools
