@@ -264,7 +264,8 @@ TEST(Rheometer, SaysWhyEachBondBroke) {
         options.steps_per_oscillation = 1200;
         options.model = model;
         std::set<BreakageCause> found;
-        for (const BrokenInShear& bond : run(options).runs[0].broken) {
+        const RheometerRun sheared = run(options).runs[0];
+        for (const BrokenInShear& bond : sheared.broken) {
             found.insert(bond.cause);
         }
         return found;
