@@ -8,7 +8,7 @@
 #include <numbers>
 
 #if defined(__x86_64__) && defined(__GNUC__)
-#define COAGULA_VARIANTS __attribute__((target_clones("avx2", "default")))
+#define COAGULA_VARIANTS __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define COAGULA_VARIANTS
 #endif

@@ -108,9 +108,9 @@ BrownianSetup make_setup(const Packing& start, const PairPotential& potential, c
     const Sedimentation& weight = options.sedimentation;
     return {.period = start.cell.lengths() / units.length,
             .radii = start.radii / units.length,
-            // The first interval of the one is elastic contact, that of the other without force.
-            .near = ForceTable(near, potential.cut_gap() / units.length - near_spacing, ranges.near_end, near_spacing),
-            .far = ForceTable(far, ranges.near_start - far_spacing, ranges.cutoff, far_spacing),
+            // The first intervals of the one are elastic contact, that of the other is without force.
+            .near = ForceTable(near, -2 * largest_start_overlap, potential.cut_gap() / units.length, ranges.near_end, near_spacing),
+            .far = ForceTable(far, ranges.near_start - far_spacing, ranges.near_start, ranges.cutoff, far_spacing),
             .scheme = options.integrator == Integrator::euler ? euler_maruyama() : stabilised_scheme(time_step.stages),
             .time_step = time_step.time_step / units.time,
             .far_interval = time_step.far_interval,

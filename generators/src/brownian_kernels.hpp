@@ -1,10 +1,11 @@
-// The loop over pairs of Brownian particles, four pairs at a time.
+// The loops over Brownian particles and their neighbours, eight neighbours at a time.
 #pragma once
 
 #include "force_table.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace coagula::generators {
 
@@ -13,28 +14,45 @@ struct SlotPair {
     std::int32_t second;
 };
 
-/// What the loop reads and writes. Positions and forces have four numbers per slot (x, y, z and one without meaning).
+/// The neighbours of the slots `begin` to `end`; each pair stands in the rows of both its particles. Rows are filled up to
+/// multiples of eight with the particle itself, which at no distance has no force.
+struct NeighbourRows {
+    static constexpr std::size_t width = 8;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::vector<std::int32_t> slots;
+    std::vector<std::int32_t> owners;  ///< of each group of eight: the slot whose neighbours they are
+    std::vector<std::size_t> ends;     ///< of each row, in groups
+
+    void clear(std::size_t first_slot, std::size_t end_slot);
+    /// Fills up the next row, whose neighbours were appended to `slots`.
+    void close_row();
+};
+
+/// What the loops over pairs read. Positions, like forces, have four numbers per slot (x, y, z and one without meaning).
 struct PairLoop {
     const double* positions = nullptr;
-    double* forces = nullptr;
     const double* radii = nullptr;  ///< null: all are 1
     double period[3] = {};          ///< of the periodic box
 };
 
-/// Adds the forces of the pairs to both of their particles. Pairs meet through the nearest images. For unequal radii the table,
-/// which is that of two spheres of radius 1, is scaled with 2 R1 R2/(R1 + R2) (Derjaguin's approximation). The results do not
-/// depend on the instructions of the processor.
-void add_forces_on_both(const PairLoop& loop, const ForceTable& table, const SlotPair* pairs, std::size_t count);
+/// Sums the forces on the slots of the rows. Pairs meet through the nearest images. For unequal radii the table, which is that of
+/// two spheres of radius 1, is scaled with 2 R1 R2/(R1 + R2) (Derjaguin's approximation). The results do not depend on the
+/// instructions of the processor, nor on how the slots are shared among rows.
+void sum_pair_forces(const PairLoop& loop, const ForceTable& table, const NeighbourRows& rows, double* forces);
 
-/// The same, for the first particles only.
-void add_forces_on_first(const PairLoop& loop, const ForceTable& table, const SlotPair* pairs, std::size_t count);
+/// The neighbours among `all` that are nearer than `reach`, without radii, or than `reach` plus the two radii.
+void choose_neighbours(const PairLoop& loop, double reach, const NeighbourRows& all, NeighbourRows& chosen);
+
+/// Largest squared distance between the places of a slot in two arrays of positions, over the slots from `begin` to `end`.
+double longest_squared_way(const double* one, const double* other, std::size_t begin, std::size_t end);
 
 /// Arrays of four numbers per slot, as above, of one stage of a step.
 struct StageArrays {
-    const double* before;  ///< K_(i-2); in the first stage X, the start of the step
-    const double* latest;  ///< K_(i-1), where the forces were taken
-    const double* noise;   ///< displacement by the noise of the step
-    const double* force;
+    const double* before;    ///< K_(i-2); in the first stage X, the start of the step
+    const double* latest;    ///< K_(i-1), where the forces were taken
+    const double* noise;     ///< displacement by the noise of the step; null but in the first stage
+    const double* force;     ///< all forces, or those of other origin than the pairs
     const double* mobility;  ///< one number per slot
     double* target;          ///< K_i; may be `before`
 };
@@ -48,7 +66,14 @@ struct StageWeights {
     double noise = 0;
 };
 
-void first_stage(const StageArrays& slots, std::size_t begin, std::size_t end, const StageWeights& weights, double time_step);
-void later_stage(const StageArrays& slots, std::size_t begin, std::size_t end, const StageWeights& weights, double time_step);
+void stage(const StageArrays& slots, std::size_t begin, std::size_t end, const StageWeights& weights, double time_step);
+
+/// The same for the slots of the rows, with the forces of the pairs added to the others.
+void stage_with_pairs(const PairLoop& loop, const ForceTable& table, const NeighbourRows& rows, const StageArrays& slots,
+                      const StageWeights& weights, double time_step);
+
+/// The noise of a step: noise <- scale noise, with one scale per slot, and target <- positions + evaluation noise.
+void scale_noise(const double* scale, const double* positions, double evaluation, std::size_t begin, std::size_t end, double* noise,
+                 double* target);
 
 }  // namespace coagula::generators

@@ -14,17 +14,11 @@ namespace coagula::generators {
 
 namespace {
 
-constexpr double wide_skin = 0.6;        // of the list of all pairs
-constexpr double most_near_skin = 0.25;  // of the list of near pairs
-constexpr std::size_t particles_per_chunk = 2000;
-constexpr std::size_t most_chunks = 16;
-
-double squared_distance(const double* a, const double* b) {
-    const double x = a[0] - b[0];
-    const double y = a[1] - b[1];
-    const double z = a[2] - b[2];
-    return x * x + y * y + z * z;
-}
+constexpr double wide_skin = 0.6;       // of the list of all pairs
+constexpr double most_near_skin = 0.3;  // of the list of near pairs
+constexpr std::size_t particles_per_chunk = 500;
+constexpr std::size_t touching_per_chunk = 2000;  // where contacts resist: those between chunks are computed twice
+constexpr std::size_t most_chunks = 64;
 
 /// Calls work(chunk) for all chunks; must be reached by all threads of a parallel region, or by one alone.
 template <class Chunks, class Work>
@@ -57,7 +51,7 @@ StageArrays BrownianSystem::Motion::arrays(std::size_t stage) {
     // The second stage still needs the start; the target of the others holds the stage before the latest.
     return {.before = stage < 2 ? start.data() : target.data(),
             .latest = latest.data(),
-            .noise = noise.data(),
+            .noise = stage == 0 ? noise.data() : nullptr,
             .force = force.data(),
             .mobility = mobility.data(),
             .target = target.data()};
@@ -94,7 +88,7 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
       list_skin_(wide_skin),
       reserve_(6 * std::sqrt(2 * setup_.time_step / setup_.radii.minCoeff())),
       // Shorter steps: fewer pairs too many, since less is lost to the reserve.
-      near_skin_(std::min(most_near_skin, 0.1 + 4 * reserve_)),
+      near_skin_(std::min(most_near_skin, 0.1 + 5 * reserve_)),
       step_(state.step) {
     const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
     require(setup_.period.minCoeff() >= 2 * reach, "the box is " + to_text(setup_.period.minCoeff()) +
@@ -103,7 +97,8 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
     require(2 * reserve_ < near_skin_, "the time step is " + to_text(setup_.time_step) +
                                            " times the diffusion time of a particle, too long for the neighbour list");
     const auto particles = static_cast<std::size_t>(setup_.radii.size());
-    const std::size_t count = std::clamp<std::size_t>(particles / particles_per_chunk, 1, most_chunks);
+    const std::size_t in_chunk = setup_.springs.active() ? touching_per_chunk : particles_per_chunk;
+    const std::size_t count = std::clamp<std::size_t>(particles / in_chunk, 1, most_chunks);
     chunks_.resize(count);
     for (std::size_t number = 0; number < count; ++number) {
         chunks_[number].begin = number * particles / count;
@@ -127,7 +122,7 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
     translation_.start = in_slots(state.positions);
     place_springs(state.springs);
     for (Chunk& chunk : chunks_) {
-        measure_paths(chunk);
+        measure_paths(chunk, translation_.start);
     }
 }
 
@@ -155,14 +150,6 @@ BrownianState BrownianSystem::state() const {
 
 Eigen::Matrix3Xd BrownianSystem::observed_positions() const {
     return in_order(translation_.observed(setup_, step_, RandomPurpose::brownian_observation, particle_));
-}
-
-std::size_t BrownianSystem::near_pairs() const {
-    std::size_t sum = 0;
-    for (const Chunk& chunk : chunks_) {
-        sum += 2 * chunk.near.inside.size() + chunk.near.across.size();
-    }
-    return sum / 2;
 }
 
 /// Sorts the slots in space and lists all pairs, both at the present positions.
@@ -196,113 +183,67 @@ void BrownianSystem::make_list() {
     near_reference_ = translation_.start;
     choose_near();
     place_springs(remembered);
-    ++lists_made_;
 }
 
 void BrownianSystem::list_pairs(Chunk& chunk, const PairFinder& finder) const {
-    chunk.all.inside.clear();
-    chunk.all.across.clear();
+    chunk.all.clear(chunk.begin, chunk.end);
     for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
         const Eigen::Vector3d here = Eigen::Vector3d::Map(&translation_.start[4 * slot]);
         const double own_reach = setup_.far.last() + list_skin_ + radius_[slot];
-        const auto first = static_cast<std::int32_t>(slot);
         finder.cells.for_each_near(here, [&](int particle, const Eigen::Vector3d& separation) {
-            const std::int32_t second = finder.slot_of[static_cast<std::size_t>(particle)];
-            const auto other = static_cast<std::size_t>(second);
-            const double reach = own_reach + radius_[other];
-            if (second == first || separation.squaredNorm() > reach * reach) {
-                return;
-            }
-            if (other < chunk.begin || other >= chunk.end) {
-                chunk.all.across.push_back({first, second});
-            } else if (second > first) {
-                chunk.all.inside.push_back({first, second});
+            const std::int32_t other = finder.slot_of[static_cast<std::size_t>(particle)];
+            const double reach = own_reach + radius_[static_cast<std::size_t>(other)];
+            if (other != static_cast<std::int32_t>(slot) && separation.squaredNorm() <= reach * reach) {
+                chunk.all.slots.push_back(other);
             }
         });
+        chunk.all.close_row();
     }
 }
 
-/// Of all pairs those that are near at the positions of near_reference_.
+/// Of all neighbours those that are near at the positions of near_reference_.
 void BrownianSystem::choose_near() {
 #pragma omp parallel
     share_chunks(chunks_, [&](Chunk& chunk) {
-        choose_near(chunk.all.inside, chunk.near.inside);
-        choose_near(chunk.all.across, chunk.near.across);
-        measure_paths(chunk);
+        choose_neighbours(pair_loop(near_reference_), setup_.near.last() + near_skin_, chunk.all, chunk.near);
+        if (setup_.springs.active()) {
+            pair_up(chunk);
+        }
+        measure_paths(chunk, translation_.start);
     });
 }
 
-void BrownianSystem::choose_near(const std::vector<SlotPair>& from, std::vector<SlotPair>& to) const {
-    constexpr double round = 0x1.8p52;  // the last bit is the unit
-    const double reach = setup_.near.last() + near_skin_;
-    const Eigen::Vector3d turns_per_length = setup_.period.cwiseInverse();
-    to.clear();
-    for (const SlotPair& pair : from) {
-        const auto first = static_cast<std::size_t>(pair.first);
-        const auto second = static_cast<std::size_t>(pair.second);
-        double squared = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto part = static_cast<std::size_t>(axis);
-            const double distance = near_reference_[4 * second + part] - near_reference_[4 * first + part];
-            const double turns = (distance * turns_per_length[axis] + round) - round;
-            const double nearest = distance - turns * setup_.period[axis];
-            squared += nearest * nearest;
-        }
-        const double limit = reach + radius_[first] + radius_[second];
-        if (squared < limit * limit) {
-            to.push_back(pair);
-        }
-    }
+void BrownianSystem::measure_paths(Chunk& chunk, const std::vector<double>& positions) const {
+    chunk.list_path_squared = longest_squared_way(positions.data(), list_reference_.data(), chunk.begin, chunk.end);
+    chunk.near_path_squared = longest_squared_way(positions.data(), near_reference_.data(), chunk.begin, chunk.end);
 }
 
-void BrownianSystem::measure_paths(Chunk& chunk) const {
-    chunk.list_path_squared = 0;
-    chunk.near_path_squared = 0;
-    for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
-        const double* const here = &translation_.start[4 * slot];
-        const double from_list = squared_distance(here, &list_reference_[4 * slot]);
-        const double from_near = squared_distance(here, &near_reference_[4 * slot]);
-        chunk.list_path_squared = std::max(chunk.list_path_squared, from_list);
-        chunk.near_path_squared = std::max(chunk.near_path_squared, from_near);
-    }
-}
-
-void BrownianSystem::add_forces(const Pairs& pairs, const ForceTable& table, const std::vector<double>& positions,
-                                std::vector<double>& forces) const {
-    PairLoop loop;
-    loop.positions = positions.data();
-    loop.forces = forces.data();
-    loop.radii = equal_radii_ ? nullptr : radius_.data();
-    std::copy(setup_.period.begin(), setup_.period.end(), loop.period);
-    add_forces_on_both(loop, table, pairs.inside.data(), pairs.inside.size());
-    add_forces_on_first(loop, table, pairs.across.data(), pairs.across.size());
+PairLoop BrownianSystem::pair_loop(const std::vector<double>& positions) const {
+    return {.positions = positions.data(),
+            .radii = equal_radii_ ? nullptr : radius_.data(),
+            .period = {setup_.period[0], setup_.period[1], setup_.period[2]}};
 }
 
 void BrownianSystem::draw_noise(Motion& motion, const Chunk& chunk, RandomPurpose purpose) const {
     random_normals(setup_.seed, purpose, static_cast<std::uint64_t>(step_),
                    std::span(particle_).subspan(chunk.begin, chunk.end - chunk.begin), &motion.noise[4 * chunk.begin]);
-    for (std::size_t slot = chunk.begin; slot < chunk.end; ++slot) {
-        for (std::size_t part = 4 * slot; part < 4 * slot + 4; ++part) {
-            motion.noise[part] *= motion.noise_scale[slot];
-            motion.stages[0][part] = motion.start[part] + setup_.scheme.evaluation * motion.noise[part];
-        }
-    }
+    scale_noise(motion.noise_scale.data(), motion.start.data(), setup_.scheme.evaluation, chunk.begin, chunk.end,
+                motion.noise.data(), motion.stages[0].data());
 }
 
 /// Noise, the point where the first force is taken, the far forces and the contacts.
 void BrownianSystem::begin_step(Chunk& chunk, bool refresh_far) {
     draw_noise(translation_, chunk, setup_.noise);
     if (refresh_far) {
-        std::fill(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), 0.0);
+        sum_pair_forces(pair_loop(translation_.start), setup_.far, chunk.all, far_.data());
         for (std::size_t slot = chunk.begin; setup_.weight != 0 && slot < chunk.end; ++slot) {
-            far_[4 * slot + 2] = -setup_.weight * radius_[slot] * radius_[slot] * radius_[slot];
+            far_[4 * slot + 2] -= setup_.weight * radius_[slot] * radius_[slot] * radius_[slot];
         }
-        add_forces(chunk.all, setup_.far, translation_.start, far_);
     }
     if (setup_.springs.active()) {
         draw_noise(rotation_, chunk, RandomPurpose::brownian_rotation);
-        refresh_springs(spring_loop(0), chunk.near.inside, chunk.springs.inside);
-        refresh_springs(spring_loop(0), chunk.near.across, chunk.springs.across);
+        refresh_springs(spring_loop(0), chunk.near_pairs.inside, chunk.springs.inside);
+        refresh_springs(spring_loop(0), chunk.near_pairs.across, chunk.springs.across);
     }
 }
 
@@ -316,9 +257,9 @@ void BrownianSystem::add_walls(const Chunk& chunk, std::size_t stage) {
     }
 }
 
-void BrownianSystem::sum_forces(const Chunk& chunk, std::size_t stage) {
+/// All forces but those of the pairs and the far ones.
+void BrownianSystem::add_other_forces(const Chunk& chunk, std::size_t stage) {
     std::copy(&far_[4 * chunk.begin], &far_[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), &translation_.force[4 * chunk.begin]);
-    add_forces(chunk.near, setup_.near, translation_.stages[stage % 2], translation_.force);
     if (setup_.ceiling > 0) {
         add_walls(chunk, stage);
     }
@@ -332,26 +273,19 @@ void BrownianSystem::sum_forces(const Chunk& chunk, std::size_t stage) {
     }
 }
 
-void BrownianSystem::move(Motion& motion, const Chunk& chunk, std::size_t stage) const {
+/// Reads what all chunks left in the stage before and writes its own part of the other array.
+void BrownianSystem::pass_stage(Chunk& chunk, std::size_t stage) {
     const StageWeights& weights = setup_.scheme.stages[stage];
-    if (stage == 0) {
-        first_stage(motion.arrays(stage), chunk.begin, chunk.end, weights, setup_.time_step);
+    StageArrays arrays = translation_.arrays(stage);
+    if (setup_.ceiling > 0 || setup_.springs.active()) {
+        add_other_forces(chunk, stage);
     } else {
-        later_stage(motion.arrays(stage), chunk.begin, chunk.end, weights, setup_.time_step);
+        arrays.force = far_.data();
     }
-}
-
-/// The last stage is the new position.
-void BrownianSystem::end_step(Chunk& chunk) {
-    const auto accept = [&](Motion& motion) {
-        const std::vector<double>& last = motion.stages[setup_.scheme.stages.size() % 2];
-        std::copy(&last[4 * chunk.begin], &last[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), &motion.start[4 * chunk.begin]);
-    };
-    accept(translation_);
+    stage_with_pairs(pair_loop(translation_.stages[stage % 2]), setup_.near, chunk.near, arrays, weights, setup_.time_step);
     if (setup_.springs.active()) {
-        accept(rotation_);
+        coagula::generators::stage(rotation_.arrays(stage), chunk.begin, chunk.end, weights, setup_.time_step);
     }
-    measure_paths(chunk);
 }
 
 void BrownianSystem::step() {
@@ -376,24 +310,21 @@ void BrownianSystem::step() {
 #pragma omp parallel num_threads(threads)
     {
         share_chunks(chunks_, [&](Chunk& chunk) { begin_step(chunk, refresh_far); });
-        // A stage reads what all chunks left in the one before and writes its own part of the other array.
         for (std::size_t stage = 0; stage < setup_.scheme.stages.size(); ++stage) {
-            const bool last = stage + 1 == setup_.scheme.stages.size();
             share_chunks(chunks_, [&](Chunk& chunk) {
-                sum_forces(chunk, stage);
-                move(translation_, chunk, stage);
-                if (turning) {
-                    move(rotation_, chunk, stage);
-                } else if (last) {
-                    end_step(chunk);
+                pass_stage(chunk, stage);
+                if (stage + 1 == setup_.scheme.stages.size()) {
+                    measure_paths(chunk, translation_.stages[setup_.scheme.stages.size() % 2]);
                 }
             });
         }
         if (turning) {
             share_chunks(chunks_, [&](Chunk& chunk) { advance_contacts(chunk); });
-            share_chunks(chunks_, [&](Chunk& chunk) { end_step(chunk); });
         }
     }
+    // The last stage is the new position.
+    std::swap(translation_.start, translation_.stages[setup_.scheme.stages.size() % 2]);
+    std::swap(rotation_.start, rotation_.stages[setup_.scheme.stages.size() % 2]);
     ++step_;
 }
 

@@ -69,8 +69,6 @@ public:
     /// What the contacts remember, as the scheme has it, sorted by their particles.
     std::vector<ContactSpring> springs() const;
     BrownianState state() const;
-    std::int64_t lists_made() const { return lists_made_; }
-    std::size_t near_pairs() const;
 
 private:
     /// Pairs of the particles of a chunk: with each other, and (forces on the first only) with those of other chunks.
@@ -87,8 +85,9 @@ private:
     struct Chunk {
         std::size_t begin = 0;
         std::size_t end = 0;
-        Pairs all;
-        Pairs near;
+        NeighbourRows all;
+        NeighbourRows near;
+        Pairs near_pairs;  ///< the same as `near`, only where contacts resist
         Springs springs;
         double list_path_squared = 0;  ///< largest squared distance from the references
         double near_path_squared = 0;
@@ -110,22 +109,20 @@ private:
     void make_list();
     void list_pairs(Chunk& chunk, const class PairFinder& finder) const;
     void choose_near();
-    void choose_near(const std::vector<SlotPair>& from, std::vector<SlotPair>& to) const;
-    void measure_paths(Chunk& chunk) const;
+    void measure_paths(Chunk& chunk, const std::vector<double>& positions) const;
     void begin_step(Chunk& chunk, bool refresh_far);
     void draw_noise(Motion& motion, const Chunk& chunk, RandomPurpose purpose) const;
-    void sum_forces(const Chunk& chunk, std::size_t stage);
+    void pass_stage(Chunk& chunk, std::size_t stage);
+    void add_other_forces(const Chunk& chunk, std::size_t stage);
     void add_walls(const Chunk& chunk, std::size_t stage);
-    void move(Motion& motion, const Chunk& chunk, std::size_t stage) const;
+    void pair_up(Chunk& chunk) const;
     void advance_contacts(Chunk& chunk) const;
-    void end_step(Chunk& chunk);
     template <class Call>
     void for_each_contact(Call&& call) const;
     void place_springs(const std::vector<ContactSpring>& springs);
     /// @param stage where the particles have moved to.
     SpringLoop spring_loop(std::size_t stage) const;
-    void add_forces(const Pairs& pairs, const ForceTable& table, const std::vector<double>& positions,
-                    std::vector<double>& forces) const;
+    PairLoop pair_loop(const std::vector<double>& positions) const;
     std::vector<double> in_slots(const Eigen::Matrix3Xd& values) const;
     Eigen::Matrix3Xd in_order(const std::vector<double>& slots) const;
 
@@ -135,7 +132,6 @@ private:
     double reserve_;  ///< farther than this a particle hardly goes within a step
     double near_skin_;
     std::int64_t step_ = 0;
-    std::int64_t lists_made_ = 0;
     std::vector<Chunk> chunks_;
     std::vector<std::int32_t> particle_;  ///< of each slot
     Motion translation_;

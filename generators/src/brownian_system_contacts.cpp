@@ -84,6 +84,22 @@ void BrownianSystem::place_springs(const std::vector<ContactSpring>& springs) {
     }
 }
 
+/// The near neighbours as pairs, in the order of their first slots.
+void BrownianSystem::pair_up(Chunk& chunk) const {
+    chunk.near_pairs.inside.clear();
+    chunk.near_pairs.across.clear();
+    for (std::size_t entry = 0; entry < chunk.near.slots.size(); ++entry) {
+        const std::int32_t first = chunk.near.owners[entry / NeighbourRows::width];
+        const std::int32_t second = chunk.near.slots[entry];
+        const auto other = static_cast<std::size_t>(second);
+        if (other < chunk.begin || other >= chunk.end) {
+            chunk.near_pairs.across.push_back({first, second});
+        } else if (second > first) {
+            chunk.near_pairs.inside.push_back({first, second});
+        }
+    }
+}
+
 SpringLoop BrownianSystem::spring_loop(std::size_t stage) const {
     SpringLoop loop{.rules = &setup_.springs,
                     .period = {setup_.period[0], setup_.period[1], setup_.period[2]},

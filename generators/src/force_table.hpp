@@ -1,4 +1,4 @@
-// A force by the gap as a table of cubics: what the pair loop evaluates instead of the laws.
+// A force by the distance as a table of cubics: what the pair loop evaluates instead of the laws.
 #pragma once
 
 #include <cstddef>
@@ -7,16 +7,19 @@
 
 namespace coagula::generators {
 
-/// Cubics on equal intervals of the gap. Below the first knot the first cubic goes on, above the last knot the force is zero.
+/// Force over distance of two spheres of radius 1, as cubics on equal intervals of the squared distance: no root and no division is
+/// needed. Below the first knot the first cubic goes on, above the last knot the force is zero.
 class ForceTable {
 public:
     /// Each cubic meets the force in four points of its interval, so that the table is continuous and a kink of the force in a knot
-    /// stays one. @param first the first knot. The force must be zero at and beyond `last`.
-    ForceTable(const std::function<double(double)>& force, double first, double last, double spacing);
+    /// stays one.
+    /// @param force by the gap; zero at and beyond `last`. @param first gap from which on the table is made.
+    /// @param knot a gap that becomes a knot, `first` <= `knot` < `last`. @param spacing of the knots, as gap near contact.
+    ForceTable(const std::function<double(double)>& force, double first, double knot, double last, double spacing);
 
     double force(double gap) const;
-    double first() const { return first_; }
     double last() const { return last_; }
+    double first_squared() const { return first_squared_; }
     double inverse_spacing() const { return inverse_spacing_; }
     /// Intervals with a force; one more follows where it is zero.
     std::size_t intervals() const { return intervals_; }
@@ -24,9 +27,9 @@ public:
     const double* coefficients() const { return coefficients_.data(); }
 
 private:
-    double first_;
-    double last_;
-    double inverse_spacing_;
+    double last_;             ///< gap
+    double first_squared_;    ///< distance
+    double inverse_spacing_;  ///< of the squared distance
     std::size_t intervals_;
     std::vector<double> coefficients_;
 };
