@@ -2,6 +2,7 @@
 
 #include <coagula/common/contact_law.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,8 +29,11 @@ ContactModel contact_model_of(const Settings& settings, double radius) {
         model.normal_springpot_time = model.shear_springpot_time = 1 / (2 * std::numbers::pi);
         model.normal_springpot_exponent = model.shear_springpot_exponent = settings.springpot_exponent;
     }
-    if (std::isfinite(settings.critical_strain)) {
-        model.normal_strength = model.shear_strength = settings.critical_strain * normal * radius;
+    if (settings.felt_viscosity > 0) {
+        model.solvent_viscosity = settings.felt_viscosity;
+    }
+    if (const double critical = std::min(settings.critical_strain, settings.rim_critical_strain); std::isfinite(critical)) {
+        model.normal_strength = model.shear_strength = critical * normal * radius;
     }
     if (settings.contact_preload > 0) {
         // Two equal spheres: the contact's stiffness is 2 E* sqrt(r0 / 2 x overlap), E* = E / (2 (1 - nu^2)).

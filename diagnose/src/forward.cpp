@@ -1,6 +1,7 @@
 #include "forward.hpp"
 
 #include "neighbour_shells.hpp"
+#include "springpot.hpp"
 #include "table_cells.hpp"
 
 #include <algorithm>
@@ -57,8 +58,9 @@ std::vector<double> starts(const Experiment& experiment) {
     return start;
 }
 
-/// What the material's modulus depends on, for unit normal stiffness.
+/// What the material's modulus depends on, for unit normal stiffness: of the viscosity, its ratio to the stiffness.
 Settings of_material(Settings settings) {
+    settings.felt_viscosity /= settings.normal_stiffness;
     settings.normal_stiffness = 1;
     settings.slip = settings.gap_error = settings.tool_compliance = settings.tool_inertia = 0;
     return settings;
@@ -200,81 +202,6 @@ Complex Forward::seen_by_instrument(const Settings& settings, const Observation&
     return modulus;
 }
 
-/// The strains of the runs that were made on the sample before this table, in their order.
-std::vector<double> Forward::strains_before(std::size_t table) const {
-    const std::vector<Measurement>& tables = experiment_.measurements;
-    std::vector<std::pair<int, double>> earlier;
-    for (const Observation& observation : observations_) {
-        const Measurement& other = tables[observation.measurement];
-        if (other.sample == tables[table].sample && other.run_order < tables[table].run_order && !observation.loss &&
-            std::isfinite(observation.strain)) {
-            earlier.emplace_back(other.run_order, observation.strain);
-        }
-    }
-    std::stable_sort(earlier.begin(), earlier.end(), [](const auto& one, const auto& two) { return one.first < two.first; });
-    std::vector<double> strains;
-    for (const auto& [order, strain] : earlier) {
-        strains.push_back(strain);
-    }
-    return strains;
-}
-
-/// G* / G of one table by a run at its own amplitudes after those before it on the sample, by row.
-std::map<std::size_t, Complex> Forward::exact_factors(const Settings& settings, std::size_t table) const {
-    std::vector<std::size_t> rows;
-    std::vector<double> amplitudes = strains_before(table);
-    const std::size_t history = amplitudes.size();
-    for (const Observation& observation : observations_) {
-        if (observation.measurement == table && !observation.loss && std::isfinite(observation.strain)) {
-            rows.push_back(observation.row);
-            amplitudes.push_back(observation.strain);
-        }
-    }
-    std::map<std::size_t, Complex> factors;
-    if (rows.empty()) {
-        return factors;
-    }
-    const std::vector<Complex> run = simulator_.exact_amplitude_response(settings, amplitudes);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        factors[rows[k]] = run[history + k];
-    }
-    return factors;
-}
-
-/// G* / G from breaking bonds for every observation. A bond that broke stays broken: the largest strain so far counts.
-std::vector<Complex> Forward::amplitude_factors(const Settings& settings, bool exact) const {
-    std::vector<Complex> factors(observations_.size(), 1.0);
-    if (!std::isfinite(settings.critical_strain)) {
-        return factors;
-    }
-    for (std::size_t table = 0; table < experiment_.measurements.size(); ++table) {
-        const std::map<std::size_t, Complex> run = exact ? exact_factors(settings, table) : std::map<std::size_t, Complex>{};
-        const std::vector<double> earlier = strains_before(table);
-        const double before = earlier.empty() ? 0.0 : *std::max_element(earlier.begin(), earlier.end());
-        double largest = before;
-        std::size_t row_before = 0;
-        for (std::size_t k = 0; k < observations_.size(); ++k) {
-            const Observation& observation = observations_[k];
-            if (observation.measurement != table || !std::isfinite(observation.strain)) {
-                continue;
-            }
-            if (observation.row <= row_before) {
-                largest = before;  // the other modulus, from the start of the sweep
-            }
-            row_before = observation.row;
-            if (const auto found = run.find(observation.row); found != run.end()) {
-                factors[k] = found->second;
-                continue;
-            }
-            const bool falls = observation.strain < largest;
-            largest = std::max(largest, observation.strain);
-            const Complex response = simulator_.amplitude_response(settings, largest);
-            factors[k] = falls ? Complex(response.real()) : response;  // nothing breaks on the way down
-        }
-    }
-    return factors;
-}
-
 /// Linear modulus of every group of structures that some observation needs.
 std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, bool exact) const {
     std::map<std::size_t, double> linear;
@@ -301,8 +228,11 @@ std::vector<Complex> Forward::material(const Settings& settings, bool exact) con
         }
         if (settings.springpot_ratio > 0 && std::isfinite(observation.angular_frequency)) {
             // A springpot in the same proportion to both springs scales the whole stiffness matrix.
-            moduli[k] *= 1.0 + settings.springpot_ratio *
-                                   std::pow(Complex(0, observation.angular_frequency / (2 * pi)), settings.springpot_exponent);
+            moduli[k] *= 1.0 + springpot(settings, observation.angular_frequency);
+        }
+        if (settings.felt_viscosity > 0 && std::isfinite(observation.angular_frequency)) {
+            moduli[k] *= exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
+                               : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
         }
         if (std::isfinite(observation.time)) {
             moduli[k] *= std::pow(1 + observation.time / settings.build_up_time, settings.build_up_exponent);

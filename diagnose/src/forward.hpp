@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,10 @@ public:
 private:
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
                                             std::complex<double> modulus) const;
+    bool strain_varies(const Settings& settings) const;
+    std::complex<double> breaking_response(const Settings& settings, double strain) const;
+    std::vector<std::complex<double>> exact_breaking_response(const Settings& settings,
+                                                              const std::vector<double>& amplitudes) const;
     std::vector<double> strains_before(std::size_t table) const;
     std::map<std::size_t, std::complex<double>> exact_factors(const Settings& settings, std::size_t table) const;
     std::vector<std::complex<double>> amplitude_factors(const Settings& settings, bool exact) const;

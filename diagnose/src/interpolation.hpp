@@ -18,14 +18,14 @@ struct Axis {
 
 /// The value at `value` from those at the nodes, at(k): a cubic through the four nearest nodes; outside the axis its end.
 template <class At>
-double interpolate_nodes(const Axis& axis, double value, const At& at) {
+auto interpolate_nodes(const Axis& axis, double value, const At& at) {
     const double place = std::clamp(axis.place(value), 0.0, static_cast<double>(axis.count - 1));
     const int first = std::clamp(static_cast<int>(std::floor(place)) - 1, 0, axis.count - 4);
     const double t = place - first;
     const std::array<double, 4> weight{-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2,
                                        t * (t - 1) * (t - 2) / 6};
-    double sum = 0;
-    for (int k = 0; k < 4; ++k) {
+    auto sum = weight[0] * at(first);
+    for (int k = 1; k < 4; ++k) {
         sum += weight[static_cast<std::size_t>(k)] * at(first + k);
     }
     return sum;

@@ -19,12 +19,26 @@ double MechanismParameter::place_of(double given) const {
 
 std::span<const Mechanism> catalogue() {
     // One line per mechanism.
+    // clang-format off
     static const std::vector<Mechanism> all{
-        mechanisms::shear_stiffness(), mechanisms::bond_bending(),         mechanisms::bond_range(),
-        mechanisms::bond_strength(),   mechanisms::contact_nonlinearity(), mechanisms::contact_loss(),
-        mechanisms::ageing(),          mechanisms::ageing_after_shear(),   mechanisms::wall_slip(),
-        mechanisms::gap_error(),       mechanisms::tool_compliance(),      mechanisms::tool_inertia(),
-        mechanisms::numerical(),       mechanisms::localisation_error()};
+        mechanisms::shear_stiffness(),
+        mechanisms::bond_bending(),
+        mechanisms::bond_range(),
+        mechanisms::bond_strength(),
+        mechanisms::plate_strain_field(),
+        mechanisms::contact_nonlinearity(),
+        mechanisms::contact_loss(),
+        mechanisms::solvent_drag(),
+        mechanisms::ageing(),
+        mechanisms::ageing_after_shear(),
+        mechanisms::wall_slip(),
+        mechanisms::gap_error(),
+        mechanisms::tool_compliance(),
+        mechanisms::tool_inertia(),
+        mechanisms::numerical(),
+        mechanisms::localisation_error(),
+    };
+    // clang-format on
     return all;
 }
 

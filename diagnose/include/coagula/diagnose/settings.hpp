@@ -16,8 +16,13 @@ struct Settings {
     double springpot_ratio = 0;     ///< springpot of a contact over its spring at 1 Hz, in both directions
     double springpot_exponent = 0;  ///< 0 .. 1
 
+    double felt_viscosity = 0;  ///< of the solvent as the particles feel it: drag 6 pi eta r against the affine flow [Pa.s]
+
     double critical_strain =
         std::numeric_limits<double>::infinity();  ///< bond strength, normal and shear, over k_n r0 of a contact
+
+    double rim_critical_strain = std::numeric_limits<double>::infinity();  ///< the same where the strain between plates grows along
+                                                                           ///< the radius; the smaller of both counts
 
     double contact_preload = 0;  ///< Hertz contacts that are as stiff as the springs at this overlap over r0, which they have under
                                  ///< the load at rest; 0: linear springs

@@ -53,6 +53,11 @@ public:
     /// in it.
     double contact_response(const Settings& settings, double amplitude);
 
+    /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; springpots beside
+    /// the springs are in both.
+    std::complex<double> drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
+    std::complex<double> exact_drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
+
     /// Mean number of neighbours of a particle in a shell of distance (src/neighbour_shells.hpp) as measured coordinates would show
     /// it, mean over the structures.
     double neighbours(const Settings& settings, std::size_t shell, bool exact = false);
@@ -69,6 +74,8 @@ private:
     const std::vector<double>& strength_curve();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
+    const std::vector<double>& drag_nodes(std::size_t structure);
+    const std::vector<std::complex<double>>& drag_curve(std::size_t group);
     std::vector<double> shells(double plane, double axis);
     const std::vector<double>& shell_node(int plane, int axis);
 
@@ -77,7 +84,8 @@ private:
     std::vector<std::size_t> groups_;
     std::map<std::array<double, 4>, double> nodes_;  ///< by ratio, bending, tolerance and group
     std::map<std::pair<int, int>, std::vector<double>> shell_nodes_;
-    double scatter_ = -1;  ///< between structures, once it has been asked for
+    std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;  ///< by group
+    double scatter_ = -1;                                                   ///< between structures, once it has been asked for
     SimulationCache& cache_;
     Progress progress_;
     double radius_;

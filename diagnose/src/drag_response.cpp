@@ -1,0 +1,127 @@
+// Response of a network whose particles the solvent drags on: the frequency solver at the nodes of a grid of reduced frequencies.
+#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/simulator.hpp>
+
+#include <coagula/common/contact_network.hpp>
+#include <coagula/mechanics/frequency.hpp>
+
+#include "cache_key.hpp"
+#include "interpolation.hpp"
+#include "springpot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+/// Drag on a particle over its normal stiffness, times angular frequency.
+constexpr Axis drag_axis{1e-7, 100, 19};
+
+/// Springs, springpots and drag alone: what acts at vanishing strain and age.
+ContactModel dragged_model(const Settings& settings, double radius) {
+    Settings part;
+    part.normal_stiffness = settings.normal_stiffness;
+    part.stiffness_ratio = settings.stiffness_ratio;
+    part.bending_ratio = settings.bending_ratio;
+    part.springpot_ratio = settings.springpot_ratio;
+    part.springpot_exponent = settings.springpot_exponent;
+    part.felt_viscosity = settings.felt_viscosity;
+    return contact_model_of(part, radius);
+}
+
+/// (G* / G - 1) over i times the reduced frequency: constant at low frequency.
+Complex reduced_viscosity(Complex response, double drag) {
+    return (response - 1.0) / Complex(0, drag);
+}
+
+}  // namespace
+
+/// G* of one structure [Pa], at all nodes of the axis, for a normal stiffness of 1 N/m.
+const std::vector<double>& Simulator::drag_nodes(std::size_t structure) {
+    const std::string key = "drag " + names_[structure];
+    auto found = cache_.find(key);
+    if (found == cache_.end()) {
+        progress_.update("simulating", 0.0, "drag of the solvent");
+        Settings settings;
+        settings.normal_stiffness = 1;
+        settings.felt_viscosity = 1;
+        std::vector<double> frequencies;
+        for (int node = 0; node < drag_axis.count; ++node) {
+            frequencies.push_back(drag_axis.node(node) / (2 * pi * translation_drag(radius_)));
+        }
+        const auto response =
+            mechanics::solve_frequency_sweep(structures_[structure], find_contacts(structures_[structure], settings.bond_tolerance),
+                                             dragged_model(settings, radius_), frequencies, {}, progress_);
+        std::vector<double> values;
+        for (const mechanics::FrequencyPoint& point : response.points) {
+            values.insert(values.end(), {point.mean_shear_modulus().real(), point.mean_shear_modulus().imag()});
+        }
+        found = cache_.emplace(key, std::move(values)).first;
+    }
+    return found->second;
+}
+
+/// Logarithm of the reduced viscosity at the nodes, of the mean over a group.
+const std::vector<Complex>& Simulator::drag_curve(std::size_t group) {
+    std::vector<Complex>& curve = drag_curves_[group];
+    if (!curve.empty()) {
+        return curve;
+    }
+    Settings unit;
+    unit.normal_stiffness = 1;
+    const std::vector<std::size_t> structures = members(group);
+    const double linear = exact_linear_modulus(unit, group) * static_cast<double>(structures.size());
+    for (std::size_t node = 0; node < static_cast<std::size_t>(drag_axis.count); ++node) {
+        Complex sum = 0;
+        for (const std::size_t k : structures) {
+            const std::vector<double>& moduli = drag_nodes(k);
+            sum += Complex(moduli[2 * node], moduli[2 * node + 1]);
+        }
+        curve.push_back(std::log(reduced_viscosity(sum / linear, drag_axis.node(static_cast<int>(node)))));
+    }
+    return curve;
+}
+
+Complex Simulator::drag_response(const Settings& settings, double angular_frequency, std::size_t group) {
+    if (settings.felt_viscosity <= 0) {
+        return 1;
+    }
+    const Complex springs = 1.0 + springpot(settings, angular_frequency);
+    const double drag =
+        translation_drag(radius_) * settings.felt_viscosity * angular_frequency / (settings.normal_stiffness * std::abs(springs));
+    const std::vector<Complex>& curve = drag_curve(group);
+    const Complex logarithm = interpolate_nodes(drag_axis, drag, [&](int node) { return curve[static_cast<std::size_t>(node)]; });
+    return 1.0 + Complex(0, std::min(drag, drag_axis.high)) * std::exp(logarithm);
+}
+
+Complex Simulator::exact_drag_response(const Settings& settings, double angular_frequency, std::size_t group) {
+    const ContactModel model = dragged_model(settings, radius_);
+    const double frequency = angular_frequency / (2 * pi);
+    Complex sum = 0;
+    const std::vector<std::size_t> structures = members(group);
+    for (const std::size_t k : structures) {
+        const std::string key =
+            key_of("drag at " + names_[k],
+                   {settings.normal_stiffness, settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance,
+                    settings.springpot_ratio, settings.springpot_exponent, settings.felt_viscosity, angular_frequency});
+        auto found = cache_.find(key);
+        if (found == cache_.end()) {
+            progress_.update("simulating", 0.0, "drag of the solvent");
+            const ContactNetwork bonds = find_contacts(structures_[k], settings.bond_tolerance);
+            const auto response = mechanics::solve_frequency_sweep(structures_[k], bonds, model, {&frequency, 1}, {}, progress_);
+            const Complex modulus = response.points.front().mean_shear_modulus();
+            found = cache_.emplace(key, std::vector<double>{modulus.real(), modulus.imag()}).first;
+        }
+        sum += Complex(found->second[0], found->second[1]);
+    }
+    const Complex springs = 1.0 + springpot(settings, angular_frequency);
+    return sum / (static_cast<double>(structures.size()) * exact_linear_modulus(settings, group) * springs);
+}
+
+}  // namespace coagula::diagnose

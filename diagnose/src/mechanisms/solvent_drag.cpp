@@ -1,0 +1,16 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+/// From water to where it shows at the frequencies of a rheometer: a polymer in the solvent, or neighbours so close that they move
+/// through films.
+Mechanism solvent_drag() {
+    return {.name = "solvent-drag",
+            .term = "the solvent drags on every particle that does not follow the strain",
+            .signature = "a loss modulus in proportion to the frequency",
+            .parameters = {{"felt_viscosity", "Pa.s", 1e-3, 100, true, &Settings::felt_viscosity}},
+            .in_contact = true,
+            .applies = knows_frequency};
+}
+
+}  // namespace coagula::diagnose::mechanisms

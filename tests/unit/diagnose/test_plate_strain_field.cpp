@@ -1,0 +1,207 @@
+// Breaking bonds under the strain field of parallel plates: the law of the torque against an integral over many radii, and data
+// from explicit runs at many radii of another structure.
+#include "forward.hpp"
+#include "hidden_effects.hpp"
+
+#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/mechanics/rheometer.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coagula::diagnose {
+namespace {
+
+using Complex = std::complex<double>;
+
+Simulator& simulator() {
+    static SimulationCache cache;
+    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
+    return made;
+}
+
+/// An amplitude sweep between these tools; the moduli are those given, with standard errors as a part of the largest.
+Experiment sweep(const std::vector<double>& strains, const std::vector<Complex>& moduli, Geometry geometry, double error = 0,
+                 std::uint64_t seed = 1) {
+    Column storage{"storage_modulus", "Pa", {}};
+    Column loss{"loss_modulus", "Pa", {}};
+    for (std::size_t k = 0; k < strains.size(); ++k) {
+        const double deviation = error * std::abs(moduli.front());
+        storage.values.push_back(moduli[k].real() + deviation * drawn_normal(seed, 2 * k));
+        loss.values.push_back(moduli[k].imag() + deviation * drawn_normal(seed, 2 * k + 1));
+        storage.standard_errors.push_back(deviation);
+        loss.standard_errors.push_back(deviation);
+    }
+    Measurement table;
+    table.kind = MeasurementKind::amplitude_sweep;
+    table.label = "hidden";
+    table.sample = "sample";
+    table.columns = {{"strain", "1", strains}, storage, loss};
+    Experiment made;
+    made.instrument.geometry = geometry;
+    made.measurements = {table};
+    return made;
+}
+
+/// G* over G of the rows of a sweep.
+std::vector<Complex> response(const std::vector<double>& strains, const Settings& settings, Geometry geometry, bool exact = false) {
+    const Experiment experiment = sweep(strains, std::vector<Complex>(strains.size(), 1.0), geometry);
+    const auto rows = observations_of(experiment);
+    const Eigen::VectorXd predicted = Forward(experiment, rows, simulator()).predict(settings, exact);
+    const double linear = exact ? simulator().exact_linear_modulus(settings) : simulator().linear_modulus(settings);
+    std::vector<Complex> responses(strains.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const double value = predicted[static_cast<Eigen::Index>(k)] / linear;
+        responses[rows[k].row] += rows[k].loss ? Complex(0, value) : Complex(value, 0);
+    }
+    return responses;
+}
+
+Settings weak(double Settings::*critical) {
+    Settings settings;
+    settings.*critical = 2e-4;
+    return settings;
+}
+
+TEST(PlateStrainField, IsTheIntegralOverTheTorque) {
+    const Settings uniform = weak(&Settings::critical_strain);
+    const std::vector<double> strains = logarithmic(2e-5, 1.5e-3, 14);
+    const std::vector<Complex> between_plates = response(strains, weak(&Settings::rim_critical_strain), Geometry::plate_plate);
+    for (std::size_t k = 0; k < strains.size(); ++k) {
+        constexpr int radii = 2000;
+        Complex torque = 0;  // 4 times the integral of G*(gamma_R x) x^3 over x
+        for (int ring = 0; ring < radii; ++ring) {
+            const double x = (ring + 0.5) / radii;
+            torque += 4.0 / radii * std::pow(x, 3) * simulator().amplitude_response(uniform, x * strains[k]);
+        }
+        EXPECT_LT(std::abs(between_plates[k] - torque), 0.005) << strains[k];
+    }
+}
+
+/// Strain at which the storage modulus has fallen to a part of the linear one, over those of a sweep.
+double yield(const std::vector<double>& strains, const std::vector<Complex>& responses, double part) {
+    std::size_t k = 1;
+    while (responses.at(k).real() > part) {
+        ++k;
+    }
+    const double past = (responses[k - 1].real() - part) / (responses[k - 1].real() - responses[k].real());
+    return strains[k - 1] * std::pow(strains[k] / strains[k - 1], past);
+}
+
+TEST(PlateStrainField, BroadensTheYieldAndPutsItOffAtTheRim) {
+    const std::vector<double> strains = logarithmic(2e-5, 1.5e-3, 30);
+    const auto uniform = response(strains, weak(&Settings::critical_strain), Geometry::plate_plate);
+    const auto field = response(strains, weak(&Settings::rim_critical_strain), Geometry::plate_plate);
+    EXPECT_GT(yield(strains, field, 0.6), 1.05 * yield(strains, uniform, 0.6));
+    EXPECT_GT(yield(strains, field, 0.6) / yield(strains, field, 0.9),
+              1.05 * yield(strains, uniform, 0.6) / yield(strains, uniform, 0.9));
+    const auto cone = response(strains, weak(&Settings::rim_critical_strain), Geometry::cone_plate);
+    for (std::size_t k = 0; k < strains.size(); ++k) {
+        EXPECT_LT(std::abs(cone[k] - uniform[k]), 1e-12) << strains[k];
+    }
+}
+
+/// The weaker of the two strengths breaks the bonds, and the extended model has that one.
+TEST(PlateStrainField, TheSmallerStrengthCounts) {
+    const std::vector<double> strains = logarithmic(2e-5, 1.5e-3, 8);
+    Settings both = weak(&Settings::rim_critical_strain);
+    const auto field = response(strains, both, Geometry::plate_plate);
+    both.critical_strain = 5e-4;
+    EXPECT_EQ(response(strains, both, Geometry::plate_plate), field);
+    EXPECT_DOUBLE_EQ(contact_model_of(both, 0.25e-6).normal_strength, 2e-4 * 50 * 0.25e-6);
+}
+
+/// The runs of three rings against those of ten others.
+TEST(PlateStrainField, RunsOfTheRingsAreTheIntegralToo) {
+    const std::vector<double> strains = logarithmic(1e-4, 1e-3, 8);
+    const auto between_plates = response(strains, weak(&Settings::rim_critical_strain), Geometry::plate_plate, true);
+    std::vector<Complex> torque(strains.size());
+    constexpr int radii = 10;
+    for (int ring = 0; ring < radii; ++ring) {
+        std::vector<double> local = strains;
+        for (double& strain : local) {
+            strain *= (ring + 0.5) / radii;
+        }
+        const double weight = std::pow((ring + 1.0) / radii, 4) - std::pow(static_cast<double>(ring) / radii, 4);
+        const auto run = simulator().exact_amplitude_response(weak(&Settings::critical_strain), local);
+        for (std::size_t k = 0; k < strains.size(); ++k) {
+            torque[k] += weight * run[k];
+        }
+    }
+    EXPECT_LT(torque.back().real(), 0.8);
+    for (std::size_t k = 0; k < strains.size(); ++k) {
+        EXPECT_LT(std::abs(between_plates[k] - torque[k]), 0.02) << strains[k] << between_plates[k] << torque[k];
+    }
+}
+
+/// Explicit runs of another structure at ten radii with equal steps, at other orientations, damping and step than the diagnosis
+/// uses.
+std::vector<Complex> torque_of_runs(const std::vector<double>& strains, double critical_strain) {
+    const Packing sample = structure(250, 77);
+    const ContactNetwork bonds = find_contacts(sample, 0.01);
+    mechanics::RheometerOptions run;
+    run.model = {.normal_stiffness = 40, .shear_stiffness = 4};
+    run.model.normal_strength = run.model.shear_strength = critical_strain * 20 * 0.25e-6;
+    run.boundary = mechanics::RheometerBoundary::periodic;
+    run.oscillations = static_cast<int>(strains.size()) + 2;
+    run.steps_per_oscillation = 4000;
+    run.damping = 0.7;
+    run.compare_with_rest = false;
+    run.course.assign(2, 1e-3);
+    for (const double strain : strains) {
+        run.course.push_back(strain / strains.back());
+    }
+    constexpr int radii = 10;
+    std::vector<Complex> moduli(strains.size());
+    for (int ring = 0; ring < radii; ++ring) {
+        const double x = (ring + 0.5) / radii;
+        const double weight = std::pow((ring + 1.0) / radii, 4) - std::pow(static_cast<double>(ring) / radii, 4);
+        run.amplitude = x * strains.back();
+        const auto oscillations = mechanics::run_rheometer(sample, bonds, run, {{2, 0}}).runs.front().oscillations;
+        for (std::size_t k = 0; k < strains.size(); ++k) {
+            moduli[k] += weight * Complex(oscillations[k + 2].fundamental_storage,
+                                          oscillations[k + 2].fundamental_loss - oscillations[1].fundamental_loss);
+        }
+    }
+    return moduli;
+}
+
+Diagnosis diagnosis_of(const Experiment& experiment) {
+    DiagnosisOptions options;
+    options.bootstrap = 399;
+    return diagnose(experiment, simulator(), options);
+}
+
+struct Found {
+    Diagnosis precise;  ///< errors of 3 % of the linear modulus
+    Diagnosis usual;    ///< 10 %
+};
+
+const Found& found() {
+    static const Found made = [] {
+        const std::vector<double> strains = logarithmic(5e-5, 2.4e-3, 16);
+        const std::vector<Complex> moduli = torque_of_runs(strains, 2e-4);
+        return Found{diagnosis_of(sweep(strains, moduli, Geometry::plate_plate, 0.03, 3)),
+                     diagnosis_of(sweep(strains, moduli, Geometry::plate_plate, 0.1, 2))};
+    }();
+    return made;
+}
+
+TEST(PlateStrainField, IsToldFromBreakingAtOnceByPreciseData) {
+    EXPECT_TRUE(found().precise.detected);
+    EXPECT_EQ(found().precise.causes.front().name, "plate-strain-field");
+    EXPECT_EQ(found().precise.credible_set, std::vector<std::string>{"plate-strain-field"});
+    EXPECT_GT(found().precise.gain.rmse_ratio, 2);
+    const EstimatedParameter& critical = found().precise.causes.front().parameters[1];
+    EXPECT_GT(critical.value, 2e-4 / 1.5);  // the strength of one structure differs from that of others
+    EXPECT_LT(critical.value, 2e-4 * 1.5);
+}
+
+TEST(PlateStrainField, IsTiedWithBreakingAtOnceByUsualData) {
+    EXPECT_TRUE(found().usual.detected);
+    EXPECT_EQ(found().usual.verdict, Verdict::tied);
+    EXPECT_EQ(found().usual.credible_set, (std::vector<std::string>{"plate-strain-field", "bond-strength"}));
+    EXPECT_GT(found().usual.gain.rmse_ratio, 2);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose

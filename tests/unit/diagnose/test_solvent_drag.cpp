@@ -1,0 +1,152 @@
+// Drag of the solvent: its limits, the extended model, and a sweep of another structure in which it is hidden.
+#include "forward.hpp"
+#include "hidden_effects.hpp"
+
+#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/mechanics/frequency.hpp>
+#include <coagula/mechanics/linear.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coagula::diagnose {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+Simulator& simulator() {
+    static SimulationCache cache;
+    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
+    return made;
+}
+
+/// Settings at which drag times angular frequency over the normal stiffness is this at 1 rad/s.
+Settings with_drag(double reduced) {
+    Settings settings;
+    settings.felt_viscosity = reduced * settings.normal_stiffness / translation_drag(0.25e-6);
+    return settings;
+}
+
+TEST(SolventDrag, LosesInProportionToTheFrequency) {
+    const Complex slow = simulator().exact_drag_response(with_drag(1e-8), 1);
+    const Complex fast = simulator().exact_drag_response(with_drag(1e-8), 10);
+    EXPECT_GT(slow.imag(), 1e-7);
+    EXPECT_NEAR(fast.imag() / slow.imag(), 10, 0.1);
+    EXPECT_NEAR(fast.real(), 1, 0.01 * fast.imag());
+    // Slower where the softest motions no longer follow, but steeper than the springpots of contact-loss, exponent 0.3 at most.
+    for (const double frequency : {1.0, 10.0, 100.0}) {
+        const double more = simulator().drag_response(with_drag(1e-6), 10 * frequency).imag() /
+                            simulator().drag_response(with_drag(1e-6), frequency).imag();
+        EXPECT_GT(std::log10(more), 0.5) << frequency;
+        EXPECT_LT(std::log10(more), 1.0 + 1e-9) << frequency;
+    }
+    EXPECT_EQ(simulator().drag_response(Settings{}, 1), Complex(1));
+}
+
+/// Particles that the solvent carries with it move affinely.
+TEST(SolventDrag, EndsAtTheAffineModulus) {
+    double affine = 0;
+    double relaxed = 0;
+    for (const std::uint64_t seed : {1U, 2U}) {
+        const Packing packing = structure(200, seed);
+        const auto linear = mechanics::solve_linear(packing, find_contacts(packing, 0.01));
+        affine += linear.mean_affine_modulus();
+        relaxed += linear.mean_shear_modulus();
+    }
+    for (const double reduced : {100.0, 1e5}) {
+        const Complex response = simulator().drag_response(with_drag(reduced), 1);
+        EXPECT_NEAR(response.real() / (affine / relaxed), 1, 1e-3);
+        EXPECT_LT(response.imag(), 0.01 * response.real());
+    }
+}
+
+TEST(SolventDrag, CurveAgreesWithTheSolver) {
+    for (const double reduced : logarithmic(3e-7, 30, 9)) {
+        const Settings settings = with_drag(reduced);
+        const Complex curve = simulator().drag_response(settings, 1);
+        const Complex solved = simulator().exact_drag_response(settings, 1);
+        EXPECT_LT(std::abs(curve - solved), 0.01 * std::abs(solved - 1.0)) << reduced;
+    }
+}
+
+Measurement sweep(const std::vector<double>& frequencies, const std::vector<Complex>& moduli, double error, std::uint64_t seed) {
+    Column frequency{"angular_frequency", "rad/s", {}};
+    Column storage{"storage_modulus", "Pa", {}};
+    Column loss{"loss_modulus", "Pa", {}};
+    for (std::size_t k = 0; k < moduli.size(); ++k) {
+        const double deviation = error * std::abs(moduli[k]);
+        frequency.values.push_back(2 * pi * frequencies[k]);
+        storage.values.push_back(moduli[k].real() + deviation * drawn_normal(seed, 2 * k));
+        loss.values.push_back(moduli[k].imag() + deviation * drawn_normal(seed, 2 * k + 1));
+        storage.standard_errors.push_back(deviation);
+        loss.standard_errors.push_back(deviation);
+    }
+    Measurement table;
+    table.kind = MeasurementKind::frequency_sweep;
+    table.label = "hidden";
+    table.sample = "sample";
+    table.columns = {frequency, storage, loss};
+    return table;
+}
+
+std::vector<Complex> moduli_of(const Packing& packing, const ContactModel& model, const std::vector<double>& frequencies) {
+    std::vector<Complex> moduli;
+    const auto response = mechanics::solve_frequency_sweep(packing, find_contacts(packing, 0.01), model, frequencies);
+    for (const auto& point : response.points) {
+        moduli.push_back(point.mean_shear_modulus());
+    }
+    return moduli;
+}
+
+/// What the diagnosis predicts is what the solver gives for the contact model that it writes, springpots and moments included.
+TEST(SolventDrag, ExtendedModelRunsToTheSamePrediction) {
+    const std::vector<double> frequencies{0.3, 7, 200};
+    Settings settings;
+    settings.normal_stiffness = 55;
+    settings.stiffness_ratio = 0.3;
+    settings.felt_viscosity = 8;
+    for (const bool springpot : {true, false}) {
+        settings.springpot_ratio = springpot ? 0.4 : 0;
+        settings.springpot_exponent = springpot ? 0.12 : 0;
+        settings.bending_ratio = springpot ? 0 : 2e-3;
+        Experiment experiment;
+        experiment.measurements = {sweep(frequencies, std::vector<Complex>(3, 1.0), 0, 1)};
+        const auto rows = observations_of(experiment);
+        const Eigen::VectorXd predicted = Forward(experiment, rows, simulator()).predict(settings, true);
+        const ContactModel model = contact_model_of(settings, 0.25e-6);
+        const auto first = moduli_of(structure(200, 1), model, frequencies);
+        const auto second = moduli_of(structure(200, 2), model, frequencies);
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const Complex mean = 0.5 * (first[rows[k].row] + second[rows[k].row]);
+            EXPECT_NEAR(predicted[static_cast<Eigen::Index>(k)], rows[k].loss ? mean.imag() : mean.real(), 1e-8 * std::abs(mean));
+        }
+    }
+}
+
+Diagnosis diagnosis_of(const Measurement& table) {
+    Experiment experiment;
+    experiment.sample.particle_radius = 0.25e-6;
+    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
+    experiment.measurements = {table};
+    DiagnosisOptions options;
+    options.bootstrap = 399;
+    return diagnose(experiment, simulator(), options);
+}
+
+TEST(SolventDrag, IsNamedInASweepOfFrequencies) {
+    const std::vector<double> frequencies = logarithmic(0.1, 100, 20);
+    ContactModel model{.normal_stiffness = 40, .shear_stiffness = 4};
+    model.solvent_viscosity = 20;
+    const auto moduli = moduli_of(structure(260, 77), model, frequencies);
+    const Diagnosis found = diagnosis_of(sweep(frequencies, moduli, 0.02, 4));
+    EXPECT_TRUE(found.detected);
+    EXPECT_EQ(found.verdict, Verdict::named);
+    EXPECT_EQ(found.credible_set, std::vector<std::string>{"solvent-drag"});
+    EXPECT_GT(found.gain.rmse_ratio, 2);
+    const auto cause = found.causes.front();
+    ASSERT_EQ(cause.parameters.size(), 2U);
+    EXPECT_NEAR(std::log(cause.parameters[1].value / 20), 0, std::log(2));  // structures differ in their softest motions
+}
+
+}  // namespace
+}  // namespace coagula::diagnose
