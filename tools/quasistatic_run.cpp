@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 namespace coagula::tools {
 
@@ -124,6 +125,21 @@ void append_broken(Results& results, const std::string& path, const std::vector<
     append_causes(results, path, causes);
 }
 
+/// What people read where the network failed.
+std::string sentence_of(const mechanics::NetworkFailure& failure) {
+    return "failed at strain " + with_unit(failure.strain, "1") + ", " + std::to_string(failure.broken) + " bonds broken: " +
+           (failure.parted ? "nothing reaches from plate to plate any more"
+                           : "from there on less than 1/1000 of the largest stress");
+}
+
+void append_failure(Results& results, const std::string& path, const std::optional<mechanics::NetworkFailure>& failure) {
+    results.push_back(io::scalar(path + "failure_strain", failure ? failure->strain : unset, "1",
+                                 "where the network ceased to carry load; NaN: nowhere"));
+    if (failure) {
+        results.push_back(io::text(path + "failure", sentence_of(*failure), "how the network failed"));
+    }
+}
+
 void append_points(Results& results, const std::string& path, const mechanics::RampResponse& ramp,
                    const ShearOrientation& orientation) {
     const auto add = [&](const std::string& name, const auto& value, const std::string& unit, const std::string& description) {
@@ -153,10 +169,11 @@ void append_ramps(Results& results, const std::vector<Test>& tests) {
     for (std::size_t k = 0; k < tests.size(); ++k) {
         const ShearOrientation& orientation = tests[k].orientation;
         const mechanics::RampResponse& ramp = tests[k].ramp;
-        first(static_cast<Index>(k), 0) = ramp.secant_modulus(1, orientation);
+        first(static_cast<Index>(k), 0) = ramp.points.size() > 1 ? ramp.secant_modulus(1, orientation) : unset;
         const std::string path = group + "ramp/" + name_of(orientation) + "/";
         append_points(results, path, ramp, orientation);
         append_broken(results, path, ramp.broken);
+        append_failure(results, path, ramp.failure);
         std::vector<double> strain;
         std::vector<double> secant;
         const auto stress = [&](const mechanics::StrainPoint& point) {
@@ -178,19 +195,25 @@ void append_ramps(Results& results, const std::vector<Test>& tests) {
     results.push_back(io::scalar(group + "phase", unset, "rad", "not measured on a ramp"));
 }
 
-void append_sweeps(Results& results, const std::vector<Test>& tests) {
-    const auto& amplitudes = tests.front().sweep.amplitudes;
-    results.push_back(io::vector(group + "amplitude", collect(amplitudes, [](const auto& a) { return a.amplitude; }), "1",
+/// @param amplitudes asked for; what was not reached because the network failed is NaN.
+void append_sweeps(Results& results, const std::vector<Test>& tests, const std::vector<double>& amplitudes) {
+    const auto count = static_cast<Index>(amplitudes.size());
+    results.push_back(io::vector(group + "amplitude", Eigen::VectorXd::Map(amplitudes.data(), count), "1",
                                  "of the strain, in the order of the run"));
-    Eigen::MatrixXd storage(static_cast<Index>(tests.size()), static_cast<Index>(amplitudes.size()));
+    Eigen::MatrixXd storage(static_cast<Index>(tests.size()), count);
     Eigen::MatrixXd loss = storage;
     for (std::size_t k = 0; k < tests.size(); ++k) {
         const auto& run = tests[k].sweep.amplitudes;
-        storage.row(static_cast<Index>(k)) = collect(run, [](const auto& a) { return a.storage_modulus; });
-        loss.row(static_cast<Index>(k)) = collect(run, [](const auto& a) { return a.loss_modulus; });
+        const auto column = [&](const auto& value) {
+            Eigen::VectorXd values = Eigen::VectorXd::Constant(count, unset);
+            values.head(static_cast<Index>(run.size())) = collect(run, value);
+            return values;
+        };
+        storage.row(static_cast<Index>(k)) = column([](const auto& a) { return a.storage_modulus; });
+        loss.row(static_cast<Index>(k)) = column([](const auto& a) { return a.loss_modulus; });
         const std::string path = group + "sweep/" + name_of(tests[k].orientation) + "/";
         const auto add = [&](const std::string& name, const auto& value, const std::string& unit, const std::string& description) {
-            results.push_back(io::vector(path + name, collect(run, value), unit, description));
+            results.push_back(io::vector(path + name, column(value), unit, description));
         };
         using Entry = mechanics::AmplitudeResponse;
         add(
@@ -204,6 +227,7 @@ void append_sweeps(Results& results, const std::vector<Test>& tests) {
         add(
             "balance_error", [](const Entry& a) { return a.balance_error; }, "1", "work against energy, over the gross work");
         append_broken(results, path, tests[k].sweep.broken);
+        append_failure(results, path, tests[k].sweep.failure);
     }
     append_modulus(results, "storage_modulus", tests, storage, "fundamental in phase, per amplitude");
     append_modulus(results, "loss_modulus", tests, loss, "fundamental ahead of the strain, per amplitude");
@@ -227,6 +251,10 @@ Table table_of(const std::vector<Test>& tests, bool sweep) {
             table.emplace_back(name + ", strain " + with_unit(points.back().strain, "1"),
                                "secant modulus " + with_unit(test.ramp.secant_modulus(points.size() - 1, test.orientation), "Pa") +
                                    ", " + std::to_string(test.ramp.broken.size()) + " bonds broken");
+        }
+        const auto& failure = sweep ? test.sweep.failure : test.ramp.failure;
+        if (failure) {
+            table.emplace_back(name, sentence_of(*failure));
         }
     }
     return table;
@@ -265,7 +293,7 @@ Findings quasistatic_response(const Arguments& arguments, const Packing& packing
     append_contact_stiffness(found.results, group, packing, bonds, model);
     append_network_keys(found.results, group, packing, bonds, model, progress);
     if (sweep) {
-        append_sweeps(found.results, tests);
+        append_sweeps(found.results, tests, amplitudes);
     } else {
         append_ramps(found.results, tests);
     }

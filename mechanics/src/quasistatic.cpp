@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 namespace coagula::mechanics {
@@ -13,6 +14,8 @@ namespace coagula::mechanics {
 namespace {
 
 using std::numbers::pi;
+
+constexpr double load_lost = 1e-3;  // of the peak stress
 
 void check_model(const ContactModel& model) {
     const auto refuse = [](bool present, const std::string& what) {
@@ -52,6 +55,24 @@ double shear_stress(const StrainPoint& point, const ShearOrientation& orientatio
     return point.stress(orientation.normal, orientation.direction);
 }
 
+/// Where the stress falls for good to next to nothing of its peak.
+std::optional<NetworkFailure> loss_of_load(const RampResponse& ramp, const ShearOrientation& orientation) {
+    double peak = 0;
+    for (const StrainPoint& point : ramp.points) {
+        peak = std::max(peak, std::abs(shear_stress(point, orientation)));
+    }
+    std::size_t first = ramp.points.size();
+    while (first > 0 && std::abs(shear_stress(ramp.points[first - 1], orientation)) < load_lost * peak) {
+        --first;
+    }
+    if (first == ramp.points.size() || ramp.broken.empty()) {
+        return std::nullopt;
+    }
+    const double strain = ramp.points[first].strain;
+    const auto before = [&](const BrokenBond& bond) { return std::abs(bond.strain) <= std::abs(strain); };
+    return NetworkFailure{strain, std::count_if(ramp.broken.begin(), ramp.broken.end(), before), false};
+}
+
 /// Phase of the points of a cycle between its turning points: strain = amplitude sin(phase) on quarter 0, 1 and 2, or 3.
 double phase_of(double strain, double amplitude, int quarter) {
     const double angle = std::asin(std::clamp(strain / amplitude, -1.0, 1.0));
@@ -65,7 +86,7 @@ struct Loop {
 
 Loop run_cycle(StrainPath& path, double amplitude, Index steps) {
     Loop loop{{0.0}, {path.point()}};
-    for (Index k = 1; k <= steps; ++k) {
+    for (Index k = 1; k <= steps && !path.failure(); ++k) {
         const int quarter = static_cast<int>(4 * (k - 1) / steps);
         const double strain = k == steps ? 0.0 : amplitude * std::sin(2 * pi * static_cast<double>(k) / static_cast<double>(steps));
         path.go_to(2 * k == steps ? 0.0 : strain, [&](const StrainPoint& point) {
@@ -137,12 +158,13 @@ RampResponse shear_to(const Packing& packing, const ContactNetwork& bonds, const
     StrainPath path(packing, bonds, model, options.solver, std::abs(options.strain), progress);
     RampResponse response;
     response.points.push_back(path.point());
-    for (Index k = 1; k <= options.steps; ++k) {
+    for (Index k = 1; k <= options.steps && !path.failure(); ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(options.steps);
         path.go_to(k == options.steps ? options.strain : share * options.strain,
                    [&](const StrainPoint& point) { response.points.push_back(point); });
     }
     response.broken = path.broken();
+    response.failure = path.failure() ? path.failure() : loss_of_load(response, options.solver.orientation);
     response.effort = path.effort();
     return response;
 }
@@ -161,14 +183,18 @@ SweepResponse sweep_amplitudes(const Packing& packing, const ContactNetwork& bon
         }
         const std::size_t before = path.broken().size();
         Loop loop;
-        for (Index cycle = 0; cycle < options.cycles; ++cycle) {
+        for (Index cycle = 0; cycle < options.cycles && !path.failure(); ++cycle) {
             loop = run_cycle(path, options.amplitudes[section], options.steps_per_cycle);
+        }
+        if (path.failure()) {
+            break;
         }
         response.amplitudes.push_back(
             analyse(std::move(loop), options.amplitudes[section], options.solver.orientation, packing.cell.volume()));
         response.amplitudes.back().broken = static_cast<Index>(path.broken().size() - before);
     }
     response.broken = path.broken();
+    response.failure = path.failure();
     response.effort = path.effort();
     return response;
 }
@@ -180,6 +206,10 @@ std::vector<double> small_strain_moduli(const Packing& packing, const ContactNet
         RampOptions ramp{.strain = strain, .steps = 1, .solver = options};
         ramp.solver.orientation = orientation;
         const RampResponse response = shear_to(packing, bonds, model, ramp, progress);
+        if (response.failure) {
+            throw std::runtime_error("the network fails at the strain " + to_text(response.failure->strain) +
+                                     " and has no modulus at " + to_text(strain));
+        }
         moduli.push_back(response.secant_modulus(response.points.size() - 1, orientation));
     }
     return moduli;

@@ -1,5 +1,7 @@
 #include "sheared_network.hpp"
 
+#include <coagula/common/percolation.hpp>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -219,16 +221,22 @@ bool ShearedNetwork::commit(const Trial& trial) {
     return touching_contacts() > before;
 }
 
+/// The particles where they are in the cell before a shear by `strain`.
+Packing ShearedNetwork::before_shear(double strain) const {
+    Packing flat{cell_, positions_, radii_};
+    for (Index particle = 0; particle < particles(); ++particle) {
+        flat.positions.col(particle) = cell_.wrap(sheared(positions_.col(particle), -strain));
+    }
+    return flat;
+}
+
 /// Neighbours are looked for in the cell before the shear, whose points and pairs map one to one onto those of the sheared cell:
 /// a strain is the same lattice as one that differs by whole edges. Distances there are at most `stretch` times as large.
 void ShearedNetwork::find_neighbours() {
     const double turn = cell_.lengths()[orientation_.direction] / cell_.lengths()[orientation_.normal];
     const double strain = strain_ - turn * std::nearbyint(strain_ / turn);
     const double stretch = 0.5 * std::abs(strain) + std::sqrt(1 + 0.25 * strain * strain);
-    Packing flat{cell_, positions_, radii_};
-    for (Index particle = 0; particle < particles(); ++particle) {
-        flat.positions.col(particle) = cell_.wrap(sheared(positions_.col(particle), -strain));
-    }
+    const Packing flat = before_shear(strain);
     const ContactNetwork near = find_pairs(flat, 2 * radii_.maxCoeff() * (1 + skin) * stretch);
     if (!contacts_.empty() && groups_.start.empty()) {
         group_contacts();
@@ -345,6 +353,24 @@ Eigen::Matrix3d ShearedNetwork::stress(const Trial& trial) const {
 
 Index ShearedNetwork::intact_bonds() const {
     return std::count_if(contacts_.begin(), contacts_.end(), [](const auto& contact) { return contact.memory.bonded; });
+}
+
+bool ShearedNetwork::spans() const {
+    ContactNetwork network;
+    network.particles = particles();
+    network.ends.resize(2, static_cast<Index>(contacts_.size()));
+    network.branch.resize(3, network.ends.cols());
+    Index count = 0;
+    for (const ShearedContact& contact : contacts_) {
+        if (law_.touches(contact.memory, radii_[contact.first], radii_[contact.second])) {
+            network.ends.col(count) << static_cast<std::int32_t>(contact.first), static_cast<std::int32_t>(contact.second);
+            network.branch.col(count++) = sheared(contact.memory.branch, -strain_);
+        }
+    }
+    network.ends.conservativeResize(2, count);
+    network.branch.conservativeResize(3, count);
+    const std::vector<Cluster> clusters = find_clusters(before_shear(strain_), network);
+    return std::any_of(clusters.begin(), clusters.end(), [&](const Cluster& each) { return each.percolates(orientation_.normal); });
 }
 
 Index ShearedNetwork::touching_contacts() const {

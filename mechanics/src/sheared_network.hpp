@@ -98,6 +98,9 @@ public:
     double least_energy() const { return 1e-20 * static_cast<double>(particles()) * stiffness_ * length_ * length_; }
     Eigen::Matrix3d stress(const Trial& trial) const;
     Index intact_bonds() const;
+    /// Whether bonds and touching contacts reach around the cell along the plate normal. If not, a plane parallel to the plates can
+    /// be bent so that nothing crosses it, and there is no shear stress.
+    bool spans() const;
     Index touching_contacts() const;
 
     /// Makes all springs `factor` times as stiff as at the start, new stiffness unstressed; returns the energy lost [J].
@@ -108,6 +111,7 @@ private:
     Wrench wrench(const ContactMemory& memory, const ContactForce& force, const ShearedContact& contact) const;
     double difference_step(const ContactMemory& memory) const;
     void gather(Trial& trial) const;
+    Packing before_shear(double strain) const;
     void find_neighbours();
     const ShearedContact* find_contact(Index first, Index second, const Eigen::Vector3d& branch) const;
     void group_contacts();

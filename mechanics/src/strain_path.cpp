@@ -50,24 +50,29 @@ void StrainPath::update_point() {
     point_.contacts = network_.touching_contacts();
 }
 
-/// Equilibrium at constant strain from the committed state, whatever was changed in it. Returns what friction dissipated.
+/// Equilibrium at constant strain from the committed state, whatever was changed in it. Returns what friction dissipated. Where the
+/// way is long it goes part by part: neighbours are looked for, and turned contacts begin anew, from where it came to.
 double StrainPath::settle() {
-    const double before = network_.energy(network_.memories());
+    const double start = network_.energy(network_.memories());
     const Motion still = Motion::Zero(6 * network_.particles());
+    double energy = start;
     double dissipated = 0;
     for (int attempt = 0; attempt < most_settlements; ++attempt) {
         progress_.update("coming to rest", 0.0);
         bool found = solver_.find(network_, 0.0, still, rest_) && network_.reach_used(0.0, rest_.motion) <= 1 &&
-                     network_.energy(rest_.memory) + rest_.dissipated <= before + 1e-9 * std::abs(before);
+                     network_.energy(rest_.memory) + rest_.dissipated <= start + 1e-9 * std::abs(start);
         found = found || solver_.minimise(network_, 0.0, still, rest_, progress_);
         const bool came_far = network_.reach_used(0.0, rest_.motion) > 1;
-        if (!found && !came_far) {
+        const double left = network_.energy(rest_.memory) + rest_.dissipated;
+        const bool came_down = left < energy - energy_rounding * start;
+        if (!found && !came_far && !came_down) {
             give_up("at constant strain");
         }
+        energy = left - rest_.dissipated;
         dissipated += rest_.dissipated;
         const bool touched = network_.commit(rest_);
         network_.evaluate(0.0, still, rest_);
-        if (!touched && !came_far) {
+        if (found && !touched && !came_far) {
             return dissipated;
         }
     }
@@ -198,7 +203,7 @@ void StrainPath::break_overloaded(const Record& record) {
     for (;;) {
         const ShearedNetwork::Worst worst = network_.most_loaded(network_.memories());
         if (worst.contact < 0 || worst.ratio < 1 - 1e-14 || (follows && worst.ratio <= 1 + strength_reached)) {
-            return;
+            break;
         }
         const ShearedContact& bond = network_.contacts()[static_cast<std::size_t>(worst.contact)];
         broken_.push_back({bond.bond, network_.strain(), worst.limit, follows, section_});
@@ -211,6 +216,9 @@ void StrainPath::break_overloaded(const Record& record) {
         update_point();
         record(point_);
         follows = true;
+    }
+    if (follows && !network_.spans()) {
+        failure_ = NetworkFailure{network_.strain(), static_cast<Index>(broken_.size())};
     }
 }
 
@@ -254,8 +262,8 @@ void StrainPath::jump(double increment, const Record& record) {
     velocity_.resize(0);
     const StrainPoint before = point_;
     Trial trial;
-    if (!solver_.minimise(network_, increment, Motion::Zero(6 * network_.particles()), trial, progress_) &&
-        network_.reach_used(increment, trial.motion) <= 1) {
+    solver_.minimise(network_, increment, Motion::Zero(6 * network_.particles()), trial, progress_);
+    if (!std::isfinite(trial.rms_residual)) {
         give_up("by steps of strain as small as " + to_text(std::abs(increment)) + ", nor by a fall to lower energy,");
     }
     network_.commit(trial);
@@ -270,7 +278,7 @@ void StrainPath::jump(double increment, const Record& record) {
 
 void StrainPath::go_to(double strain, const Record& record) {
     const double smallest = options_.smallest_step * largest_strain_;
-    while (std::abs(strain - network_.strain()) > 1e-13 * largest_strain_) {
+    while (!failure_ && std::abs(strain - network_.strain()) > 1e-13 * largest_strain_) {
         progress_.update("shearing", std::min(1.0, std::abs(network_.strain()) / largest_strain_));
         const double left = strain - network_.strain();
         const bool last = std::abs(left) <= step_ * (1 + 1e-9);

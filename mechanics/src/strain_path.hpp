@@ -5,6 +5,7 @@
 #include "sheared_network.hpp"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace coagula::mechanics {
@@ -21,6 +22,8 @@ public:
 
     const StrainPoint& point() const { return point_; }
     const std::vector<BrokenBond>& broken() const { return broken_; }
+    /// Where the network ceased to carry load; go_to() then leaves it there.
+    const std::optional<NetworkFailure>& failure() const { return failure_; }
     const SolverEffort& effort() const { return effort_; }
 
     /// Numbers the sections of a sweep in what is recorded of broken bonds.
@@ -59,6 +62,7 @@ private:
     Trial rest_;  ///< the forces of the committed state
     StrainPoint point_;
     std::vector<BrokenBond> broken_;
+    std::optional<NetworkFailure> failure_;
     Index section_ = 0;
     double amplitude_ = 0;
     double peak_stress_ = 0;  ///< largest shear stress so far [Pa], what is expected at this amplitude after a larger one

@@ -52,6 +52,24 @@ class Quasistatic(ProgramTest):
         self.assertEqual(ramp["broken_by_cause"], {"normal": 0, "shear": ramp["broken_bonds"], "bending": 0, "pull_off": 0})
         self.assertEqual(ramp["broken"]["strain"], sorted(ramp["broken"]["strain"]))
 
+    def test_failure_is_a_result(self):
+        """A chain across the cell breaks where sqrt(1 + strain^2) - 1 is its strength over 50 N/m times its length."""
+        self.write("chain.csv", "x [um],y [um],z [um]\n1,1,0.25\n1,1,0.75\n1,1,1.25\n")
+        self.succeed("import", "chain.csv", "--radius", "0.25um", "--box", "5um,5um,1.5um", "-o", "chain.h5")
+        self.write("model.toml", 'normal_strength = "0.5 uN"\n')  # 0.02 of the stiffness times the distance
+        words = ("shear", "chain.h5", "--method", "quasistatic", "-o", "out.h5", "--force", "--orientation", "zx", "--model",
+                 "model.toml")
+        found = self.succeed_json(*words, "--ramp", "0.3")["ramp"]["zx"]
+        self.assertAlmostEqual(found["failure_strain"], math.sqrt(1.02 ** 2 - 1), delta=1e-6)
+        self.assertEqual(found["strain"][-1], found["failure_strain"])
+        self.assertIn(f"{found['broken_bonds']} bonds broken", found["failure"])
+        swept = self.succeed_json(*words, "--amplitudes", "0.1,0.3,0.1")
+        self.assertIsNone(swept["storage_modulus"]["zx"][1])
+        self.assertGreater(swept["storage_modulus"]["zx"][0], 0)
+        self.assertAlmostEqual(swept["sweep"]["zx"]["failure_strain"], found["failure_strain"], delta=1e-6)
+        self.assertRegex(self.succeed(*words, "--ramp", "0.3"), "zx +failed at strain 0.201, [1-3] bonds broken")
+        self.assertIsNone(self.succeed_json(*words, "--ramp", "0.1")["ramp"]["zx"]["failure_strain"])
+
     def test_refused(self):
         def refuse(says, *words):
             self.fail_with(2, "shear", "packing.h5", "--method", "quasistatic", *words, says=says)

@@ -144,6 +144,9 @@ TEST(Quasistatic, ChainBreaksAtItsStrength) {
     EXPECT_NEAR(ramp.points.back().breakage / (0.5 * 50 * std::pow(0.02 * length, 2)), 1, 1e-8);
     EXPECT_EQ(ramp.points.back().stored, 0);
     EXPECT_EQ(ramp.points.back().bonds, 0);
+    ASSERT_TRUE(ramp.failure);
+    EXPECT_EQ(ramp.failure->strain, ramp.broken[0].strain);
+    EXPECT_EQ(ramp.failure->broken, 1);
 }
 
 TEST(Quasistatic, TwoChainsOfUnequalLengthBreakOneAfterTheOther) {
@@ -161,6 +164,54 @@ TEST(Quasistatic, TwoChainsOfUnequalLengthBreakOneAfterTheOther) {
     EXPECT_NEAR(ramp.broken[0].strain, strain_at(2 * 0.99 * radius), 1e-8);
     EXPECT_EQ(ramp.broken[1].bond, 0);
     EXPECT_NEAR(ramp.broken[1].strain, strain_at(length), 1e-8);
+    ASSERT_TRUE(ramp.failure) << "with the second chain, not with the first";
+    EXPECT_EQ(ramp.failure->strain, ramp.broken[1].strain);
+    EXPECT_EQ(ramp.points.back().strain, ramp.failure->strain);
+    EXPECT_EQ(ramp.points.back().stress.norm(), 0);
+}
+
+/// A chain along the plates may hold: it takes no part.
+TEST(Quasistatic, SweepEndsWhereNothingReachesFromPlateToPlate) {
+    const double length = 2 * radius;
+    Columns chains({20 * radius, 20 * radius, length}, {radius, radius});
+    chains.join(0, {0, 0, length});
+    chains.join(1, {20 * radius, 0, 0});
+    ContactModel model = springs();
+    model.normal_strength = 0.02 * 50 * length;
+    const double breaks_at = std::sqrt(1.02 * 1.02 - 1);
+    const auto sweep =
+        sweep_amplitudes(chains.packing, chains.bonds, model, {.amplitudes = {0.05, 0.1, 0.3, 0.1}, .solver = {.orientation = zx}});
+    ASSERT_EQ(sweep.amplitudes.size(), 2U);
+    EXPECT_GT(sweep.amplitudes[1].storage_modulus, 0);
+    ASSERT_TRUE(sweep.failure);
+    EXPECT_NEAR(sweep.failure->strain, breaks_at, 1e-8);
+    EXPECT_TRUE(sweep.failure->parted);
+    EXPECT_EQ(sweep.broken.size(), 1U);
+    EXPECT_THROW(small_strain_moduli(chains.packing, chains.bonds, model, 0.3), std::runtime_error);
+}
+
+/// Springs without moments near the least coordination that holds. Parts are floppy and fall over as soon as they are pressed, on
+/// ways so long that the descent has to begin anew; in the end all is floppy, though chains still reach around the cell.
+TEST(Quasistatic, FloppyNetworkIsFollowedUntilItBearsNothing) {
+    const auto sample = gel(100);
+    ContactModel model = springs();
+    model.normal_strength = 1e-10;
+    const auto ramp =
+        shear_to(sample.packing, sample.contacts, model, {.strain = 2e-3, .steps = 10, .solver = {.orientation = zx}});
+    EXPECT_GT(ramp.broken.size(), 10U);
+    EXPECT_EQ(ramp.points.back().bonds, sample.contacts.size() - static_cast<Index>(ramp.broken.size()));
+    const double imbalance = ramp.points.back().imbalance(ramp.points.front());
+    EXPECT_LT(std::abs(imbalance), 1e-5 * ramp.points.back().work);
+    ASSERT_TRUE(ramp.failure);
+    EXPECT_FALSE(ramp.failure->parted);
+    EXPECT_EQ(ramp.failure->broken, static_cast<Index>(ramp.broken.size()));
+    double peak = 0;
+    for (const StrainPoint& point : ramp.points) {
+        peak = std::max(peak, std::abs(stress_zx(point)));
+    }
+    for (const StrainPoint& point : ramp.points) {
+        EXPECT_TRUE(point.strain <= ramp.failure->strain || std::abs(stress_zx(point)) < 1e-3 * peak) << point.strain;
+    }
 }
 
 /// Columns of touching spheres whose bonds to their neighbours along x resist rolling: the shear of the contact without bond and

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace coagula::mechanics {
@@ -65,6 +66,16 @@ struct SolverEffort {
     Index evaluations = 0;     ///< of all contact forces
 };
 
+/// After bonds broke the network no longer carries load.
+struct NetworkFailure {
+    double strain = 0;
+    Index broken = 0;  ///< bonds so far
+    /// No chain of contacts reaches around the cell along the plate normal, so that nothing can pass a shear stress on: the run
+    /// ends. Otherwise the chains that are left are floppy: from here to the end of a ramp less than a thousandth of the peak
+    /// stress.
+    bool parted = true;
+};
+
 struct RampOptions {
     double strain = unset;  ///< at the end; not 0, negative for the other direction
     Index steps = 50;       ///< >= 1; equally spaced, smaller ones where needed
@@ -74,6 +85,7 @@ struct RampOptions {
 struct RampResponse {
     std::vector<StrainPoint> points;  ///< all equilibria; points at equal strain before and after bonds broke
     std::vector<BrokenBond> broken;
+    std::optional<NetworkFailure> failure;
     SolverEffort effort;
 
     /// (stress - stress at the start) / strain of one point [Pa]. @param orientation that of the run.
@@ -105,6 +117,7 @@ struct AmplitudeResponse {
 struct SweepResponse {
     std::vector<AmplitudeResponse> amplitudes;
     std::vector<BrokenBond> broken;
+    std::optional<NetworkFailure> failure;  ///< the sweep ends there; `amplitudes` are those completed before
     SolverEffort effort;
 };
 
@@ -114,7 +127,7 @@ struct SweepResponse {
 /// residuals preconditioned by the factor (Knoll and Keyes, J. Comput. Phys. 193 (2004) 357). The tangent is that of the contact
 /// law by differences; the shift on the diagonal of the factor does not enter the residual. Where a bond passes its strength the
 /// strain at which it does so is found, the bond breaks there, and the network comes to rest at constant strain, bond after bond,
-/// the most overloaded first.
+/// the most overloaded first. The run ends where the network fails.
 ///
 /// Throws std::invalid_argument for impossible options, an open cell, and models with losses that depend on the rate;
 /// std::runtime_error where no equilibrium is found.
@@ -126,7 +139,8 @@ RampResponse shear_to(const Packing& packing, const ContactNetwork& bonds, const
 SweepResponse sweep_amplitudes(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model,
                                const SweepOptions& options, const Progress& progress = {});
 
-/// Secant shear moduli of the six orientations at one strain [Pa], in the order of all_orientations().
+/// Secant shear moduli of the six orientations at one strain [Pa], in the order of all_orientations(). Throws std::runtime_error
+/// where the network fails before.
 std::vector<double> small_strain_moduli(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model,
                                         double strain, const QuasistaticOptions& options = {}, const Progress& progress = {});
 
