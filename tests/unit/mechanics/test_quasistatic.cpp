@@ -2,9 +2,9 @@
 
 #include "loop_analysis.hpp"
 #include "networks.hpp"
+#include "quasistatic_examples.hpp"
 #include "residual_minimisation.hpp"
 
-#include <coagula/generators/void_expansion.hpp>
 #include <coagula/mechanics/linear.hpp>
 
 #include <omp.h>
@@ -18,55 +18,15 @@
 namespace coagula::mechanics {
 namespace {
 
-using coagula::testing::random_spheres;
 using std::numbers::pi;
 
-constexpr double radius = 0.25e-6;
-constexpr ShearOrientation zx{2, 0};
-
-double stress_zx(const StrainPoint& point) {
-    return point.stress(2, 0);
-}
-
-/// One particle per column, or two, bonded by the given branches.
-struct Columns {
-    Packing packing;
-    ContactNetwork bonds;
-
-    Columns(const Eigen::Vector3d& lengths, const std::vector<double>& radii) {
-        packing.cell = Cell::periodic(lengths);
-        packing.positions.resize(3, static_cast<Index>(radii.size()));
-        packing.radii = Eigen::Map<const Eigen::VectorXd>(radii.data(), packing.positions.cols());
-        for (Index k = 0; k < packing.size(); ++k) {
-            packing.positions.col(k) << 0.1 * lengths.x() + 6 * radius * static_cast<double>(k), 0.5 * lengths.y(),
-                0.1 * lengths.z();
-        }
-        bonds.particles = packing.size();
-    }
-    void join(int particle, const Eigen::Vector3d& branch) { join(particle, particle, branch); }
-    void join(int first, int second, const Eigen::Vector3d& branch) {
-        bonds.ends.conservativeResize(2, bonds.size() + 1);
-        bonds.branch.conservativeResize(3, bonds.ends.cols());
-        bonds.ends.rightCols<1>() << first, second;
-        bonds.branch.rightCols<1>() = branch;
-    }
-};
-
-ContactModel springs(double normal = 100, double shear = 10) {
-    ContactModel model;
-    model.normal_stiffness = normal;
-    model.shear_stiffness = shear;
-    return model;
-}
-
-generators::VoidExpansion gel(Index particles) {
-    generators::VoidExpansionOptions options;
-    options.particles = particles;
-    options.voids = particles / 2;
-    options.volume_fraction = 0.4;
-    options.radii = Eigen::VectorXd::Constant(particles, radius);
-    return generators::expand_voids(options);
-}
+using coagula::testing::random_spheres;
+using testing::Columns;
+using testing::gel;
+using testing::radius;
+using testing::springs;
+using testing::stress_zx;
+using testing::zx;
 
 /// Springs that resist bending, so that no part of the network is floppy.
 ContactModel stiff_joints() {
@@ -168,50 +128,6 @@ TEST(Quasistatic, TwoChainsOfUnequalLengthBreakOneAfterTheOther) {
     EXPECT_EQ(ramp.failure->strain, ramp.broken[1].strain);
     EXPECT_EQ(ramp.points.back().strain, ramp.failure->strain);
     EXPECT_EQ(ramp.points.back().stress.norm(), 0);
-}
-
-/// A chain along the plates may hold: it takes no part.
-TEST(Quasistatic, SweepEndsWhereNothingReachesFromPlateToPlate) {
-    const double length = 2 * radius;
-    Columns chains({20 * radius, 20 * radius, length}, {radius, radius});
-    chains.join(0, {0, 0, length});
-    chains.join(1, {20 * radius, 0, 0});
-    ContactModel model = springs();
-    model.normal_strength = 0.02 * 50 * length;
-    const double breaks_at = std::sqrt(1.02 * 1.02 - 1);
-    const auto sweep =
-        sweep_amplitudes(chains.packing, chains.bonds, model, {.amplitudes = {0.05, 0.1, 0.3, 0.1}, .solver = {.orientation = zx}});
-    ASSERT_EQ(sweep.amplitudes.size(), 2U);
-    EXPECT_GT(sweep.amplitudes[1].storage_modulus, 0);
-    ASSERT_TRUE(sweep.failure);
-    EXPECT_NEAR(sweep.failure->strain, breaks_at, 1e-8);
-    EXPECT_TRUE(sweep.failure->parted);
-    EXPECT_EQ(sweep.broken.size(), 1U);
-    EXPECT_THROW(small_strain_moduli(chains.packing, chains.bonds, model, 0.3), std::runtime_error);
-}
-
-/// Springs without moments near the least coordination that holds. Parts are floppy and fall over as soon as they are pressed, on
-/// ways so long that the descent has to begin anew; in the end all is floppy, though chains still reach around the cell.
-TEST(Quasistatic, FloppyNetworkIsFollowedUntilItBearsNothing) {
-    const auto sample = gel(100);
-    ContactModel model = springs();
-    model.normal_strength = 1e-10;
-    const auto ramp =
-        shear_to(sample.packing, sample.contacts, model, {.strain = 2e-3, .steps = 10, .solver = {.orientation = zx}});
-    EXPECT_GT(ramp.broken.size(), 10U);
-    EXPECT_EQ(ramp.points.back().bonds, sample.contacts.size() - static_cast<Index>(ramp.broken.size()));
-    const double imbalance = ramp.points.back().imbalance(ramp.points.front());
-    EXPECT_LT(std::abs(imbalance), 1e-5 * ramp.points.back().work);
-    ASSERT_TRUE(ramp.failure);
-    EXPECT_FALSE(ramp.failure->parted);
-    EXPECT_EQ(ramp.failure->broken, static_cast<Index>(ramp.broken.size()));
-    double peak = 0;
-    for (const StrainPoint& point : ramp.points) {
-        peak = std::max(peak, std::abs(stress_zx(point)));
-    }
-    for (const StrainPoint& point : ramp.points) {
-        EXPECT_TRUE(point.strain <= ramp.failure->strain || std::abs(stress_zx(point)) < 1e-3 * peak) << point.strain;
-    }
 }
 
 /// Columns of touching spheres whose bonds to their neighbours along x resist rolling: the shear of the contact without bond and
