@@ -4,6 +4,7 @@
 #include "progress_bar.hpp"
 #include "provenance.hpp"
 #include "report.hpp"
+#include "rheometer_run.hpp"
 #include "verbs.hpp"
 
 #include <coagula/common/contact_network.hpp>
@@ -47,6 +48,15 @@ mechanics::StiffnessSeriesOptions series_options(const Arguments& arguments) {
     mechanics::StiffnessSeriesOptions options;
     options.normal_stiffness = Eigen::VectorXd::LinSpaced(arguments.count("steps"), from, to);
     options.stiffness_ratio = arguments.quantity("stiffness-ratio");
+    const std::string& method = arguments.text("method");
+    if (method == "dem") {
+        options.method = mechanics::SeriesMethod::dem;
+        options.rheometer = rheometer_options_of(arguments, {}, {});
+    } else if (method == "quasistatic") {
+        options.method = mechanics::SeriesMethod::quasistatic;
+        options.quasistatic.rest_length =
+            arguments.text("rest-length") == "found" ? mechanics::RestLength::as_found : mechanics::RestLength::touching;
+    }
     return options;
 }
 
@@ -223,7 +233,7 @@ void run(const Arguments& arguments) {
     const Structures structures = measure_all(arguments, progress);
     const auto found = calibrate(structures, measured);
 
-    Json json = {{"method", "linear"},
+    Json json = {{"method", arguments.text("method")},
                  {"bond_tolerance", arguments.quantity("bond-tolerance")},
                  {"stiffness_ratio", arguments.quantity("stiffness-ratio")},
                  {"normal_stiffness", to_json(structures.normal_stiffness())},
@@ -247,11 +257,13 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Verb calibrate_verb() {
-    return {
+    Verb verb{
         .name = "calibrate",
         .summary = "shear modulus against particle stiffness; the stiffness that matches measured moduli",
         .input = "FILE.h5 ...",
-        .options = {quantity("from", "N/m", "smallest normal stiffness of a particle", "50N/m", above(0)),
+        .options = {choice("method", {"linear", "quasistatic", "dem"}, "how each modulus is found, as coagula shear does",
+                           "linear"),
+                    quantity("from", "N/m", "smallest normal stiffness of a particle", "50N/m", above(0)),
                     quantity("to", "N/m", "largest normal stiffness of a particle", "150N/m", above(0)),
                     count("steps", "number of stiffnesses, equally spaced", "5", within(2, 1000)),
                     quantity("stiffness-ratio", "1", "normal over shear stiffness, the same for all", "10", above(0)),
@@ -262,6 +274,12 @@ Verb calibrate_verb() {
         .notes = {"Ratios are relative to the first structure: give the most homogeneous one first for the ratio of the paper.",
                   "Of linear springs in a fixed ratio the modulus is proportional to the stiffness; the lines show how exactly."},
         .many_inputs = true};
+    for (const Option& option : rheometer_options()) {
+        if (option.name != "orientation" && option.name != "checkpoint") {
+            verb.options.insert(verb.options.end() - 2, option);
+        }
+    }
+    return verb;
 }
 
 }  // namespace coagula::tools

@@ -15,26 +15,6 @@ namespace coagula::tools {
 
 namespace {
 
-mechanics::RheometerOptions options_of(const Arguments& arguments, const ContactModel& model,
-                                       const std::vector<double>& frequencies) {
-    if (frequencies.size() > 1) {
-        throw InputError("--method dem runs at one frequency, but " + std::to_string(frequencies.size()) + " are given");
-    }
-    mechanics::RheometerOptions options;
-    options.model = model;
-    options.boundary =
-        arguments.text("boundary") == "plates" ? mechanics::RheometerBoundary::plates : mechanics::RheometerBoundary::periodic;
-    options.amplitude = arguments.quantity("amplitude");
-    options.growing = !arguments.flag("constant-amplitude");
-    options.oscillations = static_cast<int>(arguments.count("oscillations"));
-    options.frequency = frequencies.empty() ? options.frequency : frequencies.front();
-    options.steps_per_oscillation = static_cast<int>(arguments.count("steps-per-oscillation"));
-    options.damping = arguments.quantity("damping");
-    options.density = arguments.quantity("density");
-    options.unstressed_as_found = arguments.text("rest-length") == "found";
-    return options;
-}
-
 /// What must be the same for a run to go on: everything but where results go.
 std::string fingerprint(const Arguments& arguments, const Packing& packing, const ContactModel& model) {
     nlohmann::ordered_json options = arguments.to_json();
@@ -60,9 +40,29 @@ std::vector<Option> rheometer_options() {
             text("checkpoint", "FILE", "dem: state after every oscillation; a run that finds the file goes on from it")};
 }
 
+mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,
+                                                 const std::vector<double>& frequencies) {
+    if (frequencies.size() > 1) {
+        throw InputError("--method dem runs at one frequency, but " + std::to_string(frequencies.size()) + " are given");
+    }
+    mechanics::RheometerOptions options;
+    options.model = model;
+    options.boundary =
+        arguments.text("boundary") == "plates" ? mechanics::RheometerBoundary::plates : mechanics::RheometerBoundary::periodic;
+    options.amplitude = arguments.quantity("amplitude");
+    options.growing = !arguments.flag("constant-amplitude");
+    options.oscillations = static_cast<int>(arguments.count("oscillations"));
+    options.frequency = frequencies.empty() ? options.frequency : frequencies.front();
+    options.steps_per_oscillation = static_cast<int>(arguments.count("steps-per-oscillation"));
+    options.damping = arguments.quantity("damping");
+    options.density = arguments.quantity("density");
+    options.unstressed_as_found = arguments.text("rest-length") == "found";
+    return options;
+}
+
 Findings rheometer_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
                             const ContactModel& model, const std::vector<double>& frequencies, const Progress& progress) {
-    const mechanics::RheometerOptions options = options_of(arguments, model, frequencies);
+    const mechanics::RheometerOptions options = rheometer_options_of(arguments, model, frequencies);
     const auto orientations = parse_orientations(arguments.text("orientation"));
     const std::string path = arguments.text("checkpoint", "");
     const std::string signature = path.empty() ? "" : fingerprint(arguments, packing, model);

@@ -8,6 +8,7 @@
 #include <coagula/common/contact_network.hpp>
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
+#include <coagula/mechanics/rheometer.hpp>
 
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace coagula::tools {
 
 /// What only this method needs.
 std::vector<Option> rheometer_options();
+
+/// What the options say. @param frequencies at most one; empty: 1 Hz.
+mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,
+                                                 const std::vector<double>& frequencies);
 
 /// Runs the test, from --checkpoint if that file is there.
 Findings rheometer_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,

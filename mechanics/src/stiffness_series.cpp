@@ -1,5 +1,6 @@
 #include <coagula/mechanics/stiffness_series.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace coagula::mechanics {
@@ -18,6 +19,30 @@ void check_series(const StiffnessSeriesOptions& options) {
     require_positive(options.stiffness_ratio, "the ratio of normal to shear stiffness");
     require(options.linear.bond_tangents.empty(),
             "a stiffness series varies the stiffness of all particles alike: the bonds must have no tangents of their own");
+}
+
+struct Moduli {
+    double mean;
+    double deviation;
+};
+
+/// By the method asked for, of the six orientations.
+Moduli find_moduli(const Packing& packing, const ContactNetwork& bonds, const StiffnessSeriesOptions& options,
+                   const LinearResponse& linear, const ContactModel& springs, const Progress& progress) {
+    if (options.method == SeriesMethod::quasistatic) {
+        const auto moduli = small_strain_moduli(packing, bonds, springs, options.strain, options.quasistatic, progress);
+        const auto values = Eigen::ArrayXd::Map(moduli.data(), static_cast<Index>(moduli.size()));
+        return {values.mean(), std::sqrt((values - values.mean()).square().mean())};
+    }
+    if (options.method == SeriesMethod::dem) {
+        RheometerOptions rheometer = options.rheometer;
+        rheometer.model = springs;
+        const auto orientations = all_orientations();
+        const RheometerResult result =
+            run_rheometer(packing, bonds, rheometer, {orientations.begin(), orientations.end()}, progress);
+        return {result.storage_modulus(), result.storage_deviation()};
+    }
+    return {linear.mean_shear_modulus(), linear.shear_modulus_deviation()};
 }
 
 }  // namespace
@@ -40,8 +65,10 @@ StiffnessSeries measure_stiffness_series(const Packing& packing, const ContactNe
         linear.normal_stiffness = series.normal_stiffness[k];
         linear.shear_stiffness = series.shear_stiffness[k];
         const LinearResponse response = solve_linear(packing, bonds, linear, part);
-        series.modulus[k] = response.mean_shear_modulus();
-        series.modulus_deviation[k] = response.shear_modulus_deviation();
+        const ContactModel springs{.normal_stiffness = linear.normal_stiffness, .shear_stiffness = linear.shear_stiffness};
+        const Moduli moduli = find_moduli(packing, bonds, options, response, springs, part);
+        series.modulus[k] = moduli.mean;
+        series.modulus_deviation[k] = moduli.deviation;
         series.carries_shear = response.mean_shear_modulus() > 1e-8 * response.mean_affine_modulus();
         series.contacts = response.contacts;
         series.rattlers = response.rattlers;

@@ -41,6 +41,24 @@ class Calibrate(ProgramTest):
         self.assertEqual(found["structures"][0]["storage_modulus"]["std"][1], sheared["storage_modulus"]["std"])
         self.assertEqual(found["structures"][0]["contacts"], sheared["contacts"])
 
+    def test_methods_agree(self):
+        words = ("calibrate", "packing.h5", "--bond-tolerance", "0.1", "--steps", "2")
+        linear, quasistatic, dem = (self.succeed_json(*words, "--method", *method) for method in (
+            ["linear"], ["quasistatic"],
+            ["dem", "--boundary", "periodic", "--amplitude", "1e-5", "--oscillations", "1", "--steps-per-oscillation", "6000"]))
+        for found, tolerance in ((quasistatic, 1e-4), (dem, 0.01)):
+            for k in range(2):
+                for value in ("mean", "std"):
+                    moduli = [series["structures"][0]["storage_modulus"][value][k] for series in (found, linear)]
+                    self.assertAlmostEqual(moduli[0] / moduli[1], 1, delta=tolerance if value == "mean" else 20 * tolerance)
+            self.assertNotEqual(found["structures"][0]["storage_modulus"], linear["structures"][0]["storage_modulus"])
+        self.assertEqual([found["method"] for found in (linear, quasistatic, dem)], ["linear", "quasistatic", "dem"])
+        sheared = self.succeed_json("shear", "packing.h5", "--bond-tolerance", "0.1", "--method", "dem", "--boundary", "periodic",
+                                    "--amplitude", "1e-5", "--oscillations", "1", "--steps-per-oscillation", "6000",
+                                    "--normal-stiffness", "50N/m", "--shear-stiffness", "5N/m", "-o", "dem.h5")
+        self.assertEqual(dem["structures"][0]["storage_modulus"]["mean"][0], sheared["storage_modulus"]["mean"])
+        self.assertEqual(dem["structures"][0]["storage_modulus"]["std"][0], sheared["storage_modulus"]["std"])
+
     def test_simple_cubic_lattice_in_closed_form(self):
         """A strain gamma slides the bonds along x and y by gamma d / 2 each, and none rotates: G = (k_s / 2) / (2 d)."""
         found = self.succeed_json("calibrate", "cube.h5", "--steps", "2")
@@ -83,7 +101,9 @@ class Calibrate(ProgramTest):
         for words, says in ((["--from", "150", "--to", "50"], "upwards"), (["--from", "0"], "--from"), (["--steps", "1"], "--steps"),
                             (["--stiffness-ratio", "0"], "--stiffness-ratio"), (["--measured", "1MPa,2MPa"], "--measured"),
                             (["--measured", "1s"], "--measured"), (["--measured", "-1"], "--measured"), (["absent.h5"], "absent.h5"),
-                            (["-o", "packing.h5"], "packing.h5")):
+                            (["-o", "packing.h5"], "packing.h5"),
+                            (["--method", "dem", "--steps-per-oscillation", "150"], "steps per oscillation"),
+                            (["--method", "static"], "--method")):
             with self.subTest(words=words):
                 self.fail_with(2, "calibrate", "packing.h5", *words, says=says)
 

@@ -2,17 +2,29 @@
 #pragma once
 
 #include <coagula/mechanics/linear.hpp>
+#include <coagula/mechanics/quasistatic.hpp>
+#include <coagula/mechanics/rheometer.hpp>
 #include <coagula/mechanics/straight_line.hpp>
 
 #include <Eigen/Core>
 
 namespace coagula::mechanics {
 
+enum class SeriesMethod {
+    linear,       ///< solve_linear
+    quasistatic,  ///< secant moduli of equilibria at a small strain, periodic cells only
+    dem           ///< run_rheometer, G' of the last oscillation, periodic cells only
+};
+
 struct StiffnessSeriesOptions {
     Eigen::VectorXd normal_stiffness;  ///< k_n of a particle [N/m], at least two values, rising, > 0
     double stiffness_ratio = 10;       ///< k_n / k_s, the same for all, > 0
     LinearOptions linear = {};         ///< how each modulus is computed; its two stiffnesses are those of the series, and
                                        ///< bond_tangents must be empty
+    SeriesMethod method = SeriesMethod::linear;
+    double strain = 1e-6;  ///< of the quasi-static method, not 0
+    QuasistaticOptions quasistatic = {};
+    RheometerOptions rheometer = {};  ///< its contact model is that of the series
 };
 
 /// The moduli of one structure (Schenker et al. 2012, fig. 5).
@@ -23,16 +35,16 @@ struct StiffnessSeries {
     Eigen::VectorXd modulus_deviation;  ///< standard deviation over the orientations [Pa]
     StraightLine line;                  ///< of the modulus against k_n: slope [1/m], intercept [Pa]
     StraightLine line_through_origin;
-    bool carries_shear = false;  ///< the modulus exceeds 1e-8 of the affine one; what is less is rounding
+    bool carries_shear = false;  ///< the linear modulus exceeds 1e-8 of the affine one; what is less is rounding
     Index contacts = 0;
     Index rattlers = 0;
 };
 
-/// Solves for the response at every stiffness by itself. For springs whose stiffnesses keep their ratio the displacements are the
-/// same at every k_n, so the modulus is proportional to k_n; a departure from the line through the origin is the error of the
-/// solution.
+/// Finds the response at every stiffness by itself, with linear springs. For springs whose stiffnesses keep their ratio the
+/// displacements are the same at every k_n, so the modulus is proportional to k_n; a departure from the line through the origin is
+/// the error of the solution.
 ///
-/// Throws std::invalid_argument for an impossible series and as solve_linear does.
+/// Throws std::invalid_argument for an impossible series, and as solve_linear, small_strain_moduli and run_rheometer do.
 StiffnessSeries measure_stiffness_series(const Packing& packing, const ContactNetwork& bonds, const StiffnessSeriesOptions& options,
                                          const Progress& progress = {});
 
