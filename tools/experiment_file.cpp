@@ -321,6 +321,32 @@ std::vector<const io::PlainTable*> ExperimentReader::chosen_tables(TomlKeys& key
     return waveforms.empty() ? std::vector{&section} : waveforms;
 }
 
+/// What all tables of one [[measurement]] share.
+struct TableSetting {
+    std::string sample;
+    int run_order;
+    bool rough_plates;
+    double fluid_viscosity;
+
+    void give_to(diagnose::Measurement& measurement) const {
+        measurement.sample = sample;
+        measurement.run_order = run_order;
+        measurement.rough_plates = rough_plates;
+        measurement.fluid_viscosity = fluid_viscosity;
+    }
+};
+
+TableSetting read_setting(TomlKeys& keys, std::size_t number) {
+    TableSetting setting{.sample = keys.text("sample").value_or("measurement " + std::to_string(number)),
+                         .run_order = small_count(keys, "run_order", 0),
+                         .rough_plates = keys.flag("rough_plates"),
+                         .fluid_viscosity = keys.quantity("fluid_viscosity", "Pa.s").value_or(unset)};
+    if (setting.fluid_viscosity <= 0) {
+        keys.fail("fluid_viscosity", "must be > 0 Pa.s");
+    }
+    return setting;
+}
+
 void ExperimentReader::read_measurement(const toml::table& table, std::size_t number) {
     TomlKeys keys(table, path_ + ", measurement " + std::to_string(number));
     const std::string kind_name = keys.required_text("kind");
@@ -332,13 +358,11 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         }
         keys.fail("kind", "'" + kind_name + "' is none of " + names);
     }
-    const std::string sample = keys.text("sample").value_or("measurement " + std::to_string(number));
-    const int run_order = small_count(keys, "run_order", 0);
+    const TableSetting setting = read_setting(keys, number);
     if (table.contains("planned")) {
         diagnose::Measurement measurement = planned_table(keys, *kind, number);
         keys.refuse_other_keys();
-        measurement.sample = sample;
-        measurement.run_order = run_order;
+        setting.give_to(measurement);
         result_.experiment.measurements.push_back(std::move(measurement));
         return;
     }
@@ -353,8 +377,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         const std::string label = name + (several ? ", section " + std::to_string(chosen->section) : "") +
                                   (chosen->point > 0 ? ", point " + std::to_string(chosen->point) : "");
         diagnose::Measurement measurement = to_measurement(file, *chosen, *kind, label, rules);
-        measurement.sample = sample;
-        measurement.run_order = run_order;
+        setting.give_to(measurement);
         select(measurement, selection);
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +

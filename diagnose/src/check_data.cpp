@@ -30,7 +30,11 @@ std::string part_of(std::size_t count, std::size_t all) {
 class Checker {
 public:
     Checker(const Measurement& measurement, const DataCheckOptions& options)
-        : options_(options), rule_(rule_of(measurement.kind)), checked_{measurement, {}, {}} {}
+        : options_(options), rule_(rule_of(measurement.kind)), checked_{measurement, {}, {}} {
+        if (std::isfinite(measurement.fluid_viscosity)) {
+            rule_.required = {"loss_modulus"};  // a Newtonian fluid stores nothing
+        }
+    }
 
     CheckedMeasurement run() {
         check_columns();
@@ -96,6 +100,10 @@ void Checker::check_columns() {
         if (find_column(table(), name) == nullptr) {
             complain("there is no column '" + std::string(name) + "', which a " + kind + " needs");
         }
+    }
+    const bool has_frequency = find_column(table(), "angular_frequency") != nullptr || find_column(table(), "frequency") != nullptr;
+    if (std::isfinite(table().fluid_viscosity) && !has_frequency) {
+        complain("a Newtonian fluid needs 'angular_frequency' or 'frequency', with which its loss modulus grows");
     }
     for (const Column& column : table().columns) {
         const Quantity* quantity = find_quantity(column.name);

@@ -54,9 +54,20 @@ std::vector<const Mechanism*> possible_causes(const Experiment& experiment, cons
     return possible;
 }
 
-/// Prior weight of a hypothesis over that of a single mechanism, as a logarithm.
-double log_prior_of(const Fit& fit, const DiagnosisOptions& options) {
-    return fit.hypothesis.size() > 1 ? std::log(options.pair_prior) : 0.0;
+/// Logarithms of prior weights over that of a single mechanism.
+struct Priors {
+    double pair;  ///< of one pair
+    double none;
+};
+
+Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms) {
+    // n mechanisms make n (n - 1) / 2 pairs.
+    const double pairs = std::max(1.0, (static_cast<double>(mechanisms) - 1) / 2);
+    return {.pair = std::log(options.pair_prior / pairs), .none = std::log(options.none_prior)};
+}
+
+double log_prior_of(const Fit& fit, const Priors& priors) {
+    return fit.hypothesis.size() > 1 ? priors.pair : 0.0;
 }
 
 /// What was compared.
@@ -66,9 +77,9 @@ struct Comparison {
     double p_value = 1;      ///< of the test, applied to the winner
 };
 
-std::size_t most_probable_cause(const std::vector<Fit>& fits, const DiagnosisOptions& options) {
+std::size_t most_probable_cause(const std::vector<Fit>& fits, const Priors& priors) {
     const auto best = std::max_element(fits.begin() + 1, fits.end(), [&](const Fit& a, const Fit& b) {
-        return a.log_evidence + log_prior_of(a, options) < b.log_evidence + log_prior_of(b, options);
+        return a.log_evidence + log_prior_of(a, priors) < b.log_evidence + log_prior_of(b, priors);
     });
     return static_cast<std::size_t>(best - fits.begin());
 }
@@ -77,13 +88,14 @@ std::size_t most_probable_cause(const std::vector<Fit>& fits, const DiagnosisOpt
 /// depart from it.
 Comparison compare(const Fit& base, const std::vector<const Mechanism*>& possible, const Inference& inference,
                    const DiagnosisOptions& options, const Progress& progress) {
+    const Priors priors = priors_of(options, possible.size());
     Comparison comparison{.fits = {base}};
     std::vector<Fit>& fits = comparison.fits;
     for (const Mechanism* mechanism : possible) {
         progress.update("attributing", 0.5, mechanism->name);
         fits.push_back(inference.fit({mechanism}));
     }
-    const std::size_t best = most_probable_cause(fits, options);
+    const std::size_t best = most_probable_cause(fits, priors);
     const Detection rest = detect(inference, fits[best], options.seed, options.bootstrap);
     std::size_t pairs = 0;
     for (const MisfitStatistic& statistic : rest.statistics) {
@@ -95,7 +107,7 @@ Comparison compare(const Fit& base, const std::vector<const Mechanism*>& possibl
             ++pairs;
         }
     }
-    comparison.winner = most_probable_cause(fits, options);
+    comparison.winner = most_probable_cause(fits, priors);
     comparison.p_value = comparison.winner == best
                              ? rest.p_value
                              : detect(inference, fits[comparison.winner], options.seed, options.bootstrap).p_value;
@@ -109,12 +121,12 @@ double most_evidence_against(double p_value) {
 }
 
 /// Posterior of each fit and, last, of "none of the catalogue".
-std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidence, const DiagnosisOptions& options) {
+std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidence, const Priors& priors) {
     std::vector<double> logarithms;
     for (const Fit& fit : fits) {
-        logarithms.push_back(fit.log_evidence + log_prior_of(fit, options));
+        logarithms.push_back(fit.log_evidence + log_prior_of(fit, priors));
     }
-    logarithms.push_back(none_evidence + std::log(options.none_prior));
+    logarithms.push_back(none_evidence + priors.none);
     return probabilities_of(std::move(logarithms));
 }
 
@@ -165,8 +177,8 @@ bool contains(const std::string& pair, const std::string& member) {
     return pair.starts_with(member + joint) || pair.ends_with(joint + member);
 }
 
-void rank_causes(const std::vector<Fit>& fits, double none_evidence, const DiagnosisOptions& options, Diagnosis& diagnosis) {
-    const std::vector<double> posterior = posteriors(fits, none_evidence, options);
+void rank_causes(const std::vector<Fit>& fits, double none_evidence, const Priors& priors, Diagnosis& diagnosis) {
+    const std::vector<double> posterior = posteriors(fits, none_evidence, priors);
     for (std::size_t k = 0; k < fits.size(); ++k) {
         diagnosis.causes.push_back(cause_of(fits[k]));
         diagnosis.causes.back().posterior = posterior[k];
@@ -198,7 +210,7 @@ const Fit& fit_named(const std::vector<Fit>& fits, const std::string& name) {
 
 /// What to measure next, to tell the causes of the credible set apart.
 std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Fit>& fits, const Experiment& experiment,
-                                    Simulator& simulator, const DiagnosisOptions& options) {
+                                    const DataSet& data, Simulator& simulator, std::uint64_t seed) {
     std::vector<Fit> candidates;
     std::vector<double> weights;
     for (const Cause& cause : diagnosis.causes) {
@@ -209,14 +221,14 @@ std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vecto
             weights.push_back(cause.posterior);
         }
     }
-    return propose(experiment, simulator, candidates, weights, options);
+    return propose(experiment, data, simulator, candidates, weights, seed);
 }
 
 Verdict verdict_of(const Diagnosis& diagnosis, double level) {
     if (!diagnosis.detected) {
         return Verdict::no_discrepancy;
     }
-    if (diagnosis.causes.front().name == none_name || diagnosis.extended_p_value < level / 5) {
+    if (diagnosis.causes.front().name == none_name || diagnosis.extended_p_value <= level) {
         return Verdict::none_of_catalogue;
     }
     return diagnosis.credible_set.size() == 1 ? Verdict::named : Verdict::tied;
@@ -262,13 +274,13 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     // A smooth correction also takes up noise that is larger than stated; the test knows how uncertain the noise is.
     const double none = std::min(flexible_evidence(data, forward, base_prediction),
                                  winner.log_evidence + most_evidence_against(diagnosis.extended_p_value));
-    rank_causes(comparison.fits, none, options, diagnosis);
+    rank_causes(comparison.fits, none, priors_of(options, possible.size()), diagnosis);
     diagnosis.verdict = verdict_of(diagnosis, options.level);
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, held_out, experiment, simulator, winner.hypothesis, options.seed);
     predict_rows(data, inference, base.settings, winner.settings, held_out, diagnosis);
     if (diagnosis.verdict == Verdict::tied) {
-        diagnosis.proposals = proposals_for(diagnosis, comparison.fits, experiment, simulator, options);
+        diagnosis.proposals = proposals_for(diagnosis, comparison.fits, experiment, data, simulator, options.seed);
     }
     return diagnosis;
 }

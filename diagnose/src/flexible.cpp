@@ -14,8 +14,8 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr std::array amplitudes{0.03, 0.1, 0.3, 1.0};
-constexpr std::array lengths{0.15, 0.4, 1.0};
+constexpr std::array amplitudes{0.03, 0.15, 0.75};
+constexpr std::array lengths{0.2, 0.7};
 
 /// Ranks 0 .. 1 of a coordinate; 0 where it is unknown or does not vary.
 Eigen::VectorXd ranks(const std::vector<Observation>& observations, Coordinate coordinate) {
@@ -56,29 +56,76 @@ double log_normal_density(const Eigen::VectorXd& residual, const Eigen::LLT<Eige
     return -0.5 * white.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
 }
 
-}  // namespace
-
-Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, double amplitude, double length) {
-    const Eigen::VectorXd level = levels(observations);
-    std::vector<Eigen::VectorXd> coordinates;
-    for (const Coordinate coordinate : all_coordinates()) {
-        coordinates.push_back(ranks(observations, coordinate));
+/// Correlation by the distance in these ranks.
+Eigen::MatrixXd correlation(const std::vector<Eigen::VectorXd>& ranks, double length) {
+    const Index count = ranks.front().size();
+    Eigen::ArrayXXd squared = Eigen::ArrayXXd::Zero(count, count);
+    for (const Eigen::VectorXd& rank : ranks) {
+        squared += (rank.replicate(1, count) - rank.transpose().replicate(count, 1)).array().square();
     }
-    const Index count = level.size();
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
-    for (Index i = 0; i < count; ++i) {
-        for (Index j = 0; j < count; ++j) {
-            if (observations[static_cast<std::size_t>(i)].loss == observations[static_cast<std::size_t>(j)].loss) {
-                double squared = 0;
-                for (const Eigen::VectorXd& rank : coordinates) {
-                    squared += (rank[i] - rank[j]) * (rank[i] - rank[j]);
-                }
-                covariance(i, j) = amplitude * amplitude * level[i] * level[j] * std::exp(-0.5 * squared / (length * length));
-            }
+    return (-0.5 / (length * length) * squared).exp();
+}
+
+/// What a correction is of.
+enum class Corrected { storage, loss, both };
+
+/// Products of the levels of two observations of one observable, where that is corrected.
+Eigen::MatrixXd products(const std::vector<Observation>& observations, Corrected corrected) {
+    const Eigen::VectorXd level = levels(observations);
+    Eigen::MatrixXd product = level * level.transpose();
+    const auto takes_part = [&](const Observation& one) {
+        return corrected == Corrected::both || one.loss == (corrected == Corrected::loss);
+    };
+    for (Index i = 0; i < product.rows(); ++i) {
+        for (Index j = 0; j < product.cols(); ++j) {
+            const Observation& one = observations[static_cast<std::size_t>(i)];
+            const Observation& other = observations[static_cast<std::size_t>(j)];
+            product(i, j) *= one.loss == other.loss && takes_part(one) ? 1.0 : 0.0;
         }
     }
-    return covariance;
+    return product;
 }
+
+/// Covariances of smooth corrections of unit size, in groups that are equally probable: along one coordinate, the sum of two of
+/// these, and along all coordinates together; each of one observable or of both.
+std::vector<std::vector<Eigen::MatrixXd>> smooth_covariances(const std::vector<Observation>& observations, double length) {
+    std::vector<Eigen::VectorXd> varying;
+    std::vector<Eigen::MatrixXd> along;
+    for (const Coordinate coordinate : all_coordinates()) {
+        const Eigen::VectorXd rank = ranks(observations, coordinate);
+        if (rank.maxCoeff() > 0) {
+            varying.push_back(rank);
+            along.push_back(correlation({rank}, length));
+        }
+    }
+    std::vector<std::vector<Eigen::MatrixXd>> groups;
+    for (const Corrected corrected : {Corrected::storage, Corrected::loss, Corrected::both}) {
+        const Eigen::MatrixXd product = products(observations, corrected);
+        if (product.isZero()) {
+            continue;
+        }
+        std::vector<Eigen::MatrixXd> one;
+        std::vector<Eigen::MatrixXd> two;
+        for (std::size_t k = 0; k < along.size(); ++k) {
+            one.push_back(product.cwiseProduct(along[k]));
+            for (std::size_t other = 0; other < k; ++other) {
+                two.push_back(0.5 * (one[k] + one[other]));
+            }
+        }
+        groups.push_back(one.empty() ? std::vector{product} : one);  // nothing but a constant
+        if (!two.empty()) {
+            groups.push_back(two);
+            groups.push_back({product.cwiseProduct(correlation(varying, length))});
+        }
+    }
+    return groups;
+}
+
+double log_mean(const std::vector<double>& logarithms) {
+    return log_sum(logarithms) - std::log(static_cast<double>(logarithms.size()));
+}
+
+}  // namespace
 
 double flexible_evidence(const DataSet& data, const Forward& forward, const Eigen::VectorXd& base) {
     // In proportion to the base model and not to the data: data that grow by orders of magnitude would be one constant over the
@@ -88,14 +135,19 @@ double flexible_evidence(const DataSet& data, const Forward& forward, const Eige
         expected[k].value = base[static_cast<Index>(k)];
     }
     std::vector<double> evidence;
-    for (const double amplitude : amplitudes) {
-        for (const double length : lengths) {
-            const Likelihood likelihood(data, smooth_covariance(expected, amplitude, length));
-            const Inference inference(forward, likelihood);
-            evidence.push_back(inference.fit({}).log_evidence);
+    for (const double length : lengths) {
+        for (const std::vector<Eigen::MatrixXd>& group : smooth_covariances(expected, length)) {
+            std::vector<double> members;
+            for (const Eigen::MatrixXd& unit : group) {
+                for (const double amplitude : amplitudes) {
+                    const Likelihood likelihood(data, amplitude * amplitude * unit);
+                    members.push_back(Inference(forward, likelihood).fit({}).log_evidence);
+                }
+            }
+            evidence.push_back(log_mean(members));
         }
     }
-    return log_sum(evidence) - std::log(static_cast<double>(evidence.size()));
+    return log_mean(evidence);
 }
 
 Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& base, const std::vector<Index>& known) {
@@ -103,14 +155,20 @@ Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& 
     const Eigen::MatrixXd noise = data.noise.covariance();
     double best = -1e300;
     Eigen::VectorXd prediction = base;
-    for (const double amplitude : amplitudes) {
-        for (const double length : lengths) {
-            const Eigen::MatrixXd smooth = smooth_covariance(data.observations, amplitude, length);
-            const Eigen::LLT<Eigen::MatrixXd> factor((noise + smooth)(known, known));
-            const double density = log_normal_density(residual, factor);
-            if (density > best) {
-                best = density;
-                prediction = base + smooth(Eigen::all, known) * factor.solve(residual);
+    const auto consider = [&](const Eigen::MatrixXd& smooth) {
+        const Eigen::LLT<Eigen::MatrixXd> factor((noise + smooth)(known, known));
+        const double density = log_normal_density(residual, factor);
+        if (density > best) {
+            best = density;
+            prediction = base + smooth(Eigen::all, known) * factor.solve(residual);
+        }
+    };
+    for (const double length : lengths) {
+        for (const std::vector<Eigen::MatrixXd>& group : smooth_covariances(data.observations, length)) {
+            for (const Eigen::MatrixXd& unit : group) {
+                for (const double amplitude : amplitudes) {
+                    consider(amplitude * amplitude * unit);
+                }
             }
         }
     }

@@ -1,4 +1,6 @@
-// The base model with a smooth correction, a Gaussian process along the coordinates: what stands for "none of the catalogue".
+// The base model with a smooth correction: what stands for "none of the catalogue". It is a Gaussian process of each observable
+// along one coordinate, the sum of two of these, or one along all coordinates together, in proportion to |G*|; a correlation length
+// is a part of the range of a coordinate, which is taken as a rank.
 #pragma once
 
 #include "hypothesis.hpp"
@@ -7,12 +9,8 @@
 
 namespace coagula::diagnose {
 
-/// Covariance of a smooth multiplicative correction of size `amplitude` and correlation length `length` (part of the range of each
-/// coordinate, which is taken as a rank) of each observable, in proportion to |G*| of the observations' values.
-Eigen::MatrixXd smooth_covariance(const std::vector<Observation>& observations, double amplitude, double length);
-
-/// Log evidence of the base model with that correction, averaged over amplitudes and lengths; the same normalisation as
-/// Fit::log_evidence.
+/// Log evidence of the base model with that correction, averaged over coordinates, amplitudes and lengths; the same normalisation
+/// as Fit::log_evidence.
 /// @param base prediction of the base model fitted to the data.
 double flexible_evidence(const DataSet& data, const Forward& forward, const Eigen::VectorXd& base);
 

@@ -96,6 +96,8 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
             .gap = std::isnan(gap) ? experiment.instrument.gap : gap,
             .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
             .errors = column.errors,
+            .rough_plates = table.rough_plates,
+            .fluid_viscosity = table.fluid_viscosity,
             .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
             .heterogeneity = cell(table, "heterogeneity", row),
             .coordination = cell(table, "coordination", row),
@@ -154,7 +156,8 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
         }
         for (const bool loss : {false, true}) {
             const Column* column = find_column(table, loss ? "loss_modulus" : "storage_modulus");
-            for (std::size_t row = 0; column != nullptr && row < table.rows(); ++row) {
+            const bool none = !loss && std::isfinite(table.fluid_viscosity);  // a Newtonian fluid stores nothing
+            for (std::size_t row = 0; column != nullptr && !none && row < table.rows(); ++row) {
                 if (!std::isfinite(column->values[row])) {
                     continue;
                 }
@@ -189,7 +192,8 @@ Complex Forward::seen_by_instrument(const Settings& settings, const Observation&
     if (settings.gap_error != 0 && std::isfinite(observation.gap)) {
         modulus *= observation.gap / (observation.gap + settings.gap_error);
     }
-    if (settings.slip > 0 && std::isfinite(observation.gap)) {
+    const bool sticks = observation.rough_plates || std::isfinite(observation.fluid_viscosity);
+    if (settings.slip > 0 && !sticks && std::isfinite(observation.gap)) {
         modulus /= 1.0 + 2.0 * settings.slip * modulus / observation.gap;
     }
     const double factor = tool_factor(experiment_.instrument, observation.gap, observation.plate_radius);
@@ -255,7 +259,10 @@ Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
             predicted[static_cast<Index>(k)] = simulator_.neighbours(settings, observation.row, exact);
             continue;
         }
-        const Complex modulus = seen_by_instrument(settings, observation, settings.normal_stiffness * last_material_[k]);
+        const Complex material = std::isfinite(observation.fluid_viscosity)
+                                     ? Complex(0, observation.fluid_viscosity * observation.angular_frequency)
+                                     : settings.normal_stiffness * last_material_[k];
+        const Complex modulus = seen_by_instrument(settings, observation, material);
         predicted[static_cast<Index>(k)] = observation.loss ? modulus.imag() : modulus.real();
     }
     return predicted;

@@ -29,6 +29,8 @@ struct Observation {
     double gap;                ///< [m]
     double plate_radius;       ///< [m]
     ErrorLaw errors = {};
+    bool rough_plates = false;
+    double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]
     // Of a structure series.
     std::size_t structures = 0;  ///< group that stands for the row; 0: all structures
     double heterogeneity = unset;

@@ -1,10 +1,11 @@
 #include "proposal.hpp"
 
+#include "candidate_measurements.hpp"
 #include "weights.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -12,119 +13,9 @@ namespace coagula::diagnose {
 
 namespace {
 
-using std::numbers::pi;
-
 constexpr int draws_per_cause = 16;
 constexpr int data_per_draw = 4;
 constexpr double certain = 0.95;
-
-/// A measurement that could be made.
-struct Candidate {
-    std::string what;
-    Experiment experiment;
-};
-
-std::vector<double> logarithmic(double from, double to, int count) {
-    std::vector<double> values;
-    for (int k = 0; k < count; ++k) {
-        values.push_back(from * std::pow(to / from, static_cast<double>(k) / (count - 1)));
-    }
-    return values;
-}
-
-/// A table of moduli with these axes; the moduli are filled in later.
-Measurement table(MeasurementKind kind, const std::vector<double>& strain, const std::vector<double>& frequency,
-                  const std::vector<double>& time, double gap, int run_order) {
-    Measurement made;
-    made.kind = kind;
-    made.label = "proposed";
-    made.sample = "proposed";
-    made.run_order = run_order;
-    const std::vector<double> ones(strain.size(), 1.0);
-    made.columns = {{"strain", "1", strain},
-                    {"angular_frequency", "rad/s", frequency},
-                    {"time", "s", time},
-                    {"storage_modulus", "Pa", ones},
-                    {"loss_modulus", "Pa", ones}};
-    if (std::isfinite(gap)) {
-        made.columns.push_back({"gap", "m", std::vector<double>(strain.size(), gap)});
-    }
-    return made;
-}
-
-/// The same settings as in the experiment: its smallest strain, its typical frequency, its longest time.
-struct Habits {
-    double small_strain = 1e-4;
-    double large_strain = 0.1;
-    double angular_frequency = 2 * pi;
-    double duration = 600;
-};
-
-Habits habits_of(const std::vector<Observation>& observations) {
-    Habits habits;
-    double smallest = 1e300;
-    double largest = 0;
-    double longest = 0;
-    for (const Observation& one : observations) {
-        if (std::isfinite(one.strain)) {
-            smallest = std::min(smallest, one.strain);
-            largest = std::max(largest, one.strain);
-        }
-        if (std::isfinite(one.angular_frequency)) {
-            habits.angular_frequency = one.angular_frequency;
-        }
-        longest = std::max(longest, one.time);
-    }
-    habits.small_strain = smallest < 1e300 ? smallest : habits.small_strain;
-    habits.large_strain = std::max(largest, 10 * habits.small_strain);
-    habits.duration = std::max(longest, habits.duration);
-    return habits;
-}
-
-std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations) {
-    const Habits habits = habits_of(observations);
-    const std::vector<double> same(20, habits.small_strain);
-    const std::vector<double> frequency(20, habits.angular_frequency);
-    std::vector<double> time(20);
-    for (std::size_t k = 0; k < time.size(); ++k) {
-        time[k] = habits.duration * static_cast<double>(k + 1) / 20;
-    }
-    const std::vector<double> up = logarithmic(habits.small_strain, habits.large_strain, 20);
-    std::vector<double> up_and_down = logarithmic(habits.small_strain, habits.large_strain, 10);
-    up_and_down.insert(up_and_down.end(), up_and_down.rbegin(), up_and_down.rend());
-    const double gap = experiment.instrument.gap;
-
-    std::vector<Candidate> candidates;
-    const auto add = [&](const std::string& what, const Measurement& measurement, const auto& change) {
-        Candidate candidate{what, experiment};
-        candidate.experiment.measurements = {measurement};
-        change(candidate.experiment.instrument);
-        candidates.push_back(std::move(candidate));
-    };
-    const auto as_it_is = [](Instrument&) {};
-    add("a run at constant small strain and frequency over the same time",
-        table(MeasurementKind::time_sweep, same, frequency, time, gap, 0), as_it_is);
-    add("a frequency sweep over four decades at the smallest strain",
-        table(MeasurementKind::frequency_sweep, same,
-              logarithmic(0.01 * habits.angular_frequency, 100 * habits.angular_frequency, 20), time, gap, 0),
-        as_it_is);
-    add("an amplitude sweep on a fresh sample", table(MeasurementKind::amplitude_sweep, up, frequency, time, gap, 0), as_it_is);
-    add("an amplitude sweep up and down again", table(MeasurementKind::amplitude_sweep, up_and_down, frequency, time, gap, 0),
-        as_it_is);
-    if (std::isfinite(gap)) {
-        for (const double factor : {0.5, 2.0}) {
-            add(factor < 1 ? "the same at half the gap" : "the same at twice the gap",
-                table(MeasurementKind::frequency_sweep, same,
-                      logarithmic(0.1 * habits.angular_frequency, 10 * habits.angular_frequency, 20), time, factor * gap, 0),
-                as_it_is);
-        }
-        add("the same with a plate of half the radius",
-            table(MeasurementKind::frequency_sweep, same,
-                  logarithmic(0.1 * habits.angular_frequency, 10 * habits.angular_frequency, 20), time, gap, 0),
-            [](Instrument& instrument) { instrument.plate_radius *= 0.5; });
-    }
-    return candidates;
-}
 
 Settings settings_of(const Fit& fit, Index draw) {
     Settings settings = fit.settings;
@@ -136,17 +27,76 @@ Settings settings_of(const Fit& fit, Index draw) {
     return settings;
 }
 
+/// What is known beforehand of the errors of a measurement: those of the data so far.
+struct ExpectedErrors {
+    double relative = 0;  ///< of a modulus
+    double phase = 0;     ///< of G'' over |G*| [rad]
+    double sample = 0;    ///< of the level of a fresh sample
+};
+
+double median(std::vector<double> values) {
+    if (values.empty()) {
+        return 0;
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// |G*| at each observation.
+Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli) {
+    std::map<std::pair<std::size_t, std::size_t>, double> squares;
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        squares[{observations[k].measurement, observations[k].row}] += std::pow(moduli[static_cast<Index>(k)], 2);
+    }
+    Eigen::ArrayXd sizes(moduli.size());
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        sizes[static_cast<Index>(k)] = std::sqrt(squares[{observations[k].measurement, observations[k].row}]);
+    }
+    return sizes;
+}
+
+ExpectedErrors errors_of(const DataSet& data) {
+    const Eigen::ArrayXd share = data.noise.deviation.array() / complex_moduli(data.observations, data.values);
+    std::vector<double> relative;
+    std::vector<double> phase;
+    for (Index k = 0; k < data.size(); ++k) {
+        (data.observations[static_cast<std::size_t>(k)].loss ? phase : relative).push_back(share[k]);
+    }
+    return {median(relative), median(phase), data.effect};
+}
+
+/// Standard deviations of the rows of a measurement of these moduli.
+Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli,
+                          const ExpectedErrors& errors) {
+    const Eigen::ArrayXd sizes = complex_moduli(observations, moduli);
+    Eigen::ArrayXd deviation(moduli.size());
+    for (Index k = 0; k < moduli.size(); ++k) {
+        const double turned = observations[static_cast<std::size_t>(k)].loss ? errors.phase * sizes[k] : 0.0;
+        deviation[k] = std::max(std::hypot(errors.relative * moduli[k], turned), 1e-6 * sizes[k]);
+    }
+    return deviation;
+}
+
+/// Logarithm of the density of data, the effect of the sample integrated out (Woodbury's identity).
+double log_density(const Eigen::VectorXd& data, const Eigen::VectorXd& prediction, const Eigen::ArrayXd& deviation, double effect) {
+    const Eigen::ArrayXd plain = (data - prediction).array() / deviation;
+    const Eigen::ArrayXd direction = prediction.array() / deviation;
+    const double variance = effect * effect;
+    const double normal = 1 + variance * direction.square().sum();
+    return -0.5 * (plain.square().sum() - variance * std::pow((plain * direction).sum(), 2) / normal + std::log(normal));
+}
+
 /// Probability of each cause given data, each cause being a mixture of its predictions.
 std::vector<double> judge(const Eigen::VectorXd& data, const std::vector<Eigen::MatrixXd>& predictions,
-                          const std::vector<double>& weights, const Eigen::ArrayXd& deviation) {
+                          const std::vector<double>& weights, const Eigen::ArrayXd& deviation, double effect) {
     std::vector<double> logarithms;
     for (std::size_t cause = 0; cause < predictions.size(); ++cause) {
-        Eigen::ArrayXd densities(predictions[cause].cols());
-        for (Index draw = 0; draw < densities.size(); ++draw) {
-            densities[draw] = -0.5 * ((data - predictions[cause].col(draw)).array() / deviation).square().sum();
+        std::vector<double> densities;
+        for (const auto& prediction : predictions[cause].colwise()) {
+            densities.push_back(log_density(data, prediction, deviation, effect));
         }
-        const double largest = densities.maxCoeff();
-        logarithms.push_back(largest + std::log((densities - largest).exp().mean()) + std::log(weights[cause]));
+        logarithms.push_back(log_sum(densities) + std::log(weights[cause]));
     }
     return probabilities_of(std::move(logarithms));
 }
@@ -159,38 +109,38 @@ double entropy(const std::vector<double>& probabilities) {
     return sum;
 }
 
-Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::vector<Fit>& causes,
-                  const std::vector<double>& weights, const DiagnosisOptions& options, std::uint64_t number) {
-    const std::vector<Observation> observations = observations_of(candidate.experiment);
-    const Forward forward(candidate.experiment, observations, simulator);
+/// What each cause predicts for a measurement: rows x draws from its posterior.
+std::vector<Eigen::MatrixXd> predictions_by(const std::vector<Fit>& causes, const Forward& forward, std::size_t rows) {
     std::vector<Eigen::MatrixXd> predictions;
-    double level = 0;
     for (const Fit& fit : causes) {
-        Eigen::MatrixXd all(static_cast<Index>(observations.size()), draws_per_cause);
+        Eigen::MatrixXd all(static_cast<Index>(rows), draws_per_cause);
         for (int draw = 0; draw < draws_per_cause; ++draw) {
             all.col(draw) = forward.predict(settings_of(fit, draw * fit.draws.cols() / draws_per_cause));
         }
-        level = std::max(level, all.cwiseAbs().maxCoeff());
         predictions.push_back(std::move(all));
     }
-    Eigen::ArrayXd deviation(static_cast<Index>(observations.size()));
-    for (std::size_t k = 0; k < observations.size(); ++k) {
-        const bool loss = observations[k].loss;
-        deviation[static_cast<Index>(k)] = std::max(
-            (loss ? options.noise.loss_relative : options.noise.storage_relative) * level * (loss ? 0.1 : 1.0), 1e-12 * level);
-    }
+    return predictions;
+}
+
+Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::vector<Fit>& causes,
+                  const std::vector<double>& weights, const ExpectedErrors& errors, std::uint64_t seed, std::uint64_t number) {
+    const std::vector<Observation> observations = observations_of(candidate.experiment);
+    const Forward forward(candidate.experiment, observations, simulator);
+    const std::vector<Eigen::MatrixXd> predictions = predictions_by(causes, forward, observations.size());
+    const Eigen::ArrayXd deviation = deviations(observations, predictions.front().rowwise().mean(), errors);
     Proposal proposal{.what = candidate.what};
     const double before = entropy(weights);
-    int sample = 0;
+    std::uint64_t step = 2000000 + 1000 * number;
     for (std::size_t cause = 0; cause < causes.size(); ++cause) {
         for (int draw = 0; draw < draws_per_cause * data_per_draw; ++draw) {
-            Eigen::VectorXd data = predictions[cause].col(draw % draws_per_cause);
+            std::uint64_t place = 0;
+            const auto normal = [&] { return normal_number(seed, step, place++); };
+            Eigen::VectorXd data = predictions[cause].col(draw % draws_per_cause) * (1 + errors.sample * normal());
             for (Index k = 0; k < data.size(); ++k) {
-                data[k] += deviation[k] * normal_number(options.seed, 2000000 + 1000 * number + static_cast<std::uint64_t>(sample),
-                                                        static_cast<std::uint64_t>(k));
+                data[k] += deviation[k] * normal();
             }
-            ++sample;
-            const std::vector<double> after = judge(data, predictions, weights, deviation);
+            ++step;
+            const std::vector<double> after = judge(data, predictions, weights, deviation, errors.sample);
             const double share = weights[cause] / (draws_per_cause * data_per_draw);
             proposal.information += share * (before - entropy(after));
             proposal.resolution += *std::max_element(after.begin(), after.end()) > certain ? share : 0.0;
@@ -201,8 +151,8 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
 
 }  // namespace
 
-std::vector<Proposal> propose(const Experiment& experiment, Simulator& simulator, const std::vector<Fit>& causes,
-                              const std::vector<double>& weights, const DiagnosisOptions& options) {
+std::vector<Proposal> propose(const Experiment& experiment, const DataSet& data, Simulator& simulator,
+                              const std::vector<Fit>& causes, const std::vector<double>& weights, std::uint64_t seed) {
     std::vector<Proposal> proposals;
     if (causes.size() < 2) {
         return proposals;
@@ -212,9 +162,10 @@ std::vector<Proposal> propose(const Experiment& experiment, Simulator& simulator
     for (double& weight : normalised) {
         weight /= sum;
     }
+    const ExpectedErrors errors = errors_of(data);
     std::uint64_t number = 0;
-    for (const Candidate& candidate : candidates_for(experiment, observations_of(experiment))) {
-        proposals.push_back(evaluate(candidate, simulator, causes, normalised, options, number++));
+    for (const Candidate& candidate : candidates_for(experiment, data.observations)) {
+        proposals.push_back(evaluate(candidate, simulator, causes, normalised, errors, seed, number++));
     }
     std::stable_sort(proposals.begin(), proposals.end(),
                      [](const auto& a, const auto& b) { return a.information > b.information; });

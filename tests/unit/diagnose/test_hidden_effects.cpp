@@ -106,14 +106,18 @@ Measurement frequency_sweep(const ContactModel& model, const Faults& faults, std
     return table;
 }
 
-Diagnosis diagnose_table(const Measurement& table, Simulator& structures = simulator()) {
+Diagnosis diagnose_tables(const std::vector<Measurement>& tables, Simulator& structures = simulator()) {
     Experiment experiment;
     experiment.sample.particle_radius = 0.25e-6;
     experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = plate_radius, .gap = usual_gap};
-    experiment.measurements = {table};
+    experiment.measurements = tables;
     DiagnosisOptions options;
     options.bootstrap = 399;
     return diagnose(experiment, structures, options);
+}
+
+Diagnosis diagnose_table(const Measurement& table, Simulator& structures = simulator()) {
+    return diagnose_tables({table}, structures);
 }
 
 bool in_set(const Diagnosis& found, const std::string& name) {
@@ -139,7 +143,33 @@ TEST(HiddenEffects, SlipAtTheWallsIsInTheSet) {
     EXPECT_EQ(found.verdict, Verdict::tied);
     EXPECT_TRUE(in_set(found, "tool-compliance"));
     ASSERT_FALSE(found.proposals.empty());
-    EXPECT_NE(found.proposals.front().what.find("half the radius"), std::string::npos);
+    EXPECT_NE(found.proposals.front().what.find("rough plates"), std::string::npos);
+}
+
+/// What is proposed decides: nothing slips at rough plates.
+TEST(HiddenEffects, SlipIsNamedOnceRoughPlatesWereTried) {
+    Measurement rough = gap_series({}, 12);
+    rough.rough_plates = true;
+    rough.sample = "second sample";
+    expect_named(diagnose_tables({gap_series({.slip = 1.5e-10}, 11), rough}), "wall-slip");
+}
+
+/// An oil shows the gap as it is, and is too soft to turn the tool.
+TEST(HiddenEffects, AnErrorOfTheGapIsNamedOnceAnOilWasMeasured) {
+    const Faults faults{.gap_error = 5e-5};
+    constexpr double viscosity = 1;  // G'' = 6.3 Pa at 1 Hz
+    Measurement oil = gap_series(faults, 14);
+    oil.sample = "oil";
+    oil.fluid_viscosity = viscosity;
+    std::vector<double>& moduli = oil.columns[1].values;
+    for (std::size_t row = 0; row < moduli.size(); ++row) {
+        const Complex seen = shown(Complex(0, 2 * pi * viscosity), 2 * pi, oil.columns[0].values[row], faults);
+        moduli[row] = seen.imag() * (1 + 0.02 * drawn_normal(15, row));
+        oil.columns[1].standard_errors[row] = 0.02 * seen.imag();
+    }
+    oil.columns[1].name = "loss_modulus";
+    oil.columns.push_back({"angular_frequency", "rad/s", std::vector<double>(moduli.size(), 2 * pi)});
+    expect_named(diagnose_tables({gap_series(faults, 2), oil}), "gap-error");
 }
 
 TEST(HiddenEffects, AnErrorOfTheGapIsInTheSet) {

@@ -33,7 +33,7 @@ struct DiagnosisOptions {
     double level = 0.05;         ///< of the test whether anything is wrong
     int bootstrap = 999;         ///< data sets behind a p-value
     double held_out_part = 0.3;  ///< of the rows of a table, those at the end of its axis, if no whole table can be held out
-    double pair_prior = 0.1;     ///< prior weight of each pair of mechanisms over that of a single one
+    double pair_prior = 0.1;     ///< prior weight of all pairs of mechanisms over that of all single ones
     double none_prior = 0.05;    ///< of "none of the catalogue" over that of a single mechanism
     std::uint64_t seed = 1;
     std::vector<std::string> causes = {};  ///< of the catalogue; empty: all

@@ -79,9 +79,11 @@ struct LeftOutCell {
 /// One table: one sweep on one sample.
 struct Measurement {
     MeasurementKind kind = MeasurementKind::frequency_sweep;
-    std::string label;   ///< names the table in messages: file, section, point
-    std::string sample;  ///< tables of one sample share its random effect
-    int run_order = 0;   ///< position in the sequence of runs on this sample
+    std::string label;               ///< names the table in messages: file, section, point
+    std::string sample;              ///< tables of one sample share its random effect
+    int run_order = 0;               ///< position in the sequence of runs on this sample
+    bool rough_plates = false;       ///< nothing slips there
+    double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]; it does not slip, either
     std::vector<Column> columns;
     std::vector<LeftOutCell> left_out;
 

@@ -1,0 +1,128 @@
+#include "candidate_measurements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr int rows = 20;
+constexpr int gaps = 8;
+
+std::vector<double> logarithmic(double from, double to, int count) {
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k) {
+        values.push_back(from * std::pow(to / from, static_cast<double>(k) / (count - 1)));
+    }
+    return values;
+}
+
+/// The settings of an experiment.
+struct Habits {
+    double small_strain = 1e-4;
+    double large_strain = 0.1;
+    double angular_frequency = 2 * std::numbers::pi;
+    double duration = 600;
+    double modulus = 1;  ///< largest
+};
+
+Habits habits_of(const std::vector<Observation>& observations) {
+    Habits habits;
+    double smallest = 1e300;
+    double largest = 0;
+    double longest = 0;
+    for (const Observation& one : observations) {
+        if (std::isfinite(one.strain)) {
+            smallest = std::min(smallest, one.strain);
+            largest = std::max(largest, one.strain);
+        }
+        if (std::isfinite(one.angular_frequency)) {
+            habits.angular_frequency = one.angular_frequency;
+        }
+        longest = std::max(longest, one.time);
+        habits.modulus = std::max(habits.modulus, one.value);
+    }
+    habits.small_strain = smallest < 1e300 ? smallest : habits.small_strain;
+    habits.large_strain = std::max(largest, 10 * habits.small_strain);
+    habits.duration = std::max(longest, habits.duration);
+    return habits;
+}
+
+/// A table whose columns are given or constant.
+class Plan {
+public:
+    Plan(const Habits& habits, double gap, std::size_t count)
+        : strain_(count, habits.small_strain), frequency_(count, habits.angular_frequency), gap_(count, gap), time_(count) {
+        for (std::size_t k = 0; k < count; ++k) {
+            time_[k] = habits.duration * static_cast<double>(k + 1) / static_cast<double>(count);
+        }
+    }
+    Plan& strain(std::vector<double> values) { return strain_ = std::move(values), *this; }
+    Plan& frequency(std::vector<double> values) { return frequency_ = std::move(values), *this; }
+    Plan& gap(std::vector<double> values) { return gap_ = std::move(values), *this; }
+
+    Measurement table(MeasurementKind kind) const {
+        Measurement made;
+        made.kind = kind;
+        made.label = "proposed";
+        made.sample = "proposed";
+        const std::vector<double> ones(strain_.size(), 1.0);
+        made.columns = {{"strain", "1", strain_},
+                        {"angular_frequency", "rad/s", frequency_},
+                        {"time", "s", time_},
+                        {"storage_modulus", "Pa", ones},
+                        {"loss_modulus", "Pa", ones}};
+        if (std::isfinite(gap_.front())) {
+            made.columns.push_back({"gap", "m", gap_});
+        }
+        return made;
+    }
+
+private:
+    std::vector<double> strain_;
+    std::vector<double> frequency_;
+    std::vector<double> gap_;
+    std::vector<double> time_;
+};
+
+}  // namespace
+
+std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations) {
+    const Habits habits = habits_of(observations);
+    const double gap = experiment.instrument.gap;
+    const Plan plan(habits, gap, rows);
+    const auto frequencies = [&](double around) {
+        return logarithmic(habits.angular_frequency / around, habits.angular_frequency * around, rows);
+    };
+    std::vector<double> up_and_down = logarithmic(habits.small_strain, habits.large_strain, rows / 2);
+    up_and_down.insert(up_and_down.end(), up_and_down.rbegin(), up_and_down.rend());
+
+    std::vector<Candidate> candidates;
+    const auto add = [&](const std::string& what, const Measurement& measurement) {
+        candidates.push_back({what, experiment});
+        candidates.back().experiment.measurements = {measurement};
+    };
+    add("a run at constant small strain and frequency over the same time", plan.table(MeasurementKind::time_sweep));
+    add("a frequency sweep over four decades at the smallest strain",
+        Plan(plan).frequency(frequencies(100)).table(MeasurementKind::frequency_sweep));
+    add("an amplitude sweep on a fresh sample",
+        Plan(plan).strain(logarithmic(habits.small_strain, habits.large_strain, rows)).table(MeasurementKind::amplitude_sweep));
+    add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
+    if (std::isfinite(gap)) {
+        Measurement series = Plan(habits, gap, gaps).gap(logarithmic(gap / 3, 3 * gap, gaps)).table(MeasurementKind::gap_series);
+        add("a series of gaps", series);
+        series.rough_plates = true;
+        add("a series of gaps between rough plates, at which nothing slips", series);
+        series.rough_plates = false;
+        series.fluid_viscosity = 0.1 * habits.modulus / habits.angular_frequency;  // too soft to turn the tool
+        add("a series of gaps with a Newtonian oil of known viscosity", series);
+        add("the same with a plate of half the radius",
+            Plan(plan).frequency(frequencies(10)).table(MeasurementKind::frequency_sweep));
+        candidates.back().experiment.instrument.plate_radius *= 0.5;
+    }
+    return candidates;
+}
+
+}  // namespace coagula::diagnose

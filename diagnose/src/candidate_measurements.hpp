@@ -1,0 +1,21 @@
+// Measurements that could be made next.
+#pragma once
+
+#include "forward.hpp"
+
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// A measurement that could be made.
+struct Candidate {
+    std::string what;
+    Experiment experiment;  ///< the one table, whose moduli are still to be filled in
+};
+
+/// Sweeps with the settings that the experiment has: its smallest strain, its typical frequency, its longest time; and where the
+/// gap is known series of gaps, also between rough plates and with an oil, and a smaller plate.
+std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations);
+
+}  // namespace coagula::diagnose
