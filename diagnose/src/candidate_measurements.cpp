@@ -1,5 +1,7 @@
 #include "candidate_measurements.hpp"
 
+#include <coagula/common/logarithmic_steps.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,14 +12,6 @@ namespace {
 
 constexpr int rows = 20;
 constexpr int gaps = 8;
-
-std::vector<double> logarithmic(double from, double to, int count) {
-    std::vector<double> values;
-    for (int k = 0; k < count; ++k) {
-        values.push_back(from * std::pow(to / from, static_cast<double>(k) / (count - 1)));
-    }
-    return values;
-}
 
 /// The settings of an experiment.
 struct Habits {
@@ -94,9 +88,9 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
     const double gap = experiment.instrument.gap;
     const Plan plan(habits, gap, rows);
     const auto frequencies = [&](double around) {
-        return logarithmic(habits.angular_frequency / around, habits.angular_frequency * around, rows);
+        return logarithmic_steps(habits.angular_frequency / around, habits.angular_frequency * around, rows);
     };
-    std::vector<double> up_and_down = logarithmic(habits.small_strain, habits.large_strain, rows / 2);
+    std::vector<double> up_and_down = logarithmic_steps(habits.small_strain, habits.large_strain, rows / 2);
     up_and_down.insert(up_and_down.end(), up_and_down.rbegin(), up_and_down.rend());
 
     std::vector<Candidate> candidates;
@@ -107,11 +101,13 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
     add("a run at constant small strain and frequency over the same time", plan.table(MeasurementKind::time_sweep));
     add("a frequency sweep over four decades at the smallest strain",
         Plan(plan).frequency(frequencies(100)).table(MeasurementKind::frequency_sweep));
-    add("an amplitude sweep on a fresh sample",
-        Plan(plan).strain(logarithmic(habits.small_strain, habits.large_strain, rows)).table(MeasurementKind::amplitude_sweep));
+    add("an amplitude sweep on a fresh sample", Plan(plan)
+                                                    .strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows))
+                                                    .table(MeasurementKind::amplitude_sweep));
     add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
     if (std::isfinite(gap)) {
-        Measurement series = Plan(habits, gap, gaps).gap(logarithmic(gap / 3, 3 * gap, gaps)).table(MeasurementKind::gap_series);
+        Measurement series =
+            Plan(habits, gap, gaps).gap(logarithmic_steps(gap / 3, 3 * gap, gaps)).table(MeasurementKind::gap_series);
         add("a series of gaps", series);
         series.rough_plates = true;
         add("a series of gaps between rough plates, at which nothing slips", series);

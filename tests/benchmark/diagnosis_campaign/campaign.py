@@ -12,15 +12,15 @@ import shutil
 import subprocess
 import time
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy
 
 from cases import ROWS
 from material import Material
-from session import gain, write
-from table import print_table
-
+from session import follow_up, gain, placed, write
+from table import in_set, print_table
 
 
 def diagnose(program, experiment, cache, *words):
@@ -41,12 +41,40 @@ def diagnose(program, experiment, cache, *words):
     return json.loads(done.stdout)
 
 
-def run(row, number, program, folder):
+def prepared(row, number, program, folder, proposals=()):
+    """The session of a run with the tables that were proposed, and its experiment file; the same errors whatever follows."""
     generator = numpy.random.default_rng([sorted(ROWS).index(row), number])
     material = Material(program, folder / f"bank{os.getpid()}", shared=folder / "bank")
     session = ROWS[row](generator, material)
     place = folder / "runs" / f"{row}_{number}"
-    experiment = write(session, material, place, generator, [folder / "bank" / f"known_{k}.h5" for k in range(2)])
+    structures = [folder / "bank" / f"known_{k}.h5" for k in range(session.known_structures)]
+    experiment = write(session, material, place, generator, structures)
+    for count, what in enumerate(proposals):
+        session.tables += placed([replace(follow_up(session, what), sample=f"N{count}")])
+    if proposals:
+        generator = numpy.random.default_rng([sorted(ROWS).index(row), number])
+        ROWS[row](generator, material)
+        experiment = write(session, material, place, generator, structures)
+    return session, material, experiment
+
+
+def resolve(row, number, program, folder, found, truth, seed):
+    """Makes the measurement that is proposed, and then the next; after how many the true cause alone is left, 0 if never."""
+    proposals = []
+    for count in (1, 2):
+        proposals.append(found["proposed_measurement"]["what"])
+        _, _, experiment = prepared(row, number, program, folder, proposals)
+        found = diagnose(program, experiment, folder / "simulations.txt", *seed)
+        if found["verdict"] == "named" and in_set(truth, found["credible_set"]):
+            return count, proposals
+        if "proposed_measurement" not in found:
+            break
+    return 0, proposals
+
+
+def run(row, number, program, folder):
+    session, material, experiment = prepared(row, number, program, folder)
+    place = experiment.parent
     started = time.time()
     seed = ("--seed", str(number + 1))  # or all tests share the errors of one bootstrap
     found = diagnose(program, experiment, folder / "simulations.txt", *seed)
@@ -60,6 +88,8 @@ def run(row, number, program, folder):
     told = session.hidden.name
     if found["detected"] and row not in ("outside",) and found["causes"][0]["name"] != told and told != "nothing" and " + " not in told:
         entry["told"] = diagnose(program, experiment, folder / "simulations.txt", "--causes", told, *seed).get("gain")
+    if row == "tie" and found["verdict"] == "tied" and "proposed_measurement" in found:
+        entry["resolved_after"], entry["proposals"] = resolve(row, number, program, folder, found, told, seed)
     shutil.rmtree(place)
     return entry
 
@@ -81,7 +111,7 @@ def main():
     chosen = parser.parse_args()
     program, folder = chosen.program.resolve(), chosen.folder.resolve()
     (folder / "bank").mkdir(parents=True, exist_ok=True)
-    Material(program, folder / "bank").prepare(known=2)
+    Material(program, folder / "bank").prepare(known=8)
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

@@ -74,7 +74,7 @@ def of_effect(name):
         wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
         if name == "bond-strength":
             load = strengths(1).loads[0]
-            return replace(session, tables=full_day(load * CRITICAL_STRAIN, 14), hidden=strengths(1))
+            return replace(session, tables=full_day(load * CRITICAL_STRAIN, 14), hidden=strengths(1), known_structures=8)
         return scaled(session, material, wanted, strengths)
     return draw
 

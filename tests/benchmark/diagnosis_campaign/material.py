@@ -88,6 +88,11 @@ class Material:
         storage, loss = self.remembered(f"breaking {number} {load}", compute)
         return numpy.array(storage) + 1j * numpy.array(loss)
 
+    def mean_breaking(self, load):
+        """Of a sample as large as all structures together: G* over G' of their mean."""
+        weights = numpy.array([self.modulus(number) for number in range(STRUCTURES)])
+        return weights @ [self.breaking(number, load) for number in range(STRUCTURES)] / weights.sum()
+
     def sketch(self):
         """The same with losses by their closed form, to choose how strong an effect is to be."""
         return Sketch(self)
@@ -111,7 +116,7 @@ class Material:
 
 class Sketch:
     def __init__(self, material):
-        self.modulus, self.breaking = material.modulus, material.breaking
+        self.modulus, self.mean_breaking = material.modulus, material.mean_breaking
 
     def losses(self, number, ratio, exponent, frequencies):
         return 1 + ratio * (1j * numpy.asarray(frequencies))**exponent

@@ -23,6 +23,8 @@ class Table:
     gap: numpy.ndarray
     plate: float
     start: float = 0.0
+    rough: bool = False                # plates at which nothing slips
+    viscosity: float = float("nan")    # of an oil in place of the sample
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,7 @@ class Session:
     structure: int
     moduli: list = field(default_factory=list)  # without noise
     known_stiffness: bool = False
+    known_structures: int = 2
 
 
 def sweep(kind, sample, order, strain, frequency, step, gap=GAP, plate=PLATE):
@@ -91,14 +94,37 @@ def gap_day():
     return list(placed([sweep("gap-series", name, 0, SMALL_STRAIN, 1.0, 1, gap=numpy.geomspace(0.3e-3, 3e-3, 8)) for name in "ABC"]))
 
 
+def follow_up(session, what):
+    """The table that a proposal asks for, on a fresh sample."""
+    series = sweep("gap-series", "N", 0, SMALL_STRAIN, 1.0, 1, gap=numpy.geomspace(GAP / 3, 3 * GAP, 8))
+    frequencies = numpy.geomspace(0.1, 10, 20)
+    if "oil" in what:
+        largest = max(abs(reading).max() for reading in session.moduli)
+        return replace(series, viscosity=0.1 * largest / (2 * numpy.pi))
+    if "rough" in what:
+        return replace(series, rough=True)
+    if "series of gaps" in what:
+        return series
+    if "half the radius" in what:
+        return sweep("frequency-sweep", "N", 0, SMALL_STRAIN, frequencies, 20, plate=PLATE / 2)
+    if "frequency sweep" in what:
+        return sweep("frequency-sweep", "N", 0, SMALL_STRAIN, numpy.geomspace(0.01, 100, 20), 20)
+    if "constant small strain" in what:
+        return sweep("time-sweep", "N", 0, numpy.full(20, SMALL_STRAIN), 1.0, 60)
+    strains = numpy.geomspace(SMALL_STRAIN, 10 * SMALL_STRAIN, 10)
+    return sweep("amplitude-sweep", "N", 0, strains if "up and down" not in what else numpy.concatenate([strains, strains[::-1]]), 1.0, 10)
+
+
 def true_modulus(material, session, table):
-    """Of the material in the gap, row by row."""
+    """Of what is in the gap, row by row."""
     hidden = session.hidden
+    if numpy.isfinite(table.viscosity):
+        return 2j * numpy.pi * table.frequency * table.viscosity
     modulus = numpy.full(len(table.strain), material.modulus(session.structure) * session.stiffness / 100, dtype=complex)
     if hidden.loss:
         modulus *= material.losses(session.structure, *hidden.loss, table.frequency)
     if hidden.loads and table.kind == "amplitude-sweep":
-        modulus *= material.breaking(session.structure, *hidden.loads)
+        modulus *= material.mean_breaking(*hidden.loads)
     if hidden.ageing:
         modulus *= 1 + hidden.ageing * numpy.log10(1 + table.start + table.time)
     if hidden.warmth:
@@ -114,7 +140,8 @@ def reading(material, session, table):
     true_gap = table.gap + hidden.gap_error
     stress = modulus * table.strain
     torque = numpy.pi * table.plate**3 / 2 * stress
-    angle = (true_gap * table.strain + 2 * hidden.slip * stress) / table.plate + hidden.compliance * torque
+    slip = 0.0 if table.rough or numpy.isfinite(table.viscosity) else hidden.slip
+    angle = (true_gap * table.strain + 2 * slip * stress) / table.plate + hidden.compliance * torque
     torque = torque - hidden.inertia * (2 * numpy.pi * table.frequency)**2 * angle
     if hidden.resonance:
         size, place = hidden.resonance
@@ -149,7 +176,9 @@ def write(session, material, folder, generator, structures):
         lines[3:3] = [f"normal_stiffness = {session.stiffness}", "normal_stiffness_error = 0.05"]
     for number, table in enumerate(session.tables):
         clean = reading(material, session, table)
-        offset = offsets.setdefault(table.sample, 1 + session.noise.sample * generator.standard_normal())
+        session.moduli.append(clean)
+        spread = 0.0 if numpy.isfinite(table.viscosity) else session.noise.sample
+        offset = offsets.setdefault(table.sample, 1 + spread * generator.standard_normal())
         size = offset * (1 + session.noise.torque * errors(generator, session.noise, len(clean)))
         measured = clean * size * numpy.exp(1j * session.noise.phase * errors(generator, session.noise, len(clean)))
         rows = ["strain [1],frequency [Hz],time [s],gap [m],storage_modulus [Pa],loss_modulus [Pa]"]
@@ -157,7 +186,8 @@ def write(session, material, folder, generator, structures):
                  for row in zip(table.strain, table.frequency, table.time, table.gap, measured.real, measured.imag)]
         (folder / f"table{number}.csv").write_text("\n".join(rows) + "\n")
         lines += ["[[measurement]]", f'kind = "{table.kind}"', f'file = "table{number}.csv"', f'sample = "{table.sample}"',
-                  f"run_order = {table.order}", f"values = {{ plate_radius = {table.plate} }}", ""]
+                  f"run_order = {table.order}", f"values = {{ plate_radius = {table.plate} }}"]
+        lines += ["rough_plates = true"] * table.rough + [f"fluid_viscosity = {table.viscosity:.9g}"] * bool(numpy.isfinite(table.viscosity)) + [""]
     path = folder / "experiment.toml"
     path.write_text("\n".join(lines))
     return path

@@ -38,6 +38,12 @@ def parameter_covered(entry):
             yield each["low"] <= value <= each["high"]
 
 
+def named_first(entry):
+    """The true cause comes first and the verdict does not take it back."""
+    found = entry["found"]
+    return found["verdict"] in ("named", "tied") and found["credible_set"][0] == entry["truth"]
+
+
 class Table:
     def __init__(self):
         self.lines = [("case", "what", "count", "share", "95 % interval", "target", "")]
@@ -83,16 +89,19 @@ def print_table(path):
     singles = of("single", "contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")
     strong = [entry for entry in singles if entry["gain"] >= 25 * (1 - 1e-6)]
     table.add("one effect", "detected", [entry["found"]["detected"] for entry in strong], 0.95)
-    table.add("one effect", "named first", [bool(entry["found"]["credible_set"]) and entry["found"]["credible_set"][0] == entry["truth"] for entry in strong], 0.90)
+    table.add("one effect", "named first", [named_first(entry) for entry in strong], 0.90)
     detected = [entry for entry in strong if entry["found"]["detected"]]
     table.add("one effect", "true cause in the 95 % set", [in_set(entry["truth"], entry["found"]["credible_set"]) for entry in detected], 0.93, 0.97)
     for name in sorted({entry["truth"] for entry in strong}):
         own = [entry for entry in strong if entry["truth"] == name]
-        table.add(name, "named first", [bool(entry["found"]["credible_set"]) and entry["found"]["credible_set"][0] == name for entry in own], 0.90)
+        table.add(name, "named first", [named_first(entry) for entry in own], 0.90)
     every = of("single", "pair", "tie", "null", "null-tails", "null-correlated", "null-offsets") + singles
     table.add("all of these", "confidently wrong", [confidently_wrong(entry) for entry in {id(e): e for e in every}.values()], 0.0, 0.02)
     table.add("designed tie", "reported as tied, truth in the set",
               [entry["found"]["verdict"] == "tied" and in_set(entry["truth"], entry["found"]["credible_set"]) for entry in of("tie")], 0.95)
+    followed = [entry["resolved_after"] for entry in of("tie") if "resolved_after" in entry]
+    table.add("designed tie", "resolved by the proposed measurement", [after == 1 for after in followed], 0.90)
+    table.add("designed tie", "resolved by it or the next that is proposed", [after > 0 for after in followed], 0.90)
     table.add("outside the catalogue", "none of the catalogue", [entry["found"]["verdict"] == "none-of-catalogue" for entry in of("outside")], 0.85)
     table.add("outside the catalogue", "confident false name",
               [entry["found"]["verdict"] == "named" for entry in of("outside")], 0.0, 0.05)

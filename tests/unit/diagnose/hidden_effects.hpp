@@ -1,6 +1,7 @@
 // Structures, tables and noise for tests that hide an effect: what the diagnosis is given and what it is not.
 #pragma once
 
+#include <coagula/common/logarithmic_steps.hpp>
 #include <coagula/common/random.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/generators/void_expansion.hpp>
@@ -30,14 +31,6 @@ inline Packing structure(Index particles, std::uint64_t seed, double target_coor
 inline double drawn_normal(std::uint64_t seed, std::uint64_t number, std::uint64_t step = 3) {
     const auto u = random_uniform(seed, RandomPurpose::test, step, number);
     return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * std::numbers::pi * u[1]);
-}
-
-inline std::vector<double> logarithmic(double from, double to, int count) {
-    std::vector<double> values;
-    for (int k = 0; k < count; ++k) {
-        values.push_back(from * std::pow(to / from, static_cast<double>(k) / (count - 1)));
-    }
-    return values;
 }
 
 }  // namespace coagula::diagnose

@@ -70,17 +70,21 @@ Experiment experiment(std::vector<Measurement> tables) {
 }
 
 const std::vector<double>& frequencies() {
-    static const std::vector<double> made = logarithmic(0.1, 100, 16);
+    static const std::vector<double> made = logarithmic_steps(0.1, 100, 16);
     return made;
 }
 
-/// A frequency sweep at small strain, computed by the frequency solver for the hidden sample.
-Measurement frequency_sweep(const ContactModel& model, std::uint64_t seed) {
+/// At small strain, by the frequency solver for the hidden sample.
+std::vector<std::complex<double>> moduli_of(const ContactModel& model) {
     const auto response = mechanics::solve_frequency_sweep(sample(), find_contacts(sample(), 0.01), model, frequencies());
     std::vector<std::complex<double>> moduli;
     for (const auto& point : response.points) {
         moduli.push_back(point.mean_shear_modulus());
     }
+    return moduli;
+}
+
+Measurement frequency_sweep(const std::vector<std::complex<double>>& moduli, std::uint64_t seed) {
     return table(MeasurementKind::frequency_sweep, std::vector<double>(moduli.size(), 1e-5), frequencies(), moduli, seed);
 }
 
@@ -96,9 +100,10 @@ ContactModel springs(double stiffness) {
 }
 
 TEST(Diagnosis, FindsNothingWhereNothingIsHidden) {
+    const auto moduli = moduli_of(springs(40));
     int detected = 0;
     for (std::uint64_t seed = 1; seed <= 120; ++seed) {
-        detected += diagnose_tables({frequency_sweep(springs(40), seed)}, seed).detected ? 1 : 0;
+        detected += diagnose_tables({frequency_sweep(moduli, seed)}, seed).detected ? 1 : 0;
     }
     EXPECT_LE(detected, 12);  // 6 expected at the 5 % level; more than 12 has a probability of 0.5 %
     EXPECT_GE(detected, 1);   // none has one of 0.2 %
@@ -110,7 +115,7 @@ TEST(Diagnosis, NamesTheLossOfTheContacts) {
     model.shear_springpot_stiffness = 0.6 * 2;
     model.normal_springpot_time = model.shear_springpot_time = 1 / (2 * pi);
     model.normal_springpot_exponent = model.shear_springpot_exponent = 0.08;
-    const Diagnosis found = diagnose_tables({frequency_sweep(model, 5)});
+    const Diagnosis found = diagnose_tables({frequency_sweep(moduli_of(model), 5)});
     EXPECT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::named);
     EXPECT_EQ(found.credible_set, std::vector<std::string>{"contact-loss"});
@@ -127,7 +132,7 @@ TEST(Diagnosis, NamesTheLossOfTheContacts) {
 
 /// Structures so small differ in strength by tens of per cent, and explicit runs have losses of their own: the noise covers that.
 TEST(Diagnosis, NamesTheStrengthOfTheBonds) {
-    const std::vector<double> strains = logarithmic(1e-5, 2.5e-3, 16);
+    const std::vector<double> strains = logarithmic_steps(1e-5, 2.5e-3, 16);
     mechanics::RheometerOptions run;
     run.model = springs(40);
     run.model.normal_strength = run.model.shear_strength = 3e-4 * 20 * 0.25e-6;
@@ -164,9 +169,10 @@ TEST(Diagnosis, NamesTheStrengthOfTheBonds) {
 TEST(Diagnosis, DoesNotNameWhatOnlyScalesTheModulus) {
     ContactModel model = springs(40);
     model.bending_stiffness = model.twisting_stiffness = 1e-2 * 20 * 0.25e-6 * 0.25e-6;
+    const auto moduli = moduli_of(model);
     int detected = 0;
     for (std::uint64_t seed = 201; seed <= 220; ++seed) {
-        const Diagnosis found = diagnose_tables({frequency_sweep(model, seed)}, seed);
+        const Diagnosis found = diagnose_tables({frequency_sweep(moduli, seed)}, seed);
         detected += found.detected ? 1 : 0;
         EXPECT_NE(found.verdict, Verdict::named);
     }
@@ -175,7 +181,7 @@ TEST(Diagnosis, DoesNotNameWhatOnlyScalesTheModulus) {
 
 /// A resonance of the tool is in no catalogue.
 TEST(Diagnosis, SaysWhenNoCauseFits) {
-    Measurement sweep = frequency_sweep(springs(40), 13);
+    Measurement sweep = frequency_sweep(moduli_of(springs(40)), 13);
     for (std::size_t k = 0; k < frequencies().size(); ++k) {
         const double distance = std::log(frequencies()[k] / 3);
         sweep.columns[2].values[k] *=
@@ -210,7 +216,7 @@ TEST(Diagnosis, ExtendedModelRunsToTheSamePrediction) {
 }
 
 TEST(Diagnosis, NeedsFiveModuli) {
-    Measurement sweep = frequency_sweep(springs(40), 1);
+    Measurement sweep = frequency_sweep(moduli_of(springs(40)), 1);
     for (Column& column : sweep.columns) {
         column.values.resize(2);
         if (!column.standard_errors.empty()) {

@@ -83,7 +83,7 @@ Measurement table_of(MeasurementKind kind, const Column& axis) {
 }
 
 Measurement gap_series(const Faults& faults, std::uint64_t seed) {
-    std::vector<double> gaps = logarithmic(2e-3, 1.5e-4, 14);
+    std::vector<double> gaps = logarithmic_steps(2e-3, 1.5e-4, 14);
     Measurement table = table_of(MeasurementKind::gap_series, {"gap", "m", gaps});
     std::vector<Complex> moduli;
     const Complex modulus = modulus_of(springs(40), 1);
@@ -97,7 +97,7 @@ Measurement gap_series(const Faults& faults, std::uint64_t seed) {
 Measurement frequency_sweep(const ContactModel& model, const Faults& faults, std::uint64_t seed) {
     std::vector<double> angular;
     std::vector<Complex> moduli;
-    for (const double frequency : logarithmic(100, 0.1, 20)) {  // what is held out are the low ones
+    for (const double frequency : logarithmic_steps(100, 0.1, 20)) {  // what is held out are the low ones
         angular.push_back(2 * pi * frequency);
         moduli.push_back(shown(modulus_of(model, frequency), angular.back(), usual_gap, faults));
     }
@@ -203,8 +203,8 @@ TEST(HiddenEffects, ShearStiffnessIsInTheSetWhereTheNormalStiffnessIsKnown) {
 
 /// Inertia where the frequency is high, age where it is low and the sweep has lasted long.
 TEST(HiddenEffects, TwoEffectsAreFoundTogether) {
-    const std::vector<double> frequencies = logarithmic(100, 0.1, 24);
-    const std::vector<double> times = logarithmic(1, 10000, 24);
+    const std::vector<double> frequencies = logarithmic_steps(100, 0.1, 24);
+    const std::vector<double> times = logarithmic_steps(1, 10000, 24);
     std::vector<double> angular;
     std::vector<Complex> moduli;
     for (std::size_t k = 0; k < frequencies.size(); ++k) {
@@ -219,7 +219,7 @@ TEST(HiddenEffects, TwoEffectsAreFoundTogether) {
 }
 
 TEST(HiddenEffects, AgeingAtConstantStrainIsFirst) {
-    const std::vector<double> times = logarithmic(1, 5000, 20);
+    const std::vector<double> times = logarithmic_steps(1, 5000, 20);
     std::vector<Complex> moduli;
     for (const double time : times) {
         moduli.push_back(modulus_of(springs(40 * (1 + 0.25 * std::log10(1 + time))), 1));
@@ -240,7 +240,7 @@ Measurement amplitude_sweep(const std::vector<double>& strains, const std::vecto
 
 /// Hertz contacts by explicit steps. What their rate costs is the same at all strains.
 TEST(HiddenEffects, ContactsThatAreNotLinearAreFirst) {
-    const std::vector<double> strains = logarithmic(5e-5, 5e-3, 8);
+    const std::vector<double> strains = logarithmic_steps(5e-5, 5e-3, 8);
     mechanics::RheometerOptions run;
     run.model = springs(40);
     run.model.young_modulus = 70e9;
@@ -264,8 +264,8 @@ TEST(HiddenEffects, ContactsThatAreNotLinearAreFirst) {
 
 /// Designed tie: in one sweep upwards, strain and age rise together.
 TEST(HiddenEffects, OneSweepUpwardsTiesAgeAndStrain) {
-    const std::vector<double> strains = logarithmic(1e-4, 1e-3, 16);
-    const std::vector<double> times = logarithmic(10, 1000, 16);
+    const std::vector<double> strains = logarithmic_steps(1e-4, 1e-3, 16);
+    const std::vector<double> times = logarithmic_steps(10, 1000, 16);
     const double modulus = modulus_of(springs(40), 1).real();
     std::vector<Complex> moduli;
     for (const double time : times) {

@@ -27,7 +27,7 @@ Simulator& simulator() {
 }
 
 std::vector<double> frequencies() {
-    return logarithmic(0.1, 100, 16);
+    return logarithmic_steps(0.1, 100, 16);
 }
 
 /// A frequency sweep that somebody plans.
