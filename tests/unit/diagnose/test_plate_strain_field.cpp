@@ -64,7 +64,7 @@ Settings weak(double Settings::*critical) {
 
 TEST(PlateStrainField, IsTheIntegralOverTheTorque) {
     const Settings uniform = weak(&Settings::critical_strain);
-    const std::vector<double> strains = logarithmic(2e-5, 1.5e-3, 14);
+    const std::vector<double> strains = logarithmic_steps(2e-5, 1.5e-3, 14);
     const std::vector<Complex> between_plates = response(strains, weak(&Settings::rim_critical_strain), Geometry::plate_plate);
     for (std::size_t k = 0; k < strains.size(); ++k) {
         constexpr int radii = 2000;
@@ -88,7 +88,7 @@ double yield(const std::vector<double>& strains, const std::vector<Complex>& res
 }
 
 TEST(PlateStrainField, BroadensTheYieldAndPutsItOffAtTheRim) {
-    const std::vector<double> strains = logarithmic(2e-5, 1.5e-3, 30);
+    const std::vector<double> strains = logarithmic_steps(2e-5, 1.5e-3, 30);
     const auto uniform = response(strains, weak(&Settings::critical_strain), Geometry::plate_plate);
     const auto field = response(strains, weak(&Settings::rim_critical_strain), Geometry::plate_plate);
     EXPECT_GT(yield(strains, field, 0.6), 1.05 * yield(strains, uniform, 0.6));
@@ -102,7 +102,7 @@ TEST(PlateStrainField, BroadensTheYieldAndPutsItOffAtTheRim) {
 
 /// The weaker of the two strengths breaks the bonds, and the extended model has that one.
 TEST(PlateStrainField, TheSmallerStrengthCounts) {
-    const std::vector<double> strains = logarithmic(2e-5, 1.5e-3, 8);
+    const std::vector<double> strains = logarithmic_steps(2e-5, 1.5e-3, 8);
     Settings both = weak(&Settings::rim_critical_strain);
     const auto field = response(strains, both, Geometry::plate_plate);
     both.critical_strain = 5e-4;
@@ -112,7 +112,7 @@ TEST(PlateStrainField, TheSmallerStrengthCounts) {
 
 /// The runs of three rings against those of ten others.
 TEST(PlateStrainField, RunsOfTheRingsAreTheIntegralToo) {
-    const std::vector<double> strains = logarithmic(1e-4, 1e-3, 8);
+    const std::vector<double> strains = logarithmic_steps(1e-4, 1e-3, 8);
     const auto between_plates = response(strains, weak(&Settings::rim_critical_strain), Geometry::plate_plate, true);
     std::vector<Complex> torque(strains.size());
     constexpr int radii = 10;
@@ -178,7 +178,7 @@ struct Found {
 
 const Found& found() {
     static const Found made = [] {
-        const std::vector<double> strains = logarithmic(5e-5, 2.4e-3, 16);
+        const std::vector<double> strains = logarithmic_steps(5e-5, 2.4e-3, 16);
         const std::vector<Complex> moduli = torque_of_runs(strains, 2e-4);
         return Found{diagnosis_of(sweep(strains, moduli, Geometry::plate_plate, 0.03, 3)),
                      diagnosis_of(sweep(strains, moduli, Geometry::plate_plate, 0.1, 2))};

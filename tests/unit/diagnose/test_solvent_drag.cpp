@@ -61,7 +61,7 @@ TEST(SolventDrag, EndsAtTheAffineModulus) {
 }
 
 TEST(SolventDrag, CurveAgreesWithTheSolver) {
-    for (const double reduced : logarithmic(3e-7, 30, 9)) {
+    for (const double reduced : logarithmic_steps(3e-7, 30, 9)) {
         const Settings settings = with_drag(reduced);
         const Complex curve = simulator().drag_response(settings, 1);
         const Complex solved = simulator().exact_drag_response(settings, 1);
@@ -134,7 +134,7 @@ Diagnosis diagnosis_of(const Measurement& table) {
 }
 
 TEST(SolventDrag, IsNamedInASweepOfFrequencies) {
-    const std::vector<double> frequencies = logarithmic(0.1, 100, 20);
+    const std::vector<double> frequencies = logarithmic_steps(0.1, 100, 20);
     ContactModel model{.normal_stiffness = 40, .shear_stiffness = 4};
     model.solvent_viscosity = 20;
     const auto moduli = moduli_of(structure(260, 77), model, frequencies);
