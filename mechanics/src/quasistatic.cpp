@@ -158,14 +158,25 @@ RampResponse shear_to(const Packing& packing, const ContactNetwork& bonds, const
     StrainPath path(packing, bonds, model, options.solver, std::abs(options.strain), progress);
     RampResponse response;
     response.points.push_back(path.point());
-    for (Index k = 1; k <= options.steps && !path.failure(); ++k) {
-        const double share = static_cast<double>(k) / static_cast<double>(options.steps);
-        path.go_to(k == options.steps ? options.strain : share * options.strain,
-                   [&](const StrainPoint& point) { response.points.push_back(point); });
+    const auto finish = [&] {
+        response.broken = path.broken();
+        response.failure = path.failure() ? path.failure() : loss_of_load(response, options.solver.orientation);
+        response.effort = path.effort();
+    };
+    try {
+        for (Index k = 1; k <= options.steps && !path.failure(); ++k) {
+            const double share = static_cast<double>(k) / static_cast<double>(options.steps);
+            path.go_to(k == options.steps ? options.strain : share * options.strain,
+                       [&](const StrainPoint& point) { response.points.push_back(point); });
+        }
+    } catch (const NoEquilibrium&) {
+        finish();
+        if (!response.failure) {
+            throw;
+        }
+        return response;
     }
-    response.broken = path.broken();
-    response.failure = path.failure() ? path.failure() : loss_of_load(response, options.solver.orientation);
-    response.effort = path.effort();
+    finish();
     return response;
 }
 

@@ -37,9 +37,9 @@ StrainPath::StrainPath(const Packing& packing, const ContactNetwork& bonds, cons
 }
 
 void StrainPath::give_up(const std::string& what) const {
-    throw std::runtime_error("no equilibrium was found " + what + " at the strain " + to_text(network_.strain()) +
-                             ": the rms force left on a particle is " + to_text(solver_.last_residual()) +
-                             " times the contact stiffness and the mean radius");
+    throw NoEquilibrium("no equilibrium was found " + what + " at the strain " + to_text(network_.strain()) +
+                        ": the rms force left on a particle is " + to_text(solver_.last_residual()) +
+                        " times the contact stiffness and the mean radius");
 }
 
 void StrainPath::update_point() {

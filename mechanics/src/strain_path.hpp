@@ -6,9 +6,14 @@
 
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace coagula::mechanics {
+
+struct NoEquilibrium : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 class StrainPath {
 public:

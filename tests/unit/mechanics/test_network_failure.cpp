@@ -47,6 +47,19 @@ TEST(NetworkFailure, SnappingPartsAreFollowed) {
     EXPECT_LT(std::abs(ramp.points.back().imbalance(ramp.points.front())), 1e-5 * ramp.points.back().work);
 }
 
+/// What is left of it snaps on and on: whether a path through that is found does not matter, the load is gone.
+TEST(NetworkFailure, RampPastTheLossOfLoadIsNoError) {
+    const auto sample = gel(150);
+    ContactModel model = springs();
+    model.normal_strength = 1e-10;
+    const auto ramp =
+        shear_to(sample.packing, sample.contacts, model, {.strain = 3e-3, .steps = 10, .solver = {.orientation = zx}});
+    ASSERT_TRUE(ramp.failure);
+    EXPECT_FALSE(ramp.failure->parted);
+    EXPECT_GT(ramp.failure->broken, 10);
+    EXPECT_LT(ramp.failure->strain, ramp.points.back().strain);
+}
+
 /// Springs without moments: in the end all is floppy, though chains still reach around the cell.
 TEST(NetworkFailure, FloppyNetworkIsFollowedUntilItBearsNothing) {
     const auto sample = gel(100);

@@ -72,7 +72,7 @@ struct NetworkFailure {
     Index broken = 0;  ///< bonds so far
     /// No chain of contacts reaches around the cell along the plate normal, so that nothing can pass a shear stress on: the run
     /// ends. Otherwise the chains that are left are floppy: from here to the end of a ramp less than a thousandth of the peak
-    /// stress.
+    /// stress; the ramp ends early where what is left has no further equilibrium that is found.
     bool parted = true;
 };
 
