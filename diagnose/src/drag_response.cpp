@@ -31,6 +31,7 @@ ContactModel dragged_model(const Settings& settings, double radius) {
     part.bending_ratio = settings.bending_ratio;
     part.springpot_ratio = settings.springpot_ratio;
     part.springpot_exponent = settings.springpot_exponent;
+    part.tension = settings.tension;
     part.felt_viscosity = settings.felt_viscosity;
     return contact_model_of(part, radius);
 }
@@ -121,7 +122,8 @@ Complex Simulator::exact_drag_response(const Settings& settings, double angular_
         sum += Complex(found->second[0], found->second[1]);
     }
     const Complex springs = 1.0 + springpot(settings, angular_frequency);
-    return sum / (static_cast<double>(structures.size()) * exact_linear_modulus(settings, group) * springs);
+    const double linear = exact_linear_modulus(settings, group) * exact_prestress_response(settings, group);
+    return sum / (static_cast<double>(structures.size()) * linear * springs);
 }
 
 }  // namespace coagula::diagnose

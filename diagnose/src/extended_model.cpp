@@ -35,6 +35,9 @@ ContactModel contact_model_of(const Settings& settings, double radius) {
     if (const double critical = std::min(settings.critical_strain, settings.rim_critical_strain); std::isfinite(critical)) {
         model.normal_strength = model.shear_strength = critical * normal * radius;
     }
+    if (settings.tension > 0) {
+        model.prestress = -settings.tension * normal * 2 * radius;
+    }
     if (settings.contact_preload > 0) {
         // Two equal spheres: the contact's stiffness is 2 E* sqrt(r0 / 2 x overlap), E* = E / (2 (1 - nu^2)).
         const double overlap = settings.contact_preload * radius;

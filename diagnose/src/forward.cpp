@@ -212,9 +212,11 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
     for (const Observation& observation : observations_) {
         const std::size_t group = observation.structures;
         if (!linear.contains(group) && !std::isfinite(observation.distance)) {
-            linear[group] =
-                (exact ? simulator_.exact_linear_modulus(settings, group) : simulator_.linear_modulus(settings, group)) *
-                (1 + settings.size_drift * std::cbrt(1000 / simulator_.particles(group)));
+            const double free =
+                exact ? simulator_.exact_linear_modulus(settings, group) : simulator_.linear_modulus(settings, group);
+            const double stretched =
+                exact ? simulator_.exact_prestress_response(settings, group) : simulator_.prestress_response(settings, group);
+            linear[group] = free * stretched * (1 + settings.size_drift * std::cbrt(1000 / simulator_.particles(group)));
         }
     }
     return linear;

@@ -27,6 +27,7 @@ std::span<const Mechanism> catalogue() {
         mechanisms::bond_strength(),
         mechanisms::plate_strain_field(),
         mechanisms::contact_nonlinearity(),
+        mechanisms::prestress(),
         mechanisms::contact_loss(),
         mechanisms::solvent_drag(),
         mechanisms::ageing(),

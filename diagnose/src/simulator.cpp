@@ -8,6 +8,7 @@
 
 #include "cache_key.hpp"
 #include "interpolation.hpp"
+#include "unit_stiffness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,6 @@
 namespace coagula::diagnose {
 
 namespace {
-
-constexpr double unit_stiffness = 100;  // of a particle [N/m]; moduli are proportional to it
 
 /// Nodes of the grids, uniform in the logarithm. Bending below its lowest node is off.
 constexpr Axis ratio_axis{0.02, 2.0, 9};

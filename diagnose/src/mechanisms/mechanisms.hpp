@@ -14,6 +14,7 @@ Mechanism bond_range();
 Mechanism bond_strength();
 Mechanism plate_strain_field();
 Mechanism contact_nonlinearity();
+Mechanism prestress();
 Mechanism contact_loss();
 Mechanism solvent_drag();
 Mechanism ageing();

@@ -24,6 +24,8 @@ struct Settings {
     double rim_critical_strain = std::numeric_limits<double>::infinity();  ///< the same where the strain between plates grows along
                                                                            ///< the radius; the smaller of both counts
 
+    double tension = 0;  ///< force at rest that pulls in every contact, over its normal stiffness times the diameter
+
     double contact_preload = 0;  ///< Hertz contacts that are as stiff as the springs at this overlap over r0, which they have under
                                  ///< the load at rest; 0: linear springs
 

@@ -58,6 +58,10 @@ public:
     std::complex<double> drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
     std::complex<double> exact_drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
 
+    /// G under a tension in all contacts over G without it, at vanishing strain.
+    double prestress_response(const Settings& settings, std::size_t group = 0);
+    double exact_prestress_response(const Settings& settings, std::size_t group = 0);
+
     /// Mean number of neighbours of a particle in a shell of distance (src/neighbour_shells.hpp) as measured coordinates would show
     /// it, mean over the structures.
     double neighbours(const Settings& settings, std::size_t shell, bool exact = false);
@@ -74,6 +78,7 @@ private:
     const std::vector<double>& strength_curve();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
+    double prestressed_modulus(std::size_t structure, const Settings& settings);
     const std::vector<double>& drag_nodes(std::size_t structure);
     const std::vector<std::complex<double>>& drag_curve(std::size_t group);
     std::vector<double> shells(double plane, double axis);

@@ -1,0 +1,16 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+/// Tension, as in a gel that would shrink. Compression of every bond makes networks as loose as gels buckle: no sample is in that
+/// state.
+Mechanism prestress() {
+    return {.name = "prestress",
+            .term = "all contacts pull at rest: their force resists sideways motion",
+            .signature = "raises the moduli, most where the network is loose, at all strains and frequencies alike",
+            .parameters = {{"tension_over_stiffness", "1", 1e-4, 1e-2, true, &Settings::tension}},
+            .in_contact = true,
+            .applies = has_moduli};
+}
+
+}  // namespace coagula::diagnose::mechanisms
