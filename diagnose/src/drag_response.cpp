@@ -108,9 +108,9 @@ Complex Simulator::exact_drag_response(const Settings& settings, double angular_
     const std::vector<std::size_t> structures = members(group);
     for (const std::size_t k : structures) {
         const std::string key =
-            key_of("drag at " + names_[k],
-                   {settings.normal_stiffness, settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance,
-                    settings.springpot_ratio, settings.springpot_exponent, settings.felt_viscosity, angular_frequency});
+            key_of("drag at " + names_[k], {settings.normal_stiffness, settings.stiffness_ratio, settings.bending_ratio,
+                                            settings.bond_tolerance, settings.springpot_ratio, settings.springpot_exponent,
+                                            settings.tension, settings.felt_viscosity, angular_frequency});
         auto found = cache_.find(key);
         if (found == cache_.end()) {
             progress_.update("simulating", 0.0, "drag of the solvent");
