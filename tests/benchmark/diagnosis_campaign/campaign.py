@@ -50,7 +50,7 @@ def prepared(row, number, program, folder, proposals=()):
     structures = [folder / "bank" / f"known_{k}.h5" for k in range(session.known_structures)]
     experiment = write(session, material, place, generator, structures)
     for count, what in enumerate(proposals):
-        session.tables += placed([replace(follow_up(session, what), sample=f"N{count}")])
+        session.tables += placed([replace(table, sample=f"N{count}") for table in follow_up(session, what)])
     if proposals:
         generator = numpy.random.default_rng([sorted(ROWS).index(row), number])
         ROWS[row](generator, material)

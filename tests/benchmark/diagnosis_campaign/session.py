@@ -95,24 +95,25 @@ def gap_day():
 
 
 def follow_up(session, what):
-    """The table that a proposal asks for, on a fresh sample."""
+    """The tables that a proposal asks for, on a fresh sample."""
     series = sweep("gap-series", "N", 0, SMALL_STRAIN, 1.0, 1, gap=numpy.geomspace(GAP / 3, 3 * GAP, 8))
     frequencies = numpy.geomspace(0.1, 10, 20)
     if "oil" in what:
         largest = max(abs(reading).max() for reading in session.moduli)
-        return replace(series, viscosity=0.1 * largest / (2 * numpy.pi))
+        return [replace(series, viscosity=0.1 * largest / (2 * numpy.pi))]
     if "rough" in what:
-        return replace(series, rough=True)
+        return [replace(series, rough=True)]
     if "series of gaps" in what:
-        return series
+        return [series]
     if "half the radius" in what:
-        return sweep("frequency-sweep", "N", 0, SMALL_STRAIN, frequencies, 20, plate=PLATE / 2)
+        return [sweep("frequency-sweep", "N", 0, SMALL_STRAIN, frequencies, 20, plate=PLATE / 2)]
     if "frequency sweep" in what:
-        return sweep("frequency-sweep", "N", 0, SMALL_STRAIN, numpy.geomspace(0.01, 100, 20), 20)
+        return [sweep("frequency-sweep", "N", 0, SMALL_STRAIN, numpy.geomspace(0.01, 100, 20), 20)]
     if "constant small strain" in what:
-        return sweep("time-sweep", "N", 0, numpy.full(20, SMALL_STRAIN), 1.0, 60)
+        return [sweep("time-sweep", "N", 0, numpy.full(20, SMALL_STRAIN), 1.0, 60)]
     strains = numpy.geomspace(SMALL_STRAIN, 10 * SMALL_STRAIN, 10)
-    return sweep("amplitude-sweep", "N", 0, strains if "up and down" not in what else numpy.concatenate([strains, strains[::-1]]), 1.0, 10)
+    down = [sweep("amplitude-sweep", "N", 1, strains[::-1], 1.0, 10)] if "up and down" in what else []
+    return [sweep("amplitude-sweep", "N", 0, strains, 1.0, 10), *down]
 
 
 def true_modulus(material, session, table):
