@@ -174,10 +174,7 @@ void run(const Arguments& arguments) {
     for (const CheckedMeasurement& entry : checked) {
         tables.push_back(entry.measurement);
     }
-    std::vector<NoiseModel> noises;
-    for (const diagnose::Replicates& replicates : diagnose::find_replicates(tables)) {
-        noises.push_back(diagnose::fit_noise(replicates, file.noise));
-    }
+    const std::vector<NoiseModel> noises = diagnose::noise_of_tables(tables, file.noise);
     if (!arguments.flag("check")) {
         file.experiment.measurements = std::move(tables);
         run_diagnosis(arguments, std::move(file), noises);

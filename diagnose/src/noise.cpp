@@ -349,6 +349,7 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     noise.kind = replicates.kind;
     noise.labels = replicates.labels;
     noise.observable = replicates.observable;
+    noise.fluid = replicates.fluid;
     noise.unit = replicates.unit;
     std::vector<std::string> names;
     const ReplicatedValues data = replicated_values(replicates, names);
@@ -367,6 +368,7 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     noise.floor = stated(options.stated_floor);
     noise.relative = stated(options.stated_relative);
     noise.sample = stated(options.stated_sample);
+    noise.phase = replicates.observable == "loss_modulus" && !replicates.fluid ? options.stated_phase : 0.0;
     noise.statement = data.conditions >= fewest_conditions ? "stated, not measured: replicates average to zero or below"
                                                            : "stated, not measured: there are no replicates";
     return noise;

@@ -71,7 +71,9 @@ void state_errors(Experiment& experiment, const std::vector<NoiseModel>& noise) 
                 const double weight = model->floor_of_stress && strain != nullptr ? 1 / strain->values[row] : 1.0;
                 const double level =
                     model->relative_to_complex_modulus ? complex_modulus(table, row) : level_at(*model, table, column, row);
-                column.standard_errors.push_back(shape.factor * standard_deviation(*model, level, weight));
+                const double size = complex_modulus(table, row);
+                const double turned = model->phase * (std::isnan(size) ? column.values[row] : size);
+                column.standard_errors.push_back(std::hypot(shape.factor * standard_deviation(*model, level, weight), turned));
             }
         }
     }

@@ -34,10 +34,7 @@ Experiment apart() {
 
 TEST(StatedErrors, AreInProportionToTheLevelOfTheirSample) {
     Experiment experiment = apart();
-    std::vector<NoiseModel> models;
-    for (const Replicates& replicates : find_replicates(experiment.measurements)) {
-        models.push_back(fit_noise(replicates));
-    }
+    const std::vector<NoiseModel> models = noise_of_tables(experiment.measurements);
     ASSERT_EQ(models.size(), 1U);
     state_errors(experiment, models);
     for (std::size_t sample = 0; sample < offsets.size(); ++sample) {
@@ -57,6 +54,44 @@ TEST(StatedErrors, OfTheTableAreKept) {
     state_errors(experiment, {model});
     EXPECT_EQ(experiment.measurements[1].columns[1].standard_errors, std::vector<double>(rows, 7.0));
     EXPECT_EQ(experiment.measurements[0].columns[1].standard_errors.size(), rows);
+}
+
+/// A frequency sweep on a sample of its own, elastic but for an error of the phase.
+Measurement lone_sweep() {
+    Measurement table;
+    table.kind = MeasurementKind::frequency_sweep;
+    table.label = table.sample = "lone";
+    table.columns = {{"angular_frequency", "rad/s", {1, 2, 4, 8, 16}},
+                     {"storage_modulus", "Pa", {3000, 3010, 2990, 3005, 2995}},
+                     {"loss_modulus", "Pa", {2, -3, 5, -4, 1}}};
+    return table;
+}
+
+TEST(StatedErrors, OfATableWithoutReplicatesAreThoseOfTheOthers) {
+    Experiment experiment = apart();
+    experiment.measurements.push_back(lone_sweep());
+    state_errors(experiment, noise_of_tables(experiment.measurements));
+    const Measurement& lone = experiment.measurements.back();
+    for (const double error : lone.columns[1].standard_errors) {
+        EXPECT_NEAR(error / 60, 1, 0.25);  // 2 % of 3000 Pa
+    }
+    for (const double error : lone.columns[2].standard_errors) {
+        EXPECT_NEAR(error, 15, 1);  // nothing tells but the stated error of the phase, 0.005 of 3000 Pa
+    }
+}
+
+TEST(StatedErrors, OfAFluidAreThoseOfTheTorque) {
+    Experiment experiment = apart();
+    Measurement oil = lone_sweep();
+    oil.fluid_viscosity = 3;
+    oil.columns = {oil.columns[0], {"loss_modulus", "Pa", {3, 6, 12, 24, 48}}};
+    experiment.measurements.push_back(oil);
+    state_errors(experiment, noise_of_tables(experiment.measurements));
+    const Column& loss = experiment.measurements.back().columns[1];
+    ASSERT_EQ(loss.standard_errors.size(), loss.values.size());
+    for (std::size_t row = 0; row < loss.values.size(); ++row) {
+        EXPECT_NEAR(loss.standard_errors[row] / (0.02 * loss.values[row]), 1, 0.25);
+    }
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct Replicates {
     bool floor_of_stress = false;          ///< w is 1/strain
     std::vector<std::string> labels = {};  ///< of the tables
     Eigen::VectorXd complex_moduli = {};   ///< mean |G*|, one per condition; NaN where it is not known
+    bool fluid = false;                    ///< of a Newtonian fluid
 };
 
 /// Tables of one kind with the same run order whose axes run in the same direction and share at least three values, to 2 %, and
@@ -52,7 +53,7 @@ struct NoiseOptions {
     double stated_relative = 0.05;
     double stated_sample = 0.1;
     double stated_floor = 0;      ///< unit of the observable; of the stress where the strain is known
-    double stated_phase = 0.005;  ///< error of the phase [rad], that of G'' over |G*|; of planned measurements only
+    double stated_phase = 0.005;  ///< error of the phase [rad], that of G'' over |G*|
     /// Largest over smallest ratio of level to w below which floor and relative part cannot be told apart, and the floor is left
     /// out.
     double least_range = 3;
@@ -77,6 +78,8 @@ struct NoiseModel {
     double autocorrelation = 0;
     /// Values average to zero or below: their scatter is taken in proportion to |G*| (an error of the phase) instead of mu.
     bool relative_to_complex_modulus = false;
+    double phase = 0;                                          ///< stated error of G'' over |G*|, beside the others [rad]
+    bool fluid = false;                                        ///< of a Newtonian fluid
     std::vector<std::string> labels = {};                      ///< of the tables
     std::size_t conditions = 0;                                ///< with replicates
     double excess_kurtosis = 0;                                ///< of a single error, 0 for normal ones
@@ -91,6 +94,11 @@ struct NoiseModel {
 /// by the likelihood of the contrasts between replicates; the levels and effects in the variances are those of the previous of four
 /// passes. Throws std::invalid_argument when sizes do not fit together.
 NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options = {});
+
+/// The models of all tables of moduli. Tables without replicates take the rows' noise of those that have some: that of the same
+/// observable from the largest number of degrees of freedom; the loss modulus of a Newtonian fluid, which stores nothing, that of a
+/// storage modulus.
+std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const NoiseOptions& options = {});
 
 /// What the models of one observable say together about errors besides their size: correlation of neighbours, freed from the bias
 /// that estimated sample effects make, and tail; each left out unless it is significant (two standard errors).
