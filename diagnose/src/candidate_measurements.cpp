@@ -44,6 +44,14 @@ Habits habits_of(const std::vector<Observation>& observations) {
     return habits;
 }
 
+/// Whether the gap becomes narrower in some table.
+bool narrows(const Experiment& experiment) {
+    return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), [](const Measurement& table) {
+        const Column* gap = find_column(table, "gap");
+        return gap != nullptr && gap->values.back() < gap->values.front();
+    });
+}
+
 /// A table whose columns are given or constant.
 class Plan {
 public:
@@ -94,9 +102,9 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
     up_and_down.insert(up_and_down.end(), up_and_down.rbegin(), up_and_down.rend());
 
     std::vector<Candidate> candidates;
-    const auto add = [&](const std::string& what, const Measurement& measurement) {
+    const auto add = [&](const std::string& what, const auto&... measurement) {
         candidates.push_back({what, experiment});
-        candidates.back().experiment.measurements = {measurement};
+        candidates.back().experiment.measurements = {measurement...};
     };
     add("a run at constant small strain and frequency over the same time", plan.table(MeasurementKind::time_sweep));
     add("a frequency sweep over four decades at the smallest strain",
@@ -106,14 +114,21 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
                                                     .table(MeasurementKind::amplitude_sweep));
     add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
     if (std::isfinite(gap)) {
-        Measurement series =
-            Plan(habits, gap, gaps).gap(logarithmic_steps(gap / 3, 3 * gap, gaps)).table(MeasurementKind::gap_series);
-        add("a series of gaps", series);
-        series.rough_plates = true;
-        add("a series of gaps between rough plates, at which nothing slips", series);
-        series.rough_plates = false;
-        series.fluid_viscosity = 0.1 * habits.modulus / habits.angular_frequency;  // too soft to turn the tool
-        add("a series of gaps with a Newtonian oil of known viscosity", series);
+        // A drift in time goes with the gap in one direction and against it in the other.
+        const bool upwards = narrows(experiment);
+        const std::string series = upwards ? "a series of gaps from narrow to wide" : "a series of gaps from wide to narrow";
+        const Measurement plain = Plan(habits, gap, gaps)
+                                      .gap(logarithmic_steps(upwards ? gap / 3 : 3 * gap, upwards ? 3 * gap : gap / 3, gaps))
+                                      .table(MeasurementKind::gap_series);
+        Measurement rough = plain;
+        rough.rough_plates = true;
+        Measurement oil = plain;
+        oil.sample = "oil";
+        oil.fluid_viscosity = 0.1 * habits.modulus / habits.angular_frequency;  // too soft to turn the tool
+        add(series, plain);
+        add(series + " between rough plates, at which nothing slips", rough);
+        add(series + " with a Newtonian oil of known viscosity", oil);
+        add(series + " between rough plates, at which nothing slips, and one with a Newtonian oil of known viscosity", rough, oil);
         add("the same with a plate of half the radius",
             Plan(plan).frequency(frequencies(10)).table(MeasurementKind::frequency_sweep));
         candidates.back().experiment.instrument.plate_radius *= 0.5;

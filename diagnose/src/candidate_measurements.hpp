@@ -11,11 +11,12 @@ namespace coagula::diagnose {
 /// A measurement that could be made.
 struct Candidate {
     std::string what;
-    Experiment experiment;  ///< the one table, whose moduli are still to be filled in
+    Experiment experiment;  ///< its tables, each on a fresh sample, whose moduli are still to be filled in
 };
 
 /// Sweeps with the settings that the experiment has: its smallest strain, its typical frequency, its longest time; and where the
-/// gap is known series of gaps, also between rough plates and with an oil, and a smaller plate.
+/// gap is known a smaller plate and series of gaps, from wide to narrow unless the experiment has such, also between rough plates
+/// and with an oil.
 std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations);
 
 }  // namespace coagula::diagnose

@@ -78,23 +78,41 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
     return deviation;
 }
 
-/// Logarithm of the density of data, the effect of the sample integrated out (Woodbury's identity).
-double log_density(const Eigen::VectorXd& data, const Eigen::VectorXd& prediction, const Eigen::ArrayXd& deviation, double effect) {
-    const Eigen::ArrayXd plain = (data - prediction).array() / deviation;
-    const Eigen::ArrayXd direction = prediction.array() / deviation;
-    const double variance = effect * effect;
-    const double normal = 1 + variance * direction.square().sum();
-    return -0.5 * (plain.square().sum() - variance * std::pow((plain * direction).sum(), 2) / normal + std::log(normal));
+/// A measurement that is judged beforehand.
+struct Planned {
+    std::vector<std::size_t> table;  ///< of each row; each table has a sample of its own
+    Eigen::ArrayXd deviation;        ///< of each row
+    double effect;                   ///< standard deviation of that of a sample
+};
+
+/// Logarithm of the density of data, the effects of the samples integrated out (Woodbury's identity).
+double log_density(const Eigen::VectorXd& data, const Eigen::VectorXd& prediction, const Planned& planned) {
+    const Eigen::ArrayXd plain = (data - prediction).array() / planned.deviation;
+    const Eigen::ArrayXd direction = prediction.array() / planned.deviation;
+    const double variance = planned.effect * planned.effect;
+    std::vector<double> squares(planned.table.back() + 1, 0);
+    std::vector<double> products(squares.size(), 0);
+    for (Index row = 0; row < data.size(); ++row) {
+        const std::size_t table = planned.table[static_cast<std::size_t>(row)];
+        squares[table] += direction[row] * direction[row];
+        products[table] += direction[row] * plain[row];
+    }
+    double sum = plain.square().sum();
+    for (std::size_t table = 0; table < squares.size(); ++table) {
+        const double normal = 1 + variance * squares[table];
+        sum += std::log(normal) - variance * products[table] * products[table] / normal;
+    }
+    return -0.5 * sum;
 }
 
 /// Probability of each cause given data, each cause being a mixture of its predictions.
 std::vector<double> judge(const Eigen::VectorXd& data, const std::vector<Eigen::MatrixXd>& predictions,
-                          const std::vector<double>& weights, const Eigen::ArrayXd& deviation, double effect) {
+                          const std::vector<double>& weights, const Planned& planned) {
     std::vector<double> logarithms;
     for (std::size_t cause = 0; cause < predictions.size(); ++cause) {
         std::vector<double> densities;
         for (const auto& prediction : predictions[cause].colwise()) {
-            densities.push_back(log_density(data, prediction, deviation, effect));
+            densities.push_back(log_density(data, prediction, planned));
         }
         logarithms.push_back(log_sum(densities) + std::log(weights[cause]));
     }
@@ -127,7 +145,10 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
     const std::vector<Observation> observations = observations_of(candidate.experiment);
     const Forward forward(candidate.experiment, observations, simulator);
     const std::vector<Eigen::MatrixXd> predictions = predictions_by(causes, forward, observations.size());
-    const Eigen::ArrayXd deviation = deviations(observations, predictions.front().rowwise().mean(), errors);
+    Planned planned{{}, deviations(observations, predictions.front().rowwise().mean(), errors), errors.sample};
+    for (const Observation& one : observations) {
+        planned.table.push_back(one.measurement);
+    }
     Proposal proposal{.what = candidate.what};
     const double before = entropy(weights);
     std::uint64_t step = 2000000 + 1000 * number;
@@ -135,12 +156,14 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
         for (int draw = 0; draw < draws_per_cause * data_per_draw; ++draw) {
             std::uint64_t place = 0;
             const auto normal = [&] { return normal_number(seed, step, place++); };
-            Eigen::VectorXd data = predictions[cause].col(draw % draws_per_cause) * (1 + errors.sample * normal());
+            std::vector<double> level(planned.table.back() + 1);
+            std::generate(level.begin(), level.end(), [&] { return 1 + planned.effect * normal(); });
+            Eigen::VectorXd data = predictions[cause].col(draw % draws_per_cause);
             for (Index k = 0; k < data.size(); ++k) {
-                data[k] += deviation[k] * normal();
+                data[k] = level[planned.table[static_cast<std::size_t>(k)]] * data[k] + planned.deviation[k] * normal();
             }
             ++step;
-            const std::vector<double> after = judge(data, predictions, weights, deviation, errors.sample);
+            const std::vector<double> after = judge(data, predictions, weights, planned);
             const double share = weights[cause] / (draws_per_cause * data_per_draw);
             proposal.information += share * (before - entropy(after));
             proposal.resolution += *std::max_element(after.begin(), after.end()) > certain ? share : 0.0;

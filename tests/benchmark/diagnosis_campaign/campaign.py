@@ -50,7 +50,7 @@ def prepared(row, number, program, folder, proposals=()):
     structures = [folder / "bank" / f"known_{k}.h5" for k in range(session.known_structures)]
     experiment = write(session, material, place, generator, structures)
     for count, what in enumerate(proposals):
-        session.tables += placed([replace(table, sample=f"N{count}") for table in follow_up(session, what)])
+        session.tables += placed([replace(table, sample=f"{table.sample}{count}") for table in follow_up(session, what)])
     if proposals:
         generator = numpy.random.default_rng([sorted(ROWS).index(row), number])
         ROWS[row](generator, material)
@@ -59,9 +59,9 @@ def prepared(row, number, program, folder, proposals=()):
 
 
 def resolve(row, number, program, folder, found, truth, seed):
-    """Makes the measurement that is proposed, and then the next; after how many the true cause alone is left, 0 if never."""
+    """Makes the measurement that is proposed, and then the next ones; after how many the true cause alone is left, 0 if never."""
     proposals = []
-    for count in (1, 2):
+    for count in (1, 2, 3):
         proposals.append(found["proposed_measurement"]["what"])
         _, _, experiment = prepared(row, number, program, folder, proposals)
         found = diagnose(program, experiment, folder / "simulations.txt", *seed)

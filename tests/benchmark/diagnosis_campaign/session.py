@@ -96,15 +96,14 @@ def gap_day():
 
 def follow_up(session, what):
     """The tables that a proposal asks for, on a fresh sample."""
-    series = sweep("gap-series", "N", 0, SMALL_STRAIN, 1.0, 1, gap=numpy.geomspace(GAP / 3, 3 * GAP, 8))
+    gaps = numpy.geomspace(GAP / 3, 3 * GAP, 8)
+    series = sweep("gap-series", "N", 0, SMALL_STRAIN, 1.0, 60, gap=gaps if "from narrow" in what else gaps[::-1])
     frequencies = numpy.geomspace(0.1, 10, 20)
-    if "oil" in what:
-        largest = max(abs(reading).max() for reading in session.moduli)
-        return [replace(series, viscosity=0.1 * largest / (2 * numpy.pi))]
-    if "rough" in what:
-        return [replace(series, rough=True)]
     if "series of gaps" in what:
-        return [series]
+        largest = max(abs(reading).max() for reading in session.moduli)
+        oil = replace(series, sample="O", viscosity=0.1 * largest / (2 * numpy.pi))
+        with_sample = replace(series, rough="rough" in what)
+        return [with_sample] * ("oil" not in what or "rough" in what) + [oil] * ("oil" in what)
     if "half the radius" in what:
         return [sweep("frequency-sweep", "N", 0, SMALL_STRAIN, frequencies, 20, plate=PLATE / 2)]
     if "frequency sweep" in what:
