@@ -7,6 +7,8 @@
 RULE: central        contacts that slide and roll freely, stopped when a is the published one (a time per structure: a fit)
       coordination   the same contacts, stopped when the coordination number is the published one
       sticking       contacts that do not slip, one stopping time for all
+      slipping       contacts that slip beyond 0.3 of their elastic normal force, the same stopping time
+      rolling        contacts that neither slip nor roll freely, the same stopping time
 
 One suspension is brought to equilibrium at 50 mV; every structure starts from it. A run that was interrupted goes on from its checkpoint, a
 structure that is there is measured and not made again. Prints one row per structure and writes them to OUT/table.csv.
@@ -22,10 +24,11 @@ from pathlib import Path
 
 RADIUS, VOLUME_FRACTION, SEED = "0.25um", "0.4", "1"
 # Simulated time in ms at which the degree of heterogeneity is the published one: a fit, one number per structure.
-FITTED_STOP_TIME = {0: 3.06, 12: 6.59, 13: 9.36, 14: 38.1, 15: 246.0}
+FITTED_STOP_TIME = {0: 3.06, 12: 6.59, 13: 9.36, 14: 38.1, 15: 247.5}
 PUBLISHED_COORDINATION = {0: 4.52, 12: 4.84, 13: 4.75, 14: 5.08, 15: 4.97}
-# Contacts that do not slip, and one stop rule for all: half of the diffusion time R^2/D.
-STICKING = ["--tangential-stiffness", "2.59mN/m", "--stop-time", "36.4ms"]  # 4e4 kB T/R^2
+# One stop rule for all: half of the diffusion time R^2/D. Stiffnesses are 4e4 kB T/R^2.
+STICKING = ["--tangential-stiffness", "2.59mN/m", "--stop-time", "36.4ms"]
+CONTACT_LAWS = {"sticking": STICKING, "slipping": [*STICKING, "--friction", "0.3"], "rolling": [*STICKING, "--rolling-stiffness", "2.59mN/m"]}
 COLUMNS = ["surface_potential_mV", "particles", "law", "time_ms", "doh_a", "coordination", "G_Pa", "G_spread_Pa", "seconds"]
 
 
@@ -45,8 +48,8 @@ def suspension(program, out, particles):
 
 
 def end_of_run(law, potential):
-    if law == "sticking":
-        return STICKING
+    if law in CONTACT_LAWS:
+        return CONTACT_LAWS[law]
     if law == "coordination":
         return ["--stop-coordination", PUBLISHED_COORDINATION[potential], "--sample-interval", "0.02ms"]
     return ["--stop-time", f"{FITTED_STOP_TIME[potential]}ms"]
@@ -74,7 +77,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=Path, default=Path("build/bin/coagula"))
     parser.add_argument("--particles", type=int, default=8000)
-    parser.add_argument("--law", choices=("central", "coordination", "sticking"), default="central")
+    parser.add_argument("--law", choices=("central", "coordination", *CONTACT_LAWS), default="central")
     parser.add_argument("--potentials", default="0,12,13,14,15")
     parser.add_argument("--out", type=Path, default=Path("structures"))
     arguments = parser.parse_args()
