@@ -148,7 +148,7 @@ void run_power(const Arguments& arguments) {
         folder.emplace(arguments.text("output"), "power.json", arguments.flag("force"));
     }
     const Progress progress = make_progress(arguments.flag("quiet"));
-    const ExperimentFile file = read_experiment(arguments.input());
+    ExperimentFile file = read_experiment(arguments.input());
     diagnose::PowerOptions options;
     options.noise = file.noise;
     options.storage_modulus = file.expected_storage_modulus;
@@ -162,7 +162,8 @@ void run_power(const Arguments& arguments) {
     options.diagnosis.seed = static_cast<std::uint64_t>(arguments.count("seed"));
     ExperimentStructures structures = structures_of(file.experiment, progress);
     diagnose::SimulationCache cache = folder ? read_cache(folder->path() / "simulations.txt") : diagnose::SimulationCache{};
-    diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress);
+    diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
+                                  file.experiment.structure_groups);
     const Power power = diagnose::find_power(file.experiment, simulator, options, progress);
 
     Json json = to_json(power, options);

@@ -29,14 +29,14 @@ bool Forward::strain_varies(const Settings& settings) const {
 
 /// G* / G of a sweep upwards that has come to this strain at the rim. Between plates the torque shows
 /// 4 / R^4 times the integral of G*(gamma_R r / R) r^3 (Macosko, Rheology, 1994, sec. 5.5).
-Complex Forward::breaking_response(const Settings& settings, double strain) const {
+Complex Forward::breaking_response(const Settings& settings, double strain, std::size_t error) const {
     if (!strain_varies(settings)) {
-        return simulator_.amplitude_response(settings, strain);
+        return simulator_.amplitude_response(settings, strain, error);
     }
     static const std::vector<Ring> rings = plate_rings(3);
     Complex mean = 0;
     for (const Ring& ring : rings) {
-        mean += ring.weight * simulator_.amplitude_response(settings, ring.radius * strain);
+        mean += ring.weight * simulator_.amplitude_response(settings, ring.radius * strain, error);
     }
     return mean;
 }
@@ -102,14 +102,14 @@ std::map<std::size_t, Complex> Forward::exact_factors(const Settings& settings, 
 }
 
 /// G* / G from breaking bonds for every observation. A bond that broke stays broken: the largest strain so far counts.
-std::vector<Complex> Forward::amplitude_factors(const Settings& given, bool exact) const {
+std::vector<Complex> Forward::amplitude_factors(const Settings& given, Run run) const {
     const Settings settings = with_weakest_bonds(given);
     std::vector<Complex> factors(observations_.size(), 1.0);
     if (!std::isfinite(settings.critical_strain)) {
         return factors;
     }
     for (std::size_t table = 0; table < experiment_.measurements.size(); ++table) {
-        const std::map<std::size_t, Complex> run = exact ? exact_factors(settings, table) : std::map<std::size_t, Complex>{};
+        const std::map<std::size_t, Complex> rows = run.exact ? exact_factors(settings, table) : std::map<std::size_t, Complex>{};
         const std::vector<double> earlier = strains_before(table);
         const double before = earlier.empty() ? 0.0 : *std::max_element(earlier.begin(), earlier.end());
         double largest = before;
@@ -123,13 +123,13 @@ std::vector<Complex> Forward::amplitude_factors(const Settings& given, bool exac
                 largest = before;  // the other modulus, from the start of the sweep
             }
             row_before = observation.row;
-            if (const auto found = run.find(observation.row); found != run.end()) {
+            if (const auto found = rows.find(observation.row); found != rows.end()) {
                 factors[k] = found->second;
                 continue;
             }
             const bool falls = observation.strain < largest;
             largest = std::max(largest, observation.strain);
-            const Complex response = breaking_response(settings, largest);
+            const Complex response = breaking_response(settings, largest, run.error);
             factors[k] = falls ? Complex(response.real()) : response;  // nothing breaks on the way down
         }
     }

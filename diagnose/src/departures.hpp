@@ -8,11 +8,11 @@
 namespace coagula::diagnose {
 
 /// Whitened residuals: of the observations, then of each sample its effect over the deviation of the effects (if these have one),
-/// then that of the stiffness from the known one over its error (if it is known). Independent with unit variance if the model is
-/// true.
+/// then the errors of the model over their standard error, then that of the stiffness from the known one over its error (if it is
+/// known). Independent with unit variance if the model is true.
 struct Departures {
     Eigen::VectorXd residual;
-    Eigen::MatrixXd jacobian;  ///< of the prediction: stiffness, parameters, sample effects
+    Eigen::MatrixXd jacobian;  ///< of the prediction: stiffness, parameters, sample effects, errors of the model
 };
 Departures departures_of(const Inference& inference, const Fit& fit);
 

@@ -128,7 +128,7 @@ std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit
     if (samples > 1) {
         all.push_back({.observable = "sample_effect", .rows = between(data.size(), data.size() + samples)});
     }
-    if (rows > data.size() + samples) {
+    if (std::isfinite(inference.stiffness_departure(0))) {
         all.push_back({.observable = "normal_stiffness", .rows = {rows - 1}});
     }
     add_smooth(data.observations, all);
@@ -219,7 +219,10 @@ Detection detect(const Inference& inference, const Fit& fit, std::uint64_t seed,
         if (sample < bootstrap) {
             const Eigen::VectorXd errors = draw_errors(data, seed, static_cast<std::uint64_t>(sample));
             drawn.head(errors.size()) = errors;
-            drawn.tail(rows - errors.size()).setConstant(normal_number(seed, static_cast<std::uint64_t>(sample), 1000000));
+            for (Index row = errors.size(); row < rows; ++row) {
+                const auto number = static_cast<std::uint64_t>(1000000 + rows - 1 - row);
+                drawn[row] = normal_number(seed, static_cast<std::uint64_t>(sample), number);
+            }
         }
         drawn -= basis * (basis.transpose() * drawn);
         for (Index kind = 0; kind < kinds; ++kind) {

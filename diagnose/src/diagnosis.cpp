@@ -130,8 +130,9 @@ std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidenc
     return probabilities_of(std::move(logarithms));
 }
 
-std::vector<SampleEffect> effects_of(const Likelihood& likelihood, const Eigen::VectorXd& prediction) {
-    const Eigen::VectorXd values = likelihood.effects(prediction);
+std::vector<SampleEffect> effects_of(const Likelihood& likelihood, const Eigen::VectorXd& prediction,
+                                     const Eigen::MatrixXd& errors) {
+    const Eigen::VectorXd values = likelihood.effects(prediction, errors);
     std::vector<SampleEffect> effects;
     for (std::size_t k = 0; k < likelihood.data().sample_names.size(); ++k) {
         effects.push_back({likelihood.data().sample_names[k], values[static_cast<Index>(k)]});
@@ -145,10 +146,11 @@ void predict_rows(const DataSet& data, const Inference& inference, const Setting
     const Likelihood& likelihood = inference.likelihood();
     const Eigen::VectorXd by_base = inference.forward().predict(base);
     const Eigen::VectorXd by_extended = inference.forward().predict(extended, true);
+    const Eigen::MatrixXd errors = inference.forward().yield_errors(extended);
     const Eigen::VectorXd base_residual = likelihood.residual(by_base);
-    const Eigen::VectorXd extended_residual = likelihood.residual(by_extended);
-    diagnosis.base_effects = effects_of(likelihood, by_base);
-    diagnosis.extended_effects = effects_of(likelihood, by_extended);
+    const Eigen::VectorXd extended_residual = likelihood.residual(by_extended, errors);
+    diagnosis.base_effects = effects_of(likelihood, by_base, {});
+    diagnosis.extended_effects = effects_of(likelihood, by_extended, errors);
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);

@@ -36,21 +36,6 @@ Eigen::VectorXd ranks(const std::vector<Observation>& observations, Coordinate c
     return rank;
 }
 
-/// Size of |G*| at each observation: what a correction of G'' is relative to.
-Eigen::VectorXd levels(const std::vector<Observation>& observations) {
-    Eigen::VectorXd level(static_cast<Index>(observations.size()));
-    for (std::size_t k = 0; k < observations.size(); ++k) {
-        double squared = 0;
-        for (const Observation& other : observations) {
-            if (other.measurement == observations[k].measurement && other.row == observations[k].row) {
-                squared += other.value * other.value;
-            }
-        }
-        level[static_cast<Index>(k)] = std::sqrt(squared);
-    }
-    return level;
-}
-
 double log_normal_density(const Eigen::VectorXd& residual, const Eigen::LLT<Eigen::MatrixXd>& factor) {
     const Eigen::VectorXd white = factor.matrixL().solve(residual);
     return -0.5 * white.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
@@ -69,56 +54,83 @@ Eigen::MatrixXd correlation(const std::vector<Eigen::VectorXd>& ranks, double le
 /// What a correction is of.
 enum class Corrected { storage, loss, both };
 
+bool takes_part(const Observation& one, Corrected corrected) {
+    return corrected == Corrected::both || one.loss == (corrected == Corrected::loss);
+}
+
 /// Products of the levels of two observations of one observable, where that is corrected.
 Eigen::MatrixXd products(const std::vector<Observation>& observations, Corrected corrected) {
-    const Eigen::VectorXd level = levels(observations);
+    Eigen::VectorXd values(static_cast<Index>(observations.size()));
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        values[static_cast<Index>(k)] = observations[k].value;
+    }
+    const Eigen::VectorXd level = complex_moduli(observations, values);
     Eigen::MatrixXd product = level * level.transpose();
-    const auto takes_part = [&](const Observation& one) {
-        return corrected == Corrected::both || one.loss == (corrected == Corrected::loss);
-    };
     for (Index i = 0; i < product.rows(); ++i) {
         for (Index j = 0; j < product.cols(); ++j) {
             const Observation& one = observations[static_cast<std::size_t>(i)];
             const Observation& other = observations[static_cast<std::size_t>(j)];
-            product(i, j) *= one.loss == other.loss && takes_part(one) ? 1.0 : 0.0;
+            product(i, j) *= one.loss == other.loss && takes_part(one, corrected) ? 1.0 : 0.0;
         }
     }
     return product;
 }
 
-/// Covariances of smooth corrections of unit size, in groups that are equally probable: along one coordinate, the sum of two of
-/// these, and along all coordinates together; each of one observable or of both.
-std::vector<std::vector<Eigen::MatrixXd>> smooth_covariances(const std::vector<Observation>& observations, double length) {
+/// A smooth correction: of which moduli, and along which coordinates, as the sum of a part along each or along all together.
+struct Correction {
+    Corrected corrected;
+    std::vector<Eigen::VectorXd> along;  ///< ranks; none: a constant
+    bool together = false;
+};
+
+/// In groups that are equally probable: along one coordinate, the sum of two of these, and along all coordinates together; each of
+/// one observable or of both.
+std::vector<std::vector<Correction>> smooth_corrections(const std::vector<Observation>& observations) {
     std::vector<Eigen::VectorXd> varying;
-    std::vector<Eigen::MatrixXd> along;
     for (const Coordinate coordinate : all_coordinates()) {
         const Eigen::VectorXd rank = ranks(observations, coordinate);
         if (rank.maxCoeff() > 0) {
             varying.push_back(rank);
-            along.push_back(correlation({rank}, length));
         }
     }
-    std::vector<std::vector<Eigen::MatrixXd>> groups;
+    std::vector<std::vector<Correction>> groups;
     for (const Corrected corrected : {Corrected::storage, Corrected::loss, Corrected::both}) {
-        const Eigen::MatrixXd product = products(observations, corrected);
-        if (product.isZero()) {
+        const bool any = std::any_of(observations.begin(), observations.end(),
+                                     [&](const Observation& one) { return takes_part(one, corrected); });
+        if (!any) {
             continue;
         }
-        std::vector<Eigen::MatrixXd> one;
-        std::vector<Eigen::MatrixXd> two;
-        for (std::size_t k = 0; k < along.size(); ++k) {
-            one.push_back(product.cwiseProduct(along[k]));
+        std::vector<Correction> one;
+        std::vector<Correction> two;
+        for (std::size_t k = 0; k < varying.size(); ++k) {
+            one.push_back({corrected, {varying[k]}});
             for (std::size_t other = 0; other < k; ++other) {
-                two.push_back(0.5 * (one[k] + one[other]));
+                two.push_back({corrected, {varying[k], varying[other]}});
             }
         }
-        groups.push_back(one.empty() ? std::vector{product} : one);  // nothing but a constant
+        groups.push_back(one.empty() ? std::vector<Correction>{{corrected, {}}} : one);
         if (!two.empty()) {
             groups.push_back(two);
-            groups.push_back({product.cwiseProduct(correlation(varying, length))});
+            groups.push_back({{corrected, varying, true}});
         }
     }
     return groups;
+}
+
+/// Covariance of a correction of unit size.
+Eigen::MatrixXd covariance(const Correction& correction, const std::vector<Observation>& observations, double length) {
+    const Eigen::MatrixXd product = products(observations, correction.corrected);
+    if (correction.along.empty()) {
+        return product;
+    }
+    if (correction.together) {
+        return product.cwiseProduct(correlation(correction.along, length));
+    }
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(product.rows(), product.cols());
+    for (const Eigen::VectorXd& rank : correction.along) {
+        sum += correlation({rank}, length);
+    }
+    return product.cwiseProduct(sum) / static_cast<double>(correction.along.size());
 }
 
 double log_mean(const std::vector<double>& logarithms) {
@@ -134,11 +146,13 @@ double flexible_evidence(const DataSet& data, const Forward& forward, const Eige
     for (std::size_t k = 0; k < expected.size(); ++k) {
         expected[k].value = base[static_cast<Index>(k)];
     }
+    const std::vector<std::vector<Correction>> groups = smooth_corrections(expected);
     std::vector<double> evidence;
     for (const double length : lengths) {
-        for (const std::vector<Eigen::MatrixXd>& group : smooth_covariances(expected, length)) {
+        for (const std::vector<Correction>& group : groups) {
             std::vector<double> members;
-            for (const Eigen::MatrixXd& unit : group) {
+            for (const Correction& correction : group) {
+                const Eigen::MatrixXd unit = covariance(correction, expected, length);
                 for (const double amplitude : amplitudes) {
                     const Likelihood likelihood(data, amplitude * amplitude * unit);
                     members.push_back(Inference(forward, likelihood).fit({}).log_evidence);
@@ -163,9 +177,11 @@ Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& 
             prediction = base + smooth(Eigen::all, known) * factor.solve(residual);
         }
     };
+    const std::vector<std::vector<Correction>> groups = smooth_corrections(data.observations);
     for (const double length : lengths) {
-        for (const std::vector<Eigen::MatrixXd>& group : smooth_covariances(data.observations, length)) {
-            for (const Eigen::MatrixXd& unit : group) {
+        for (const std::vector<Correction>& group : groups) {
+            for (const Correction& correction : group) {
+                const Eigen::MatrixXd unit = covariance(correction, data.observations, length);
                 for (const double amplitude : amplitudes) {
                     consider(amplitude * amplitude * unit);
                 }

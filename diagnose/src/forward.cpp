@@ -22,11 +22,6 @@ constexpr Index fewest_centres = 20;
 /// How long a row takes where the table has no times [s].
 constexpr double row_duration = 10;
 
-bool has_moduli(MeasurementKind kind) {
-    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
-           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
-}
-
 double angular_frequency(const Measurement& table, std::size_t row) {
     const double given = cell(table, "angular_frequency", row);
     return std::isnan(given) ? 2 * pi * cell(table, "frequency", row) : given;
@@ -135,6 +130,11 @@ std::vector<Observation> neighbours_in(const Experiment& experiment, std::size_t
 
 }  // namespace
 
+bool has_moduli(MeasurementKind kind) {
+    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
+}
+
 const char* observable_of(const Observation& observation) {
     if (std::isfinite(observation.distance)) {
         return "neighbours";
@@ -167,6 +167,18 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
         }
     }
     return all;
+}
+
+Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli) {
+    std::map<std::pair<std::size_t, std::size_t>, double> squares;
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        squares[{observations[k].measurement, observations[k].row}] += std::pow(moduli[static_cast<Index>(k)], 2);
+    }
+    Eigen::ArrayXd sizes(moduli.size());
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        sizes[static_cast<Index>(k)] = std::sqrt(squares[{observations[k].measurement, observations[k].row}]);
+    }
+    return sizes;
 }
 
 Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
@@ -223,9 +235,9 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
 }
 
 /// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional.
-std::vector<Complex> Forward::material(const Settings& settings, bool exact) const {
-    std::map<std::size_t, double> linear = linear_moduli(settings, exact);
-    std::vector<Complex> moduli = amplitude_factors(settings, exact);
+std::vector<Complex> Forward::material(const Settings& settings, Run run) const {
+    std::map<std::size_t, double> linear = linear_moduli(settings, run.exact);
+    std::vector<Complex> moduli = amplitude_factors(settings, run);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         moduli[k] *= linear[observation.structures];
@@ -237,8 +249,8 @@ std::vector<Complex> Forward::material(const Settings& settings, bool exact) con
             moduli[k] *= 1.0 + springpot(settings, observation.angular_frequency);
         }
         if (settings.felt_viscosity > 0 && std::isfinite(observation.angular_frequency)) {
-            moduli[k] *= exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
-                               : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
+            moduli[k] *= run.exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
+                                   : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
         }
         if (std::isfinite(observation.time)) {
             moduli[k] *= std::pow(1 + observation.time / settings.build_up_time, settings.build_up_exponent);
@@ -248,33 +260,64 @@ std::vector<Complex> Forward::material(const Settings& settings, bool exact) con
     return moduli;
 }
 
-Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
-    const Settings part = of_material(settings);
-    if (exact || last_material_.empty() || !(part == last_settings_)) {
-        last_material_ = material(part, exact);
-        last_settings_ = exact ? Settings{.normal_stiffness = unset} : part;  // what is exact serves once
+const std::vector<Complex>& Forward::remembered_material(const Settings& settings, Run run) const {
+    if (run.exact || !(settings == last_settings_)) {
+        last_materials_.clear();
+        last_settings_ = run.exact ? Settings{.normal_stiffness = unset} : settings;  // what is exact serves once
     }
+    const auto found = last_materials_.find(run.error);
+    return found != last_materials_.end() ? found->second : last_materials_[run.error] = material(settings, run);
+}
+
+/// What the instrument shows of every observation.
+Eigen::VectorXd Forward::seen(const Settings& settings, Run run) const {
+    const std::vector<Complex>& moduli = remembered_material(of_material(settings), run);
     Eigen::VectorXd predicted(static_cast<Index>(observations_.size()));
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         if (std::isfinite(observation.distance)) {
-            predicted[static_cast<Index>(k)] = simulator_.neighbours(settings, observation.row, exact);
+            predicted[static_cast<Index>(k)] = simulator_.neighbours(settings, observation.row, run.exact);
             continue;
         }
         const Complex material = std::isfinite(observation.fluid_viscosity)
                                      ? Complex(0, observation.fluid_viscosity * observation.angular_frequency)
-                                     : settings.normal_stiffness * last_material_[k];
+                                     : settings.normal_stiffness * moduli[k];
         const Complex modulus = seen_by_instrument(settings, observation, material);
         predicted[static_cast<Index>(k)] = observation.loss ? modulus.imag() : modulus.real();
     }
     return predicted;
 }
 
-Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& levels) const {
-    Eigen::VectorXd deviation = Eigen::VectorXd::Zero(levels.size());
-    for (Index row = 0; row < levels.size(); ++row) {
+Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
+    return seen(settings, {.exact = exact});
+}
+
+Eigen::MatrixXd Forward::yield_errors(const Settings& settings) const {
+    const bool breaks = std::isfinite(std::min(settings.critical_strain, settings.rim_critical_strain));
+    const std::size_t errors = breaks ? simulator_.strength_errors() : 0;
+    Eigen::MatrixXd changes(static_cast<Index>(observations_.size()), static_cast<Index>(errors));
+    const Eigen::VectorXd mean = errors > 0 ? seen(settings, {}) : Eigen::VectorXd();
+    for (std::size_t error = 1; error <= errors; ++error) {
+        changes.col(static_cast<Index>(error) - 1) = seen(settings, {.error = error}) - mean;
+    }
+    return changes;
+}
+
+Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {
+    Eigen::VectorXd deviation = Eigen::VectorXd::Zero(values.size());
+    const Eigen::VectorXd base = predict({});
+    std::vector<double> ratios;
+    for (Index row = 0; row < values.size(); ++row) {
         const std::size_t group = observations_[static_cast<std::size_t>(row)].structures;
-        deviation[row] = group > 0 ? simulator_.structure_error(group) * std::abs(levels[row]) : 0.0;
+        if (group > 0 && base[row] != 0) {
+            ratios.push_back(std::abs(values[row] / base[row]));
+            deviation[row] = simulator_.structure_error(group) * std::abs(base[row]);
+        }
+    }
+    if (!ratios.empty()) {
+        const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+        std::nth_element(ratios.begin(), middle, ratios.end());
+        deviation *= *middle;
     }
     return deviation;
 }

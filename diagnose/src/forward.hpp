@@ -40,11 +40,17 @@ struct Observation {
     double distance = unset;  ///< middle of the shell over the diameter
 };
 
+/// Whether tables of this kind hold G' or G''.
+bool has_moduli(MeasurementKind kind);
+
 /// "storage_modulus", "loss_modulus" or "neighbours".
 const char* observable_of(const Observation& observation);
 
 /// The moduli of all tables of moduli, row by row, cells that were left out skipped.
 std::vector<Observation> observations_of(const Experiment& experiment);
+
+/// |G*| at each observation of these moduli [Pa].
+Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli);
 
 /// Predicts observations. Not for several threads at once.
 class Forward {
@@ -56,29 +62,45 @@ public:
 
     const Experiment& experiment() const { return experiment_; }
 
-    /// Standard deviation of the error that so few structures leave in the prediction of the rows of structure series at these
-    /// levels of the moduli: Simulator::structure_error. Zero elsewhere, where it scales all rows alike.
-    Eigen::VectorXd structure_deviation(const Eigen::VectorXd& levels) const;
+    /// What the prediction changes by, a column for each of the independent standard errors that so few structures leave in the way
+    /// in which they yield (Simulator::amplitude_response); no columns where no bonds break or there is one structure.
+    Eigen::MatrixXd yield_errors(const Settings& settings) const;
+
+    /// Standard deviation of the error that so few structures leave in the prediction of the rows of structure series
+    /// (Simulator::structure_error) where these have about such values: in proportion to the base model, because a value that is
+    /// low by chance is no less uncertain. Zero elsewhere, where it scales all rows alike.
+    Eigen::VectorXd structure_deviation(const Eigen::VectorXd& values) const;
+
+    /// The same for the level of all other rows, relative to it.
+    double level_error() const { return simulator_.structure_error(); }
 
 private:
+    /// How the simulator is asked.
+    struct Run {
+        bool exact = false;     ///< at the settings themselves instead of between the nodes of its grids
+        std::size_t error = 0;  ///< of amplitude_response
+    };
+
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
                                             std::complex<double> modulus) const;
     bool strain_varies(const Settings& settings) const;
-    std::complex<double> breaking_response(const Settings& settings, double strain) const;
+    std::complex<double> breaking_response(const Settings& settings, double strain, std::size_t error) const;
     std::vector<std::complex<double>> exact_breaking_response(const Settings& settings,
                                                               const std::vector<double>& amplitudes) const;
     std::vector<double> strains_before(std::size_t table) const;
     std::map<std::size_t, std::complex<double>> exact_factors(const Settings& settings, std::size_t table) const;
-    std::vector<std::complex<double>> amplitude_factors(const Settings& settings, bool exact) const;
+    std::vector<std::complex<double>> amplitude_factors(const Settings& settings, Run run) const;
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
-    std::vector<std::complex<double>> material(const Settings& settings, bool exact) const;
+    std::vector<std::complex<double>> material(const Settings& settings, Run run) const;
+    const std::vector<std::complex<double>>& remembered_material(const Settings& settings, Run run) const;
+    Eigen::VectorXd seen(const Settings& settings, Run run) const;
 
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
-    // The material of the last call: fits vary stiffness and instrument more often than anything else.
+    // The material of the last call, and with each error: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
-    mutable std::vector<std::complex<double>> last_material_;
+    mutable std::map<std::size_t, std::vector<std::complex<double>>> last_materials_;
 };
 
 }  // namespace coagula::diagnose

@@ -41,16 +41,20 @@ std::vector<MechanismParameter> parameters_of(const Hypothesis& hypothesis) {
     return all;
 }
 
+double Inference::stiffness_error() const {
+    const double stated = forward_.experiment().sample.normal_stiffness_error;
+    return std::isnan(stated) ? stated : std::hypot(stated, forward_.level_error());
+}
+
 double Inference::stiffness_departure(double log_stiffness) const {
     const Sample& sample = forward_.experiment().sample;
-    return (log_stiffness - std::log(sample.normal_stiffness)) / sample.normal_stiffness_error;
+    return (log_stiffness - std::log(sample.normal_stiffness)) / stiffness_error();
 }
 
 double Inference::log_prior(double log_stiffness) const {
     const double departure = stiffness_departure(log_stiffness);
-    return std::isnan(departure)
-               ? -std::log(log_stiffness_range)
-               : -0.5 * departure * departure - std::log(forward_.experiment().sample.normal_stiffness_error * std::sqrt(2 * pi));
+    return std::isnan(departure) ? -std::log(log_stiffness_range)
+                                 : -0.5 * departure * departure - std::log(stiffness_error() * std::sqrt(2 * pi));
 }
 
 /// Gauss and Newton's method for the logarithm of the stiffness: the prediction's logarithmic derivative by a difference, the
@@ -68,9 +72,10 @@ Node Inference::best_stiffness(Settings settings, double start) const {
     double slope_before = 0;
     for (int iteration = 0; iteration < 40; ++iteration) {
         const Eigen::VectorXd here = predict(place);
+        const Eigen::MatrixXd errors = forward_.yield_errors(settings);
         const Eigen::VectorXd slope_of_prediction = (predict(place + step) - here) / step;
         const auto density = [&](double offset) {
-            return likelihood_.log_density(here + offset * slope_of_prediction) + log_prior(place + offset);
+            return likelihood_.log_density(here + offset * slope_of_prediction, errors) + log_prior(place + offset);
         };
         best = density(0);
         const double above = density(step);
@@ -221,8 +226,9 @@ Eigen::MatrixXd Inference::jacobian(const Fit& fit) const {
         moved.*parameter.value = parameter.at(place + change);
         slopes.col(static_cast<Index>(axis) + 1) = (likelihood_.whiten(forward_.predict(moved)) - here) / change;
     }
-    // Sample effects are fitted, too.
-    const Eigen::MatrixXd effects = likelihood_.effect_directions(forward_.predict(fit.settings));
+    // Sample effects and the errors of the model are fitted, too.
+    const Eigen::MatrixXd effects =
+        likelihood_.effect_directions(forward_.predict(fit.settings), forward_.yield_errors(fit.settings));
     Eigen::MatrixXd all(slopes.rows(), slopes.cols() + effects.cols());
     all << slopes, effects;
     return all;

@@ -51,11 +51,14 @@ public:
 
     Fit fit(const Hypothesis& hypothesis) const;
 
-    /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places and the sample effects at a
-    /// fit.
+    /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places, the sample effects and
+    /// the errors of the model (Forward::yield_errors) at a fit.
     Eigen::MatrixXd jacobian(const Fit& fit) const;
 
-    /// How far a stiffness is from the known one over its error; NaN where it is not known.
+    /// Standard deviation of the logarithm of the known stiffness, with what so few structures leave in the level of the moduli
+    /// that it makes; NaN where no stiffness is known.
+    double stiffness_error() const;
+    /// How far a stiffness is from the known one over that error; NaN where it is not known.
     double stiffness_departure(double log_stiffness) const;
 
     const Forward& forward() const { return forward_; }

@@ -2,6 +2,7 @@
 
 #include "weights.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace coagula::diagnose {
@@ -40,34 +41,43 @@ Eigen::VectorXd Likelihood::whiten(const Eigen::VectorXd& values) const {
     return dense_ ? Eigen::VectorXd(factor_.matrixL().solve(values)) : data_.noise.whiten(values);
 }
 
-Eigen::MatrixXd Likelihood::effect_directions(const Eigen::VectorXd& prediction) const {
-    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(prediction.size(), data_.samples());
+Eigen::MatrixXd Likelihood::effect_directions(const Eigen::VectorXd& prediction, const Eigen::MatrixXd& model) const {
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(prediction.size(), data_.samples() + model.cols());
     // Rows of different samples have independent errors: whitening then keeps each in its column.
     const Eigen::VectorXd values = dense_ ? prediction : whiten(prediction);
     for (Index row = 0; row < prediction.size(); ++row) {
         parts(row, data_.sample[static_cast<std::size_t>(row)]) = values[row];
     }
+    for (Index error = 0; error < model.cols(); ++error) {
+        parts.col(data_.samples() + error) = dense_ ? Eigen::VectorXd(model.col(error)) : whiten(model.col(error));
+    }
     return dense_ ? Eigen::MatrixXd(factor_.matrixL().solve(parts)) : parts;
 }
 
-Eigen::VectorXd Likelihood::residual(const Eigen::VectorXd& prediction) const {
-    return white_ - whiten(prediction) - effect_directions(prediction) * effects(prediction);
+Eigen::VectorXd Likelihood::residual(const Eigen::VectorXd& prediction, const Eigen::MatrixXd& model) const {
+    return white_ - whiten(prediction) - effect_directions(prediction, model) * effects(prediction, model);
 }
 
-Eigen::VectorXd Likelihood::effects(const Eigen::VectorXd& prediction) const {
-    if (data_.effect <= 0) {
-        return Eigen::VectorXd::Zero(data_.samples());
-    }
-    const Eigen::MatrixXd directions = effect_directions(prediction);
+/// Standard deviations of sample effects of this one and of the model's errors.
+Eigen::VectorXd Likelihood::deviations(double effect, Index directions) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Ones(directions);
+    all.head(data_.samples()).setConstant(effect);
+    return all;
+}
+
+Eigen::VectorXd Likelihood::effects(const Eigen::VectorXd& prediction, const Eigen::MatrixXd& model) const {
+    const Eigen::MatrixXd plain = effect_directions(prediction, model);
+    const Eigen::VectorXd deviation = deviations(std::max(data_.effect, 0.0), plain.cols());
+    const Eigen::MatrixXd directions = plain * deviation.asDiagonal();
     Eigen::MatrixXd normal = directions.transpose() * directions;
-    normal.diagonal().array() += 1 / (data_.effect * data_.effect);
-    return normal.ldlt().solve(directions.transpose() * (white_ - whiten(prediction)));
+    normal.diagonal().array() += 1;
+    return deviation.cwiseProduct(normal.ldlt().solve(directions.transpose() * (white_ - whiten(prediction))));
 }
 
-double Likelihood::log_density(const Eigen::VectorXd& prediction) const {
+double Likelihood::log_density(const Eigen::VectorXd& prediction, const Eigen::MatrixXd& model) const {
     const Eigen::VectorXd white = whiten(prediction);
-    if (dense_) {
-        return dense_log_density(white_ - white, prediction);
+    if (dense_ || model.cols() > 0) {
+        return dense_log_density(white_ - white, effect_directions(prediction, model));
     }
     Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(data_.samples());
     Eigen::ArrayXd products = Eigen::ArrayXd::Zero(data_.samples());
@@ -89,15 +99,17 @@ double Likelihood::log_density(const Eigen::VectorXd& prediction) const {
 }
 
 /// The same where errors of different samples are correlated.
-double Likelihood::dense_log_density(const Eigen::VectorXd& plain, const Eigen::VectorXd& prediction) const {
-    const Eigen::MatrixXd directions = effect_directions(prediction);
+double Likelihood::dense_log_density(const Eigen::VectorXd& plain, const Eigen::MatrixXd& directions) const {
     const Eigen::MatrixXd squares = directions.transpose() * directions;
     const Eigen::VectorXd products = directions.transpose() * plain;
     std::vector<double> logarithms;
     for (const double variance : variances_) {
-        const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(squares.rows(), squares.cols()) + variance * squares);
+        const Eigen::VectorXd deviation = deviations(std::sqrt(variance), directions.cols());
+        const Eigen::MatrixXd scaled = deviation.asDiagonal() * squares * deviation.asDiagonal();
+        const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()) + scaled);
         const double determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
-        logarithms.push_back(-0.5 * (determinant - variance * products.dot(factor.solve(products))));
+        const Eigen::VectorXd projection = deviation.cwiseProduct(products);
+        logarithms.push_back(-0.5 * (determinant - projection.dot(factor.solve(projection))));
     }
     return log_sum(logarithms) - std::log(static_cast<double>(variances_.size())) - 0.5 * (plain.squaredNorm() + log_determinant_);
 }

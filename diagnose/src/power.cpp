@@ -15,16 +15,13 @@ constexpr int fine_points = 8;    ///< across it
 constexpr double half = 0.5;
 constexpr double most = 0.95;
 
-bool measures_moduli(const Measurement& table) {
-    return table.kind == MeasurementKind::frequency_sweep || table.kind == MeasurementKind::amplitude_sweep ||
-           table.kind == MeasurementKind::time_sweep || table.kind == MeasurementKind::gap_series;
-}
-
 /// The tables of moduli with a number in every cell that is to be measured.
 Experiment prepared(Experiment experiment) {
-    std::erase_if(experiment.measurements, [](const Measurement& table) { return !measures_moduli(table); });
+    std::erase_if(experiment.measurements, [](const Measurement& table) { return !has_moduli(table.kind); });
     for (Measurement& table : experiment.measurements) {
-        const bool storage_only = find_column(table, "storage_modulus") != nullptr && find_column(table, "loss_modulus") == nullptr;
+        const bool series = table.kind == MeasurementKind::structure_series;
+        const bool storage_only =
+            (series || find_column(table, "storage_modulus") != nullptr) && find_column(table, "loss_modulus") == nullptr;
         std::erase_if(table.columns,
                       [](const Column& column) { return column.name == "storage_modulus" || column.name == "loss_modulus"; });
         if (axis_of(table) == nullptr) {
@@ -37,7 +34,8 @@ Experiment prepared(Experiment experiment) {
         }
     }
     if (experiment.measurements.empty()) {
-        throw InputError("the experiment plans no table of moduli: a frequency, amplitude or time sweep or a gap series");
+        throw InputError(
+            "the experiment plans no table of moduli: a frequency, amplitude or time sweep, a gap series or a structure series");
     }
     return experiment;
 }
@@ -83,11 +81,8 @@ Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) 
         factor.try_emplace(table.sample,
                            1 + options_.noise.stated_sample * normal_number(seed, first_step + number, count + factor.size()));
     }
-    std::map<std::pair<std::size_t, std::size_t>, double> squares;  // |G*|^2 of a row
-    for (std::size_t k = 0; k < count; ++k) {
-        const double value = expected[static_cast<Index>(k)];
-        squares[{observations_[k].measurement, observations_[k].row}] += value * value;
-    }
+    const Eigen::ArrayXd sizes = complex_moduli(observations_, expected);
+    const Eigen::VectorXd structures = forward_.structure_deviation(expected);  // of what is measured from what is simulated
     Experiment drawn = experiment_;
     for (Measurement& table : drawn.measurements) {
         for (Column& column : table.columns) {
@@ -100,8 +95,10 @@ Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) 
         const Observation& one = observations_[k];
         Measurement& table = drawn.measurements[one.measurement];
         const double scale = factor[table.sample];
-        const double truth = scale * expected[static_cast<Index>(k)];
-        const double complex_modulus = scale * std::sqrt(squares[{one.measurement, one.row}]);
+        const auto i = static_cast<Index>(k);
+        const double unlike = structures[i] * normal_number(seed, first_step + number, count + factor.size() + k);
+        const double truth = scale * (expected[i] + unlike);
+        const double complex_modulus = scale * sizes[i];
         const double value = truth + deviation(k, truth, complex_modulus) * normal_number(seed, first_step + number, k);
         const auto column = std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& each) {
             return each.name == (one.loss ? "loss_modulus" : "storage_modulus");

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -41,19 +40,6 @@ double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
-}
-
-/// |G*| at each observation.
-Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli) {
-    std::map<std::pair<std::size_t, std::size_t>, double> squares;
-    for (std::size_t k = 0; k < observations.size(); ++k) {
-        squares[{observations[k].measurement, observations[k].row}] += std::pow(moduli[static_cast<Index>(k)], 2);
-    }
-    Eigen::ArrayXd sizes(moduli.size());
-    for (std::size_t k = 0; k < observations.size(); ++k) {
-        sizes[static_cast<Index>(k)] = std::sqrt(squares[{observations[k].measurement, observations[k].row}]);
-    }
-    return sizes;
 }
 
 ExpectedErrors errors_of(const DataSet& data) {

@@ -23,12 +23,6 @@ constexpr Axis ratio_axis{0.02, 2.0, 9};
 constexpr Axis bending_axis{1e-6, 0.2, 12};
 constexpr Axis tolerance_axis{5e-4, 0.08, 12};
 
-/// Amplitude over critical strain of the strength curve: equal steps.
-constexpr double load_step = 0.25;
-constexpr int load_nodes = 32;
-/// Of the explicit run behind it.
-constexpr int steps_per_oscillation = 3000;
-
 mechanics::LinearResponse solve(const Packing& packing, const ContactNetwork& bonds, double ratio, double bending, double radius,
                                 const Progress& progress) {
     ContactModel model{.normal_stiffness = unit_stiffness, .shear_stiffness = ratio * unit_stiffness};
@@ -42,15 +36,6 @@ mechanics::LinearResponse solve(const Packing& packing, const ContactNetwork& bo
         options.bond_tangents = mechanics::bond_tangents(packing, bonds, model);
     }
     return mechanics::solve_linear(packing, bonds, options, progress);
-}
-
-ContactModel breaking_model(double ratio, double strength) {
-    ContactModel model;
-    model.normal_stiffness = unit_stiffness;
-    model.shear_stiffness = ratio * unit_stiffness;
-    model.normal_strength = strength;
-    model.shear_strength = strength;
-    return model;
 }
 
 }  // namespace
@@ -177,104 +162,6 @@ double Simulator::structure_error(std::size_t group) {
     const Settings base;
     const double modulus = node(base.stiffness_ratio, 0, base.bond_tolerance, group);
     return modulus > 0 ? scatter_ / modulus / std::sqrt(static_cast<double>(members(group).size())) : 0.0;
-}
-
-/// Moduli of a sweep by the explicit rheometer in a sheared cell over that at a strain so small that nothing breaks.
-std::vector<std::complex<double>> Simulator::sweep(std::size_t structure, const Settings& settings, double strength,
-                                                   const std::vector<double>& amplitudes) {
-    const double largest = *std::max_element(amplitudes.begin(), amplitudes.end());
-    mechanics::RheometerOptions options;
-    options.model = breaking_model(settings.stiffness_ratio, strength);
-    options.boundary = mechanics::RheometerBoundary::periodic;
-    options.amplitude = largest;
-    options.oscillations = static_cast<int>(amplitudes.size()) + 2;
-    options.steps_per_oscillation = steps_per_oscillation;
-    options.compare_with_rest = false;
-    options.course.assign(2, 1e-3);
-    for (const double amplitude : amplitudes) {
-        options.course.push_back(amplitude / largest);
-    }
-    const ContactNetwork bonds = find_contacts(structures_[structure], settings.bond_tolerance);
-    const mechanics::RheometerRun run =
-        mechanics::run_rheometer(structures_[structure], bonds, options, {mechanics::ShearOrientation{}}, progress_).runs.front();
-    const mechanics::Oscillation& unbroken = run.oscillations[1];
-    std::vector<std::complex<double>> responses;
-    for (std::size_t k = 2; k < run.oscillations.size(); ++k) {
-        const mechanics::Oscillation& one = run.oscillations[k];
-        // What the rate of the run costs is in both.
-        const std::complex<double> beyond(one.fundamental_storage - unbroken.fundamental_storage,
-                                          one.fundamental_loss - unbroken.fundamental_loss);
-        responses.push_back(1.0 + beyond / unbroken.fundamental_storage);
-    }
-    return responses;
-}
-
-std::vector<std::complex<double>> Simulator::exact_amplitude_response(const Settings& settings,
-                                                                      const std::vector<double>& amplitudes) {
-    // Strain times stiffness over strength is what counts, so that unit stiffness serves all.
-    const double strength = settings.critical_strain * stiffness_in_series(unit_stiffness, unit_stiffness) * radius_;
-    std::vector<std::complex<double>> mean(amplitudes.size());
-    for (std::size_t k = 0; k < structures_.size(); ++k) {
-        std::vector<double> what{settings.stiffness_ratio, settings.bond_tolerance, strength};
-        what.insert(what.end(), amplitudes.begin(), amplitudes.end());
-        const std::string key = key_of("sweep " + names_[k], what);
-        auto found = cache_.find(key);
-        if (found == cache_.end()) {
-            progress_.update("simulating", 0.0, "amplitude sweep with breaking bonds");
-            std::vector<double> values;
-            for (const std::complex<double>& response : sweep(k, settings, strength, amplitudes)) {
-                values.insert(values.end(), {response.real(), response.imag()});
-            }
-            found = cache_.emplace(key, std::move(values)).first;
-        }
-        for (std::size_t entry = 0; entry < amplitudes.size(); ++entry) {
-            mean[entry] +=
-                std::complex(found->second[2 * entry], found->second[2 * entry + 1]) / static_cast<double>(structures_.size());
-        }
-    }
-    return mean;
-}
-
-/// Storage and loss over the linear modulus at loads 1, 2, 3 ... times load_step.
-const std::vector<double>& Simulator::strength_curve() {
-    if (!strength_curve_.empty()) {
-        return strength_curve_;
-    }
-    std::string all = "strength curve";
-    for (const std::string& name : names_) {
-        all += " " + name;
-    }
-    auto found = cache_.find(all);
-    if (found == cache_.end()) {
-        Settings settings;
-        settings.critical_strain = 1e-4;
-        std::vector<double> amplitudes;
-        for (int k = 1; k <= load_nodes; ++k) {
-            amplitudes.push_back(k * load_step * settings.critical_strain);
-        }
-        std::vector<double> values;
-        for (const std::complex<double>& response : exact_amplitude_response(settings, amplitudes)) {
-            values.insert(values.end(), {response.real(), response.imag()});
-        }
-        found = cache_.emplace(all, std::move(values)).first;
-    }
-    strength_curve_ = found->second;
-    return strength_curve_;
-}
-
-std::complex<double> Simulator::amplitude_response(const Settings& settings, double amplitude) {
-    if (!std::isfinite(settings.critical_strain)) {
-        return 1;
-    }
-    const double load = amplitude / settings.critical_strain;
-    const std::vector<double>& curve = strength_curve();
-    const auto at = [&](int k) {
-        const std::size_t place = 2 * static_cast<std::size_t>(std::min(k, load_nodes) - 1);
-        return k == 0 ? std::complex<double>(1) : std::complex(curve[place], curve[place + 1]);
-    };
-    const double place = std::min(load / load_step, static_cast<double>(load_nodes));
-    const int below = static_cast<int>(place);
-    return at(below) + (place - below) * (at(below + 1) - at(below));
 }
 
 }  // namespace coagula::diagnose

@@ -28,6 +28,13 @@ inline Packing structure(Index particles, std::uint64_t seed, double target_coor
     return generators::expand_voids(options).packing;
 }
 
+/// Two structures that the diagnosis knows, and what it has simulated of them.
+inline Simulator& simulator() {
+    static SimulationCache cache;
+    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
+    return made;
+}
+
 inline double drawn_normal(std::uint64_t seed, std::uint64_t number, std::uint64_t step = 3) {
     const auto u = random_uniform(seed, RandomPurpose::test, step, number);
     return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * std::numbers::pi * u[1]);

@@ -18,13 +18,6 @@ namespace {
 
 using std::numbers::pi;
 
-/// The structures that the diagnosis knows, and what it has simulated of them.
-Simulator& simulator() {
-    static SimulationCache cache;
-    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
-    return made;
-}
-
 /// A structure that it does not know.
 const Packing& sample() {
     static const Packing made = structure(250, 77);

@@ -13,12 +13,6 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-Simulator& simulator() {
-    static SimulationCache cache;
-    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
-    return made;
-}
-
 /// A structure that the diagnosis does not know.
 const Packing& sample() {
     static const Packing made = structure(260, 77);

@@ -31,9 +31,16 @@ Eigen::VectorXd prediction() {
     return Eigen::VectorXd::LinSpaced(40, 90, 110);
 }
 
+/// Two errors that a prediction has, at one standard error.
+Eigen::MatrixXd model_errors() {
+    Eigen::MatrixXd errors(40, 2);
+    errors << Eigen::VectorXd::LinSpaced(40, 0, 5), Eigen::VectorXd::LinSpaced(40, -1, 1).array().square().matrix() * 3;
+    return errors;
+}
+
 /// By the covariance in full.
-double direct(const DataSet& data, double effect) {
-    Eigen::MatrixXd covariance = data.noise.covariance();
+double direct(const DataSet& data, double effect, const Eigen::MatrixXd& errors = Eigen::MatrixXd::Zero(40, 1)) {
+    Eigen::MatrixXd covariance = data.noise.covariance() + errors * errors.transpose();
     for (Index sample = 0; sample < 2; ++sample) {
         Eigen::VectorXd level = prediction();
         for (Index row = 0; row < level.size(); ++row) {
@@ -52,6 +59,32 @@ TEST(Likelihood, AgreesWithTheCovarianceInFull) {
     const Likelihood dense(data, Eigen::MatrixXd::Zero(data.size(), data.size()));
     EXPECT_NEAR(dense.log_density(prediction()), direct(data, data.effect), 1e-9);
     EXPECT_NEAR(dense.residual(prediction()).squaredNorm(), Likelihood(data).residual(prediction()).squaredNorm(), 1e-9);
+}
+
+TEST(Likelihood, TakesErrorsOfTheModelAsCovariance) {
+    DataSet data = correlated();
+    const double exact = direct(data, data.effect, model_errors());
+    EXPECT_NEAR(Likelihood(data).log_density(prediction(), model_errors()), exact, 1e-9);
+    const Likelihood dense(data, Eigen::MatrixXd::Zero(data.size(), data.size()));
+    EXPECT_NEAR(dense.log_density(prediction(), model_errors()), exact, 1e-9);
+    EXPECT_GT(std::abs(exact - direct(data, data.effect)), 0.1) << "the errors make no difference here";
+    data.effect = 0;
+    EXPECT_NEAR(Likelihood(data).log_density(prediction(), model_errors()), direct(data, 0, model_errors()), 1e-9);
+}
+
+/// The most probable errors minimise what they and the residuals cost together.
+TEST(Likelihood, FindsErrorsOfTheModel) {
+    const DataSet data = correlated();
+    Eigen::VectorXd true_errors(2);
+    true_errors << 1.5, -0.7;
+    DataSet moved = data;
+    moved.values = prediction() + model_errors() * true_errors;
+    moved.noise.deviation *= 1e-3;
+    const Eigen::VectorXd found = Likelihood(moved).effects(prediction(), model_errors());
+    ASSERT_EQ(found.size(), 4);
+    EXPECT_LT(found.head(2).cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_LT((found.tail(2) - true_errors).cwiseAbs().maxCoeff(), 1e-3);
+    EXPECT_LT(Likelihood(moved).residual(prediction(), model_errors()).cwiseAbs().maxCoeff(), 1);
 }
 
 TEST(Likelihood, AveragesOverAnUncertainSampleEffect) {

@@ -13,12 +13,6 @@
 namespace coagula::diagnose {
 namespace {
 
-Simulator& simulator() {
-    static SimulationCache cache;
-    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
-    return made;
-}
-
 /// An amplitude sweep at these strains; the moduli do not matter.
 Measurement sweep_at(const std::vector<double>& strains, int run_order) {
     const std::vector<double> ones(strains.size(), 1.0);

@@ -13,12 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-Simulator& simulator() {
-    static SimulationCache cache;
-    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
-    return made;
-}
-
 /// An amplitude sweep between these tools; the moduli are those given, with standard errors as a part of the largest.
 Experiment sweep(const std::vector<double>& strains, const std::vector<Complex>& moduli, Geometry geometry, double error = 0,
                  std::uint64_t seed = 1) {

@@ -11,12 +11,6 @@
 namespace coagula::diagnose {
 namespace {
 
-Simulator& simulator() {
-    static SimulationCache cache;
-    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
-    return made;
-}
-
 Settings under_tension(double tension) {
     Settings settings;
     settings.tension = tension;
@@ -107,6 +101,21 @@ TEST(Prestress, ExtendedModelRunsToTheSamePrediction) {
     }
 }
 
+/// Structures enough for the level of the modulus to say something.
+Simulator& many_structures() {
+    static SimulationCache cache;
+    static Simulator made = [] {
+        std::vector<Packing> packings;
+        std::vector<std::string> names;
+        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+            packings.push_back(structure(300, seed));
+            names.push_back(std::to_string(seed));
+        }
+        return Simulator(std::move(packings), std::move(names), cache);
+    }();
+    return made;
+}
+
 Diagnosis diagnosis_of(double normal_stiffness, const ContactModel& hidden, std::uint64_t seed) {
     const std::vector<double> frequencies = logarithmic_steps(0.1, 100, 16);
     static const Packing sample = structure(600, 77);  // smaller ones differ from each other by more than the tension does
@@ -116,7 +125,7 @@ Diagnosis diagnosis_of(double normal_stiffness, const ContactModel& hidden, std:
     experiment.measurements = {sweep(moduli_of(sample, hidden, frequencies), frequencies, 0.02, seed)};
     DiagnosisOptions options;
     options.bootstrap = 399;
-    return diagnose(experiment, simulator(), options);
+    return diagnose(experiment, many_structures(), options);
 }
 
 /// Designed tie: where the stiffness of the contacts is known a tension shows, but stiffer contacts raise the modulus alike; where

@@ -14,12 +14,6 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-Simulator& simulator() {
-    static SimulationCache cache;
-    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
-    return made;
-}
-
 /// Settings at which drag times angular frequency over the normal stiffness is this at 1 rad/s.
 Settings with_drag(double reduced) {
     Settings settings;

@@ -2,10 +2,12 @@
 // structures with other seeds than those that the diagnosis knows.
 #include "hidden_effects.hpp"
 
+#include <coagula/diagnose/power.hpp>
 #include <coagula/mechanics/quasistatic.hpp>
 
 #include <gtest/gtest.h>
 
+#include <complex>
 #include <optional>
 
 namespace coagula::diagnose {
@@ -120,6 +122,37 @@ TEST(StructureSeries, FindsTheRangeOfBonds) {
     EXPECT_TRUE(in_set(found, "bond-range"));
 }
 
+/// Before anyone measures: bending well above the strength that a plan says can be found is found in data of other structures, a
+/// hundredth of it is not.
+TEST(StructureSeries, PlanSaysWhichBendingItCouldFind) {
+    Experiment plan;
+    plan.structure_groups = known().groups;
+    plan.structure_sizes = known().particles;
+    Measurement table;
+    table.kind = MeasurementKind::structure_series;
+    table.label = "plan";
+    table.columns = {{"coordination", "1", coordinations}};
+    plan.measurements = {table};
+    PowerOptions options;
+    options.causes = {"bond-bending"};
+    options.noise.stated_relative = 0.03;
+    options.diagnosis.bootstrap = 199;
+    options.diagnoses = 0;
+    const Power power = find_power(plan, *known().simulator, options);
+    EXPECT_EQ(power.moduli, coordinations.size());
+    EXPECT_NEAR(power.by_chance.count, 0.05 * power.by_chance.of, 4 * std::sqrt(0.05 * 0.95 * power.by_chance.of));
+    const CausePower& bending = power.causes.front();
+    ASSERT_TRUE(std::isfinite(bending.half.value));
+    EXPECT_LT(bending.half.value, 0.3 * bending.range_high);
+    const auto found = [&](double strength) {
+        ContactModel model = springs(40);
+        model.bending_stiffness = model.twisting_stiffness = strength * 20 * radius * radius;
+        return diagnose_series(series(model, 0.01, 4), known()).detected;
+    };
+    EXPECT_TRUE(found(bending.range_high));
+    EXPECT_FALSE(found(bending.half.value / 100));
+}
+
 TEST(StructureSeries, RefusesRowsThatNoStructureStandsFor) {
     Measurement table;
     table.kind = MeasurementKind::structure_series;
@@ -154,6 +187,50 @@ TEST(StructureError, IsTheScatterOfMeansOfDrawnStructures) {
     EXPECT_LT(observed / simulator.structure_error(1), 2.2);
     const double all = simulator.structure_error(0) * simulator.exact_linear_modulus({}, 0);
     EXPECT_NEAR(all / (simulator.structure_error(1) * simulator.exact_linear_modulus({}, 1)), std::sqrt(4.0 / 24), 1e-12);
+}
+
+/// Two sets of four structures: how far their mean curves of breaking bonds are apart, over the errors that both state.
+TEST(StructureError, IsWhatMeanCurvesOfYieldDifferBy) {
+    Settings settings;
+    settings.critical_strain = 1e-4;
+    SimulationCache cache;
+    const auto set_of = [&](std::uint64_t first) {
+        std::vector<Packing> packings;
+        std::vector<std::string> names;
+        for (std::uint64_t k = first; k < first + 4; ++k) {
+            packings.push_back(structure(100, k));
+            names.push_back(std::to_string(k));
+        }
+        return Simulator(packings, names, cache);
+    };
+    Simulator one = set_of(1);
+    Simulator other = set_of(11);
+    double squares = 0;
+    double parts = 0;
+    for (double load = 1.5; load <= 8; load += 0.5) {
+        const auto at = [&](Simulator& simulator, std::size_t error) {
+            return simulator.amplitude_response(settings, load * settings.critical_strain, error);
+        };
+        std::complex<double> variance = 0;  // of G' and of G''
+        for (Simulator* simulator : {&one, &other}) {
+            ASSERT_GT(simulator->strength_errors(), 0U);
+            for (std::size_t error = 1; error <= simulator->strength_errors(); ++error) {
+                const std::complex<double> change = at(*simulator, error) - at(*simulator, 0);
+                variance += std::complex(change.real() * change.real(), change.imag() * change.imag());
+            }
+        }
+        const std::complex<double> apart = at(one, 0) - at(other, 0);
+        squares += apart.real() * apart.real() / variance.real() + apart.imag() * apart.imag() / variance.imag();
+        parts += 2;
+    }
+    // The parts are so alike along the load that there are about four degrees of freedom: these limits have 1 % beyond them.
+    EXPECT_GT(squares / parts, 0.07);
+    EXPECT_LT(squares / parts, 3.5);
+}
+
+TEST(StructureError, OfYieldIsNotKnownOfOneStructure) {
+    SimulationCache cache;
+    EXPECT_EQ(Simulator({structure(64, 1)}, {"one"}, cache).strength_errors(), 0U);
 }
 
 }  // namespace

@@ -44,7 +44,10 @@ public:
     std::size_t groups() const;
 
     /// G* / G at amplitude gamma_0 of a sweep that goes up in amplitude, for finite bond strength, by the explicit rheometer.
-    std::complex<double> amplitude_response(const Settings& settings, double amplitude);
+    /// @param error 0: the mean over the structures; else, up to strength_errors(), that mean moved by one of the independent
+    /// standard errors that so few structures leave.
+    std::complex<double> amplitude_response(const Settings& settings, double amplitude, std::size_t error = 0);
+    std::size_t strength_errors();
     /// The same for all amplitudes of one sweep in their order.
     std::vector<std::complex<double>> exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes);
 
@@ -75,7 +78,9 @@ private:
     double scatter_between_structures();
     std::vector<std::complex<double>> sweep(std::size_t structure, const Settings& settings, double strength,
                                             const std::vector<double>& amplitudes);
-    const std::vector<double>& strength_curve();
+    std::vector<std::complex<double>> structure_response(std::size_t structure, const Settings& settings,
+                                                         const std::vector<double>& amplitudes);
+    const std::vector<std::vector<std::complex<double>>>& strength_curves();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
     double prestressed_modulus(std::size_t structure, const Settings& settings);
@@ -94,8 +99,8 @@ private:
     SimulationCache& cache_;
     Progress progress_;
     double radius_;
-    std::vector<double> secant_curve_;    ///< once it has been asked for
-    std::vector<double> strength_curve_;  ///< likewise
+    std::vector<double> secant_curve_;                                ///< once it has been asked for
+    std::vector<std::vector<std::complex<double>>> strength_curves_;  ///< likewise, the mean and its errors
 };
 
 }  // namespace coagula::diagnose
