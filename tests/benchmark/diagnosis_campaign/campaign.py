@@ -19,8 +19,12 @@ import numpy
 
 from cases import ROWS
 from material import Material
-from session import follow_up, gain, placed, write
+from session import follow_up, placed
 from table import in_set, print_table
+
+
+DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "null-series", "single", "structure-series", "pair", "tie",
+                "tie-level", "tie-stiffening", "outside"]
 
 
 def diagnose(program, experiment, cache, *words):
@@ -47,14 +51,13 @@ def prepared(row, number, program, folder, proposals=()):
     material = Material(program, folder / f"bank{os.getpid()}", shared=folder / "bank")
     session = ROWS[row](generator, material)
     place = folder / "runs" / f"{row}_{number}"
-    structures = [folder / "bank" / f"known_{k}.h5" for k in range(session.known_structures)]
-    experiment = write(session, material, place, generator, structures)
+    experiment = session.write(material, place, generator)
     for count, what in enumerate(proposals):
         session.tables += placed([replace(table, sample=f"{table.sample}{count}") for table in follow_up(session, what)])
     if proposals:
         generator = numpy.random.default_rng([sorted(ROWS).index(row), number])
         ROWS[row](generator, material)
-        experiment = write(session, material, place, generator, structures)
+        experiment = session.write(material, place, generator)
     return session, material, experiment
 
 
@@ -72,6 +75,16 @@ def resolve(row, number, program, folder, found, truth, seed):
     return 0, proposals
 
 
+def stated_share(causes):
+    """The posterior of the credible set: in how many of such runs it should hold the truth."""
+    total = 0.0
+    for cause in sorted(causes, key=lambda each: -each["posterior"]):
+        if total >= 0.95:
+            break
+        total += cause["posterior"]
+    return total
+
+
 def run(row, number, program, folder):
     session, material, experiment = prepared(row, number, program, folder)
     place = experiment.parent
@@ -79,16 +92,17 @@ def run(row, number, program, folder):
     seed = ("--seed", str(number + 1))  # or all tests share the errors of one bootstrap
     found = diagnose(program, experiment, folder / "simulations.txt", *seed)
     entry = {"row": row, "number": number, "truth": session.hidden.name, "hidden": vars(session.hidden), "stiffness": session.stiffness,
-             "gain": gain(session, material), "wall": time.time() - started}
+             "gain": session.gain(material), "wall": time.time() - started}
     keep = ("detected", "p_value", "verdict", "credible_set", "gain", "extended_p_value", "proposed_measurement", "seconds")
     entry["found"] = {key: found.get(key) for key in keep}
     entry["found"]["statistics"] = found.get("statistics", [])[:2]
     entry["found"]["causes"] = [{key: cause[key] for key in ("name", "posterior", "parameters")} for cause in found["causes"]
                                 if cause["posterior"] > 0.01 or cause["name"] == session.hidden.name]
+    entry["found"]["stated"] = stated_share(found["causes"])
     told = session.hidden.name
     if found["detected"] and row not in ("outside",) and found["causes"][0]["name"] != told and told != "nothing" and " + " not in told:
         entry["told"] = diagnose(program, experiment, folder / "simulations.txt", "--causes", told, *seed).get("gain")
-    if row == "tie" and found["verdict"] == "tied" and "proposed_measurement" in found:
+    if row in ("tie", "tie-stiffening") and found["verdict"] == "tied" and "proposed_measurement" in found:
         entry["resolved_after"], entry["proposals"] = resolve(row, number, program, folder, found, told, seed)
     shutil.rmtree(place)
     return entry
@@ -107,11 +121,11 @@ def main():
     parser.add_argument("--folder", required=True, type=Path)
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--rows", nargs="*", choices=sorted(ROWS), default=["null", "null-tails", "null-correlated", "null-offsets", "single", "pair", "tie", "outside"])
+    parser.add_argument("--rows", nargs="*", choices=sorted(ROWS), default=DEFAULT_ROWS)
     chosen = parser.parse_args()
     program, folder = chosen.program.resolve(), chosen.folder.resolve()
     (folder / "bank").mkdir(parents=True, exist_ok=True)
-    Material(program, folder / "bank").prepare(known=8)
+    Material(program, folder / "bank").prepare(known=8, jobs=chosen.jobs)
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

@@ -4,9 +4,12 @@ from dataclasses import replace
 
 import numpy
 
-from session import Hidden, Noise, Session, full_day, gain, gap_day
+from material import CONTACTS, LOADS, SWEEP_ROWS
+from series import Series
+from session import Hidden, Noise, Session, full_day, gap_day, level_day, yield_day
 
 LEAST_GAIN, LARGEST_GAIN = 25, 400
+KNOWN_THAT_BREAK = 4  # structures of the diagnosis where bonds break
 CRITICAL_STRAIN = 1e-4  # of the bank of breaking structures; the sweep's strains follow from the load
 
 
@@ -23,7 +26,7 @@ def scaled(session, material, wanted, strengths):
     low, high = 0.0, 1.0
     for _ in range(25):
         middle = 0.5 * (low + high)
-        if gain(at(middle), sketch) < wanted:
+        if at(middle).gain(sketch) < wanted:
             low = middle
         else:
             high = middle
@@ -74,7 +77,8 @@ def of_effect(name):
         wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
         if name == "bond-strength":
             load = strengths(1).loads[0]
-            return replace(session, tables=full_day(load * CRITICAL_STRAIN, 14), hidden=strengths(1), known_structures=8)
+            return replace(session, tables=full_day(load * CRITICAL_STRAIN, SWEEP_ROWS), hidden=strengths(1),
+                           known_structures=KNOWN_THAT_BREAK)
         return scaled(session, material, wanted, strengths)
     return draw
 
@@ -104,6 +108,41 @@ def tie(generator, material):
     return scaled(session, material, wanted, effects(generator, session)[name])
 
 
+def tie_of_level(generator, material):
+    """The level of G' alone: many causes move it."""
+    session = replace(draw_session(generator, material, tables=level_day()), known_stiffness=True, storage_only=True)
+    name = str(generator.choice([*CONTACTS, "tool-compliance"]))
+    if name in CONTACTS:
+        return replace(session, hidden=Hidden(name, contact=(name, float(generator.choice(CONTACTS[name])))))
+    return scaled(session, material, float(generator.uniform(30, 150)), effects(generator, session)[name])
+
+
+def tie_of_stiffening(generator, material):
+    """One upward amplitude sweep: what comes with time and what comes with strain."""
+    session = draw_session(generator, material, tables=yield_day(10 * CRITICAL_STRAIN, SWEEP_ROWS))
+    wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
+    return scaled(session, material, wanted, effects(generator, session)["ageing"])
+
+
+def tie_of_yield(generator, material):
+    """One upward amplitude sweep: bonds that break everywhere at once or at the rim first."""
+    load = float(generator.choice(LOADS))
+    rim = bool(generator.integers(2))
+    hidden = Hidden("plate-strain-field" if rim else "bond-strength", loads=(load,), rim=rim)
+    session = draw_session(generator, material, hidden, Noise(torque=0.06, phase=0.02), yield_day(load * CRITICAL_STRAIN, SWEEP_ROWS))
+    return replace(session, known_structures=KNOWN_THAT_BREAK)
+
+
+def structure_series(generator, material):
+    name = str(generator.choice(list(CONTACTS)))
+    stiffness = float(numpy.exp(generator.uniform(numpy.log(20), numpy.log(200))))
+    return Series(Hidden(name, contact=(name, float(generator.choice(CONTACTS[name])))), stiffness)
+
+
+def null_series(generator, material):
+    return Series(Hidden(), float(numpy.exp(generator.uniform(numpy.log(20), numpy.log(200)))))
+
+
 def outside(generator, material):
     session = draw_session(generator, material)
     kind = generator.choice(["resonance", "drift", "warmth"])
@@ -114,5 +153,6 @@ def outside(generator, material):
 
 
 ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlated, "null-offsets": null_offsets, "single": single,
-        "pair": pair, "tie": tie, "outside": outside}
+        "pair": pair, "tie": tie, "outside": outside, "null-series": null_series, "structure-series": structure_series,
+        "tie-level": tie_of_level, "tie-stiffening": tie_of_stiffening, "tie-yield": tie_of_yield}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})

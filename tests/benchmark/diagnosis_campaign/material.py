@@ -1,7 +1,9 @@
 """Moduli of structures that the diagnosis does not know, by other methods than its own: explicit time stepping and the frequency solver."""
 
 import json
+import os
 import subprocess
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy
@@ -13,6 +15,9 @@ SWEEP_ROWS = 14
 STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
 CONTACT = STIFFNESS / 2
 RADIUS = 0.25e-6
+COORDINATIONS = (5.4, 5.0, 4.7, 4.4, 4.15)  # of a structure series
+SERIES_STRUCTURES = 4                       # behind each row of it
+CONTACTS = {"bond-bending": (0.003, 0.03), "shear-stiffness": (0.3, 0.8), "bond-range": (0.025, 0.045)}
 OSCILLATION = ["--steps-per-oscillation", "6000", "--damping", "0.7"]
 
 
@@ -30,33 +35,58 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, known):
-        """Everything that is not drawn: structures, their moduli, breaking; and those structures that the diagnosis may know."""
+    def prepare(self, known, jobs):
+        """Everything that is not drawn: moduli of structures, breaking; and those structures that the diagnosis may know."""
+        contacts = [("", 0.0)] + [(cause, value) for cause, values in CONTACTS.items() for value in values]
+        tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in contacts]
+        tasks += [("modulus", number, *contact, coordination) for coordination in COORDINATIONS
+                  for number in range(SERIES_STRUCTURES) for contact in contacts]
+        tasks += [("breaking", number, load) for number in range(STRUCTURES) for load in LOADS]
         for number in range(STRUCTURES):
-            self.modulus(number)
-            for load in LOADS:
-                self.breaking(number, load)
+            self.structure(number)
+        for coordination in COORDINATIONS:
+            for number in range(SERIES_STRUCTURES):
+                self.structure(number, coordination=coordination)
+        with ProcessPoolExecutor(jobs) as pool:
+            for known_values in pool.map(computed, [(self.program, self.folder, task) for task in tasks]):
+                self.known.update(known_values)
+                self.keep()
         for number in range(known):
-            path = self.folder / f"known_{number}.h5"
-            if not path.exists():
-                self.structure(number, seed=1).rename(path)
+            self.known_structure(number)
+        for coordination in COORDINATIONS:
+            for number in range(2):
+                self.known_structure(number, coordination)
+
+    def known_structure(self, number, coordination=None):
+        """One that the diagnosis may know."""
+        path = self.bank / (f"known_{number}.h5" if coordination is None else f"known_{coordination}_{number}.h5")
+        if not path.exists():
+            self.structure(number, seed=1, coordination=coordination).rename(path)
+        return path
 
     def run(self, *words):
         done = subprocess.run([self.program, *map(str, words), "--threads", "1", "--json"], capture_output=True, text=True, check=True)
         return json.loads(done.stdout)
 
-    def structure(self, number, particles=PARTICLES, volume_fraction=0.4, seed=1000):
-        path = self.bank / f"hidden_{particles}_{volume_fraction}_{seed + number}.h5"
+    def structure(self, number, seed=1000, coordination=None):
+        words = [] if coordination is None else ["--target-coordination", coordination]
+        path = self.bank / f"hidden_{'_'.join(map(str, [PARTICLES, *words[1:], seed + number]))}.h5"
         if not path.exists():
-            self.run("generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", volume_fraction,
-                     "--radius", RADIUS, "--seed", seed + number, "-o", path)
+            self.run("generate", "vem", "--particles", PARTICLES, "--voids", PARTICLES // 2, "--volume-fraction", 0.4,
+                     "--radius", RADIUS, "--seed", seed + number, *words, "-o", path)
         return path
 
     def remembered(self, key, compute):
         if key not in self.known:
             self.known[key] = compute()
-            self.results.write_text(json.dumps(self.known))
+            self.keep()
         return self.known[key]
+
+    def keep(self):
+        """Replaced as a whole, because other processes read it."""
+        new = self.results.with_suffix(".new")
+        new.write_text(json.dumps(self.known))
+        new.rename(self.results)
 
     def shear(self, path, *words):
         return self.run("shear", path, "-o", self.folder / "sheared.h5", "--force", *words)
@@ -64,12 +94,22 @@ class Material:
     def explicit(self, path, *words):
         return self.shear(path, "--method", "dem", "--boundary", "periodic", "--orientation", "xz,yx,zy", *OSCILLATION, *words)
 
-    def modulus(self, number):
-        """G' of a structure with springs of unit stiffness, by small oscillations."""
+    def modulus(self, number, cause="", value=0.0, coordination=None):
+        """G' of a structure with springs of unit stiffness and perhaps another contact, by small oscillations."""
         def compute():
-            found = self.explicit(self.structure(number), "--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude")
+            model = self.folder / "contact.toml"
+            stiffness = f"bending_stiffness = {value * CONTACT * RADIUS**2}\ntwisting_stiffness = {value * CONTACT * RADIUS**2}\n"
+            model.write_text({"bond-bending": stiffness, "shear-stiffness": f"shear_stiffness = {value * STIFFNESS}\n"}.get(cause, ""))
+            words = ["--model", model] if model.stat().st_size else []
+            words += ["--bond-tolerance", value] if cause == "bond-range" else []
+            path = self.structure(number, coordination=coordination)
+            found = self.explicit(path, "--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude", *words)
             return float(numpy.mean([each[-1] for each in found["oscillations"]["storage_modulus"]]))
-        return self.remembered(f"modulus {number}", compute)
+        return self.remembered(f"modulus {number} {cause} {value} {coordination}", compute)
+
+    def mean_modulus(self, cause="", value=0.0):
+        """Of a sample as large as all structures together."""
+        return float(numpy.mean([self.modulus(number, cause, value) for number in range(STRUCTURES)]))
 
     def breaking(self, number, load):
         """G* over G' at strains growing linearly to `load` times the critical strain, bonds breaking."""
@@ -114,9 +154,17 @@ class Material:
         return numpy.array(storage) + 1j * numpy.array(loss)
 
 
+def computed(task):
+    """What a method of Material computes, in a process of its own: all that it knows afterwards."""
+    program, folder, (method, *words) = task
+    material = Material(program, folder / f"process{os.getpid()}", shared=folder)
+    getattr(material, method)(*words)
+    return material.known
+
+
 class Sketch:
     def __init__(self, material):
-        self.modulus, self.mean_breaking = material.modulus, material.mean_breaking
+        self.modulus, self.mean_modulus, self.mean_breaking = material.modulus, material.mean_modulus, material.mean_breaking
 
     def losses(self, number, ratio, exponent, frequencies):
         return 1 + ratio * (1j * numpy.asarray(frequencies))**exponent

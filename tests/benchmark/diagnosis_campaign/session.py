@@ -41,6 +41,8 @@ class Hidden:
     resonance: tuple = ()   # size, frequency [Hz]
     drift: float = 0.0      # stress offset after ten minutes over G times the small strain
     warmth: tuple = ()      # size, period [s]
+    contact: tuple = ()     # cause, value
+    rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,14 @@ class Session:
     moduli: list = field(default_factory=list)  # without noise
     known_stiffness: bool = False
     known_structures: int = 2
+    storage_only: bool = False
+
+    def write(self, material, folder, generator):
+        """The experiment file and its tables."""
+        return write(self, material, folder, generator)
+
+    def gain(self, material):
+        return gain(self, material)
 
 
 def sweep(kind, sample, order, strain, frequency, step, gap=GAP, plate=PLATE):
@@ -94,6 +104,16 @@ def gap_day():
     return list(placed([sweep("gap-series", name, 0, SMALL_STRAIN, 1.0, 1, gap=numpy.geomspace(0.3e-3, 3e-3, 8)) for name in "ABC"]))
 
 
+def level_day():
+    """Small oscillations at one frequency and gap: nothing but the level of the modulus."""
+    return list(placed([sweep("time-sweep", name, 0, numpy.full(10, SMALL_STRAIN), 1.0, 60) for name in "ABCDE"]))
+
+
+def yield_day(largest_strain, rows):
+    """One upward amplitude sweep on each of three samples."""
+    return list(placed([sweep("amplitude-sweep", name, 0, largest_strain * numpy.arange(1, rows + 1) / rows, 1.0, 10) for name in "ABC"]))
+
+
 def follow_up(session, what):
     """The tables that a proposal asks for, on a fresh sample."""
     gaps = numpy.geomspace(GAP / 3, 3 * GAP, 8)
@@ -115,16 +135,28 @@ def follow_up(session, what):
     return [sweep("amplitude-sweep", "N", 0, strains, 1.0, 10), *down]
 
 
+def between_plates(material, load):
+    """G* over G that the torque between plates shows, where the strain grows from 0 at the axis to that of the table at the rim: the stress
+    at each radius over that at the rim of a material whose bonds hold, weighted by the area and the arm."""
+    at_strains = numpy.concatenate([[1.0], material.mean_breaking(load)])  # from rest in equal steps
+    rows = numpy.arange(len(at_strains))
+    radius = (numpy.arange(2000) + 0.5) / 2000
+    weights = radius**3 / numpy.sum(radius**3)
+    return numpy.array([weights @ (numpy.interp(radius * row, rows, at_strains.real) + 1j * numpy.interp(radius * row, rows, at_strains.imag))
+                        for row in rows[1:]])
+
+
 def true_modulus(material, session, table):
     """Of what is in the gap, row by row."""
     hidden = session.hidden
     if numpy.isfinite(table.viscosity):
         return 2j * numpy.pi * table.frequency * table.viscosity
-    modulus = numpy.full(len(table.strain), material.modulus(session.structure) * session.stiffness / 100, dtype=complex)
+    level = material.mean_modulus(*hidden.contact) if session.known_stiffness else material.modulus(session.structure)
+    modulus = numpy.full(len(table.strain), level * session.stiffness / 100, dtype=complex)
     if hidden.loss:
         modulus *= material.losses(session.structure, *hidden.loss, table.frequency)
     if hidden.loads and table.kind == "amplitude-sweep":
-        modulus *= material.mean_breaking(*hidden.loads)
+        modulus *= between_plates(material, *hidden.loads) if hidden.rim else material.mean_breaking(*hidden.loads)
     if hidden.ageing:
         modulus *= 1 + hidden.ageing * numpy.log10(1 + table.start + table.time)
     if hidden.warmth:
@@ -166,9 +198,9 @@ def errors(generator, noise, count):
     return drawn
 
 
-def write(session, material, folder, generator, structures):
-    """The experiment file and its tables."""
+def write(session, material, folder, generator):
     folder.mkdir(parents=True, exist_ok=True)
+    structures = [material.known_structure(number) for number in range(session.known_structures)]
     offsets = {}
     lines = ["[sample]", 'particle_radius = "0.25 um"', "volume_fraction = 0.4", "", "[instrument]", 'geometry = "plate-plate"',
              f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
@@ -181,9 +213,11 @@ def write(session, material, folder, generator, structures):
         offset = offsets.setdefault(table.sample, 1 + spread * generator.standard_normal())
         size = offset * (1 + session.noise.torque * errors(generator, session.noise, len(clean)))
         measured = clean * size * numpy.exp(1j * session.noise.phase * errors(generator, session.noise, len(clean)))
-        rows = ["strain [1],frequency [Hz],time [s],gap [m],storage_modulus [Pa],loss_modulus [Pa]"]
-        rows += [",".join(f"{value:.9g}" for value in row)
-                 for row in zip(table.strain, table.frequency, table.time, table.gap, measured.real, measured.imag)]
+        columns = {"strain [1]": table.strain, "frequency [Hz]": table.frequency, "time [s]": table.time, "gap [m]": table.gap,
+                   "storage_modulus [Pa]": measured.real, "loss_modulus [Pa]": measured.imag}
+        if session.storage_only:
+            del columns["loss_modulus [Pa]"]
+        rows = [",".join(columns)] + [",".join(f"{value:.9g}" for value in row) for row in zip(*columns.values())]
         (folder / f"table{number}.csv").write_text("\n".join(rows) + "\n")
         lines += ["[[measurement]]", f'kind = "{table.kind}"', f'file = "table{number}.csv"', f'sample = "{table.sample}"',
                   f"run_order = {table.order}", f"values = {{ plate_radius = {table.plate} }}"]
@@ -201,7 +235,7 @@ def gain(session, material):
     for table in session.tables:
         on, off = reading(material, session, table), reading(material, base, table)
         scatter = (session.noise.torque * abs(on), numpy.hypot(session.noise.phase * abs(on), session.noise.torque * abs(on.imag)))
-        for part, deviation in ((numpy.real, scatter[0]), (numpy.imag, scatter[1])):
+        for part, deviation in ((numpy.real, scatter[0]), (numpy.imag, scatter[1]))[:1 if session.storage_only else 2]:
             difference.append(part(on - off) / deviation)
             own = numpy.outer(part(off) / deviation, [1.0] + [float(name == table.sample) for name in names])
             directions.append(own)
