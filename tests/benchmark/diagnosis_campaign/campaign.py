@@ -25,6 +25,7 @@ from table import in_set, print_table
 
 DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "null-series", "single", "structure-series", "pair", "tie",
                 "tie-level", "tie-stiffening", "outside"]
+BREAKING_ROWS = {"bond-strength", "tie-yield"}
 
 
 def diagnose(program, experiment, cache, *words):
@@ -125,7 +126,7 @@ def main():
     chosen = parser.parse_args()
     program, folder = chosen.program.resolve(), chosen.folder.resolve()
     (folder / "bank").mkdir(parents=True, exist_ok=True)
-    Material(program, folder / "bank").prepare(known=8, jobs=chosen.jobs)
+    Material(program, folder / "bank").prepare(known=8, jobs=chosen.jobs, breaking=not BREAKING_ROWS.isdisjoint(chosen.rows))
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

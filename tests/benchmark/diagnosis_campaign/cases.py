@@ -120,8 +120,7 @@ def tie_of_level(generator, material):
 def tie_of_stiffening(generator, material):
     """One upward amplitude sweep: what comes with time and what comes with strain."""
     session = draw_session(generator, material, tables=yield_day(10 * CRITICAL_STRAIN, SWEEP_ROWS))
-    wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
-    return scaled(session, material, wanted, effects(generator, session)["ageing"])
+    return scaled(session, material, float(generator.uniform(LEAST_GAIN, 4 * LEAST_GAIN)), effects(generator, session)["ageing"])
 
 
 def tie_of_yield(generator, material):

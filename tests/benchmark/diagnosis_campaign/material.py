@@ -35,13 +35,13 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, known, jobs):
-        """Everything that is not drawn: moduli of structures, breaking; and those structures that the diagnosis may know."""
+    def prepare(self, known, jobs, breaking):
+        """Everything that is not drawn: moduli of structures, breaking if asked for; and those structures that the diagnosis may know."""
         contacts = [("", 0.0)] + [(cause, value) for cause, values in CONTACTS.items() for value in values]
         tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in contacts]
         tasks += [("modulus", number, *contact, coordination) for coordination in COORDINATIONS
                   for number in range(SERIES_STRUCTURES) for contact in contacts]
-        tasks += [("breaking", number, load) for number in range(STRUCTURES) for load in LOADS]
+        tasks += [("breaking", number, load) for number in range(STRUCTURES) for load in LOADS if breaking]
         for number in range(STRUCTURES):
             self.structure(number)
         for coordination in COORDINATIONS:
