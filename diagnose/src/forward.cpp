@@ -74,8 +74,16 @@ double tool_factor(const Instrument& instrument, double gap, double radius) {
 
 /// The group of structures that stands for a row of a structure series: its number, else its place in the table.
 std::size_t group_of(const Measurement& table, std::size_t row) {
-    const double number = cell(table, "structure", row);
-    return std::isnan(number) ? row + 1 : static_cast<std::size_t>(std::lround(number));
+    const Column* column = find_column(table, "structure");
+    if (column == nullptr) {
+        return row + 1;
+    }
+    const double number = column->values[row];
+    if (!(number == std::floor(number))) {  // nor where the cell was left out
+        throw InputError(table.label + ": column 'structure' must have a whole number in row " + std::to_string(row + 1) +
+                         ", one of structures.groups");
+    }
+    return static_cast<std::size_t>(number);
 }
 
 /// A cell of the moduli with all that the row says about it; time since the start of its table.
@@ -156,9 +164,9 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
         }
         for (const bool loss : {false, true}) {
             const Column* column = find_column(table, loss ? "loss_modulus" : "storage_modulus");
-            const bool none = !loss && std::isfinite(table.fluid_viscosity);  // a Newtonian fluid stores nothing
-            for (std::size_t row = 0; column != nullptr && !none && row < table.rows(); ++row) {
-                if (!std::isfinite(column->values[row])) {
+            const bool fluid = std::isfinite(table.fluid_viscosity);  // stores nothing, and loses in proportion to the frequency
+            for (std::size_t row = 0; column != nullptr && (loss || !fluid) && row < table.rows(); ++row) {
+                if (!std::isfinite(column->values[row]) || (fluid && std::isnan(angular_frequency(table, row)))) {
                     continue;
                 }
                 all.push_back(observation_at(experiment, k, row, loss));

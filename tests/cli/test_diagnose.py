@@ -79,6 +79,15 @@ class Check(ProgramTest):
         self.assertTrue(columns["storage_modulus"]["standard_errors"])
         self.assertAlmostEqual(columns["heterogeneity"]["min"], 0.37)
 
+    def test_names_of_quantities_are_headings(self):
+        names = ("coordination", "structure", "storage_modulus [Pa]", "loss_modulus [Pa]", "phase [rad]", "deflection [mrad]",
+                 "plate_radius [mm]", "rattler_fraction [1]")
+        rows = "".join(f"{4 + 0.1 * i},{i},{1e6 + 1e5 * i},{1e6 + 1e5 * i},{math.pi / 4},2,{12.5 + i},0.1\n" for i in range(1, 6))
+        self.write("s.csv", ",".join(names) + "\n" + rows)
+        (table,) = self.found(experiment('kind = "structure-series"\nfile = "s.csv"'))["measurements"]
+        self.assertEqual({column["name"] for column in table["columns"]}, {name.split(" ")[0] for name in names})
+        self.assertEqual(table["left_out"], [])
+
     def test_rows_columns_and_clock_are_chosen(self):
         self.write("sweep.csv", sweep(9))
         chosen = '\nrows = [2, 9]\nwithout = ["stress", "loss_modulus"]\ntime_per_row = "3 s"'
