@@ -148,7 +148,7 @@ void run_power(const Arguments& arguments) {
         folder.emplace(arguments.text("output"), "power.json", arguments.flag("force"));
     }
     const Progress progress = make_progress(arguments.flag("quiet"));
-    const ExperimentFile file = read_experiment(arguments.input());
+    ExperimentFile file = read_experiment(arguments.input());
     diagnose::PowerOptions options;
     options.noise = file.noise;
     options.storage_modulus = file.expected_storage_modulus;

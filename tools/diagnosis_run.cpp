@@ -61,9 +61,6 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     diagnose::state_errors(file.experiment, noise);
     diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
     ExperimentStructures structures = structures_of(file.experiment, progress);
-    for (const Packing& packing : structures.packings) {
-        file.experiment.structure_sizes.push_back(static_cast<std::size_t>(packing.size()));
-    }
 
     diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
     const double radius = mean_radius(structures.packings.front());

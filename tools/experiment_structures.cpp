@@ -33,7 +33,7 @@ Packing generate(const diagnose::StructureRecipe& recipe, const diagnose::Sample
 
 }  // namespace
 
-ExperimentStructures structures_of(const diagnose::Experiment& experiment, const Progress& progress) {
+ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progress& progress) {
     ExperimentStructures found;
     for (const std::string& path : experiment.structures) {
         found.packings.push_back(io::read_structure(path).packing);
@@ -51,6 +51,8 @@ ExperimentStructures structures_of(const diagnose::Experiment& experiment, const
     }
     for (const Packing& packing : found.packings) {
         found.hashes.push_back(io::positions_sha256(packing));
+        experiment.structure_sizes.push_back(static_cast<std::size_t>(packing.size()));
+        experiment.structure_volume_fractions.push_back(volume_fraction(packing));
     }
     return found;
 }

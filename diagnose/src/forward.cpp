@@ -234,6 +234,8 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
 std::vector<Complex> Forward::material(const Settings& settings, bool exact) const {
     std::map<std::size_t, double> linear = linear_moduli(settings, exact);
     std::vector<Complex> moduli = amplitude_factors(settings, exact);
+    const bool settled = settings.volume_fraction_difference > 0;
+    const double exponent = settled ? simulator_.volume_fraction_exponent(settings, exact) : 0.0;
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         moduli[k] *= linear[observation.structures];
@@ -247,6 +249,9 @@ std::vector<Complex> Forward::material(const Settings& settings, bool exact) con
         if (settings.felt_viscosity > 0 && std::isfinite(observation.angular_frequency)) {
             moduli[k] *= exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
                                : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
+        }
+        if (settled && std::isfinite(observation.gap)) {
+            moduli[k] *= gradient_factor(settings, observation, exponent);
         }
         if (std::isfinite(observation.time)) {
             moduli[k] *= std::pow(1 + observation.time / settings.build_up_time, settings.build_up_exponent);
