@@ -232,6 +232,20 @@ class CementPaste(ProgramTest):
         self.assertEqual({cell["column"] for cell in cells}, {"stress", "torque", "complex_viscosity", "gap"})
         self.assertEqual([cell["value"] for cell in cells if cell["column"] == "torque"], ["7.67E-01"])
 
+    def test_harmonics_of_the_waveform_are_the_moduli_of_the_instrument(self):
+        found = self.found["measurements"][3]["harmonics"]
+        lines = (CEMENT / "LAOS_0.55_250_1.csv").read_bytes().decode("utf-16").splitlines()
+        start = [i for i, line in enumerate(lines) if line.startswith("Abschnitt und")][1]
+        points = (line.split("\t") for line in lines[start + 4:])
+        point = next(cells for cells in points if len(cells) > 8 and cells[1] == "41" and cells[2])
+        strain, storage, loss = (float(point[i].replace(",", ".")) for i in (2, 6, 7))
+        self.assertAlmostEqual(found["strain"] / (strain / 100), 1, delta=0.01)
+        self.assertAlmostEqual(found["storage_modulus"] / storage, 1, delta=0.015)
+        self.assertAlmostEqual(found["loss_modulus"] / loss, 1, delta=0.015)
+        self.assertAlmostEqual(found["third_harmonic"], 0.31, delta=0.01)  # a plastic body has a third
+        for table in self.found["measurements"][:3]:
+            self.assertNotIn("harmonics", table)
+
     def test_the_third_batch_is_a_sample_effect(self):
         for noise in self.found["noise"][:2]:
             self.assertEqual(noise["samples"], 3)
