@@ -12,9 +12,9 @@ STIFFNESS = 40  # N/m, of the measured particles; the simulation's own unit is 1
 
 
 class Tables(ProgramTest):
-    def structure(self, name, seed, particles=150, coordination=4.7):
-        self.succeed("generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", 0.4, "--radius", "0.25um",
-                     "--target-coordination", coordination, "--seed", seed, "--quiet", "-o", name)
+    def structure(self, name, seed, particles=150, coordination=4.7, fraction=0.4):
+        self.succeed("generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", fraction, "--radius",
+                     "0.25um", "--target-coordination", coordination, "--seed", seed, "--quiet", "-o", name)
 
     def modulus(self, name):
         """By the linear method, for particles of 100 N/m."""
@@ -236,6 +236,37 @@ class GapSeries(Tables):
         self.refuse(self.experiment(self.SMOOTH, self.OIL), "oil.csv", "no column 'loss_modulus'")
         self.write("oil.csv", "\n".join(",".join(line.split(",")[::2]) for line in self.oil(0)) + "\n")
         self.refuse(self.experiment(self.SMOOTH, self.OIL), "oil.csv", "a Newtonian fluid needs 'angular_frequency' or 'frequency'")
+
+
+class SettledSample(Tables):
+    """Layers whose volume fraction grows downwards, explained by structures of two volume fractions."""
+
+    GAPS = [(0.4 + 3.6 / 13 * k) * 1e-3 for k in range(14)]
+
+    def experiment(self, files):
+        return (PLATES + f"[sample]\nvolume_fraction = 0.4\n\n[structures]\nfiles = {files}\n\n[noise]\nstated_relative = 0.01\n\n"
+                '[[measurement]]\nkind = "gap-series"\nfile = "gaps.csv"\n')
+
+    def test_a_gradient_of_the_volume_fraction_is_found(self):
+        self.structure("dilute.h5", 1, fraction=0.35)
+        self.structure("dense.h5", 2, fraction=0.45)
+        exponent = math.log(self.modulus("dense.h5") / self.modulus("dilute.h5")) / math.log(0.45 / 0.35)
+        number = random.Random(4)
+        rows = []
+        for gap in self.GAPS:
+            layers = [0.4 + 0.04 * gap / 1e-3 * ((k + 0.5) / 200 - 0.5) for k in range(200)]
+            apparent = 1e5 * 200 / sum((0.4 / layer)**exponent for layer in layers)
+            rows.append((gap, apparent * (1 + number.gauss(0, 0.01))))
+        self.table("gaps.csv", ("gap [m]", "storage_modulus [Pa]"), rows)
+        found = self.diagnosis(self.experiment(["dilute.h5", "dense.h5"]))
+        self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["volume-fraction-gradient"]))
+        difference = found["causes"][0]["parameters"]["volume_fraction_difference"]
+        self.assertTrue(0.9 * difference["low"] < 0.04 < 1.1 * difference["high"])
+        self.assertGreater(found["gain"]["rmse_ratio"], 2)
+        # One volume fraction does not say how the modulus depends on it.
+        self.write("experiment.toml", self.experiment(["dense.h5"]))
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "other", "--causes", "volume-fraction-gradient",
+                       says="none of the causes asked for can show in this experiment")
 
 
 if __name__ == "__main__":
