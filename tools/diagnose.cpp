@@ -8,11 +8,13 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/check_data.hpp>
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/waveform.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace coagula::tools {
@@ -41,6 +43,10 @@ Json column_json(const diagnose::Column& column) {
             {"min", number_or_null(low)}, {"max", number_or_null(high)}, {"standard_errors", !column.standard_errors.empty()}};
 }
 
+std::optional<diagnose::WaveformHarmonics> harmonics_in(const diagnose::Measurement& table) {
+    return table.kind == diagnose::MeasurementKind::waveform ? diagnose::harmonics_of(table) : std::nullopt;
+}
+
 Json measurement_json(const CheckedMeasurement& checked) {
     const diagnose::Measurement& table = checked.measurement;
     Json json = {{"label", table.label},      {"kind", diagnose::name_of(table.kind)},
@@ -56,6 +62,13 @@ Json measurement_json(const CheckedMeasurement& checked) {
     }
     for (const diagnose::RelationResult& relation : checked.relations) {
         json["relations"].push_back({{"name", relation.name}, {"rows", relation.rows}, {"failed", relation.failed}});
+    }
+    if (const auto harmonics = harmonics_in(table)) {
+        json["harmonics"] = {{"strain", harmonics->strain},
+                             {"angular_frequency", harmonics->angular_frequency},
+                             {"storage_modulus", harmonics->storage_modulus},
+                             {"loss_modulus", harmonics->loss_modulus},
+                             {"third_harmonic", harmonics->third_harmonic}};
     }
     return json;
 }
@@ -116,6 +129,11 @@ void add_measurement_lines(Table& lines, const CheckedMeasurement& checked) {
         names += (names.empty() ? "" : ", ") + column.name + (column.unit == "1" ? "" : " [" + column.unit + "]");
     }
     lines.emplace_back("  columns", names);
+    if (const auto harmonics = harmonics_in(table)) {
+        lines.emplace_back("  harmonics", "G' " + with_unit(harmonics->storage_modulus, "Pa") + ", G'' " +
+                                              with_unit(harmonics->loss_modulus, "Pa") + ", I3/I1 " +
+                                              percent(harmonics->third_harmonic) + " at a strain of " + percent(harmonics->strain));
+    }
     std::map<std::string, std::vector<std::size_t>> rows;
     std::map<std::string, std::string> reasons;
     for (const diagnose::LeftOutCell& cell : table.left_out) {

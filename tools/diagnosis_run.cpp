@@ -61,6 +61,7 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     diagnose::state_errors(file.experiment, noise);
     diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
     ExperimentStructures structures = structures_of(file.experiment, progress);
+
     diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
     const double radius = mean_radius(structures.packings.front());
     const std::vector<std::string> sentences = structure_sentences(file.experiment, structures);

@@ -52,6 +52,7 @@ ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progr
     for (const Packing& packing : found.packings) {
         found.hashes.push_back(io::positions_sha256(packing));
         experiment.structure_sizes.push_back(static_cast<std::size_t>(packing.size()));
+        experiment.structure_volume_fractions.push_back(volume_fraction(packing));
     }
     return found;
 }

@@ -17,8 +17,8 @@ struct ExperimentStructures {
     std::vector<std::string> hashes;  ///< SHA-256 of the positions
 };
 
-/// Reads or generates them and notes their numbers of particles in the experiment. Throws InputError when there are none, or one
-/// has no periodic cell.
+/// Reads or generates them, and notes their sizes and volume fractions in the experiment. Throws InputError when there are none, or
+/// one has no periodic cell.
 ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progress& progress);
 
 /// Each in one sentence: where it is from, its particles and hash.

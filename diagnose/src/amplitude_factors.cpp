@@ -130,7 +130,8 @@ std::vector<Complex> Forward::amplitude_factors(const Settings& given, Run run) 
             const bool falls = observation.strain < largest;
             largest = std::max(largest, observation.strain);
             const Complex response = breaking_response(settings, largest, run.error);
-            factors[k] = falls ? Complex(response.real()) : response;  // nothing breaks on the way down
+            // Nothing breaks on the way down, and what runs lose there falls towards zero with their rate (bench_friction).
+            factors[k] = falls ? Complex(response.real()) : response;
         }
     }
     return factors;

@@ -84,8 +84,15 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
     data.effect = noise.sample;
     data.effect_degrees = noise.sample_degrees;
     if (data.observations.size() < fewest_observations) {
+        const auto& tables = experiment.measurements;
+        const bool centres = std::any_of(tables.begin(), tables.end(),
+                                         [](const Measurement& table) { return table.kind == MeasurementKind::coordinates; });
         throw InputError("the experiment has " + std::to_string(data.observations.size()) +
-                         " usable moduli: at least five are needed to say anything");
+                         " usable moduli: at least five are needed to say anything" +
+                         (centres
+                              ? "; coordinates take part where sample.particle_radius is stated and 20 particles lie deep enough"
+                                " inside"
+                              : ""));
     }
     data.values.resize(static_cast<Index>(data.observations.size()));
     Eigen::VectorXd deviation(data.values.size());

@@ -69,8 +69,16 @@ double tool_factor(const Instrument& instrument, double gap, double radius) {
 
 /// The group of structures that stands for a row of a structure series: its number, else its place in the table.
 std::size_t group_of(const Measurement& table, std::size_t row) {
-    const double number = cell(table, "structure", row);
-    return std::isnan(number) ? row + 1 : static_cast<std::size_t>(std::lround(number));
+    const Column* column = find_column(table, "structure");
+    if (column == nullptr) {
+        return row + 1;
+    }
+    const double number = column->values[row];
+    if (!(number == std::floor(number))) {  // nor where the cell was left out
+        throw InputError(table.label + ": column 'structure' must have a whole number in row " + std::to_string(row + 1) +
+                         ", one of structures.groups");
+    }
+    return static_cast<std::size_t>(number);
 }
 
 /// A cell of the moduli with all that the row says about it; time since the start of its table.
@@ -156,9 +164,9 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
         }
         for (const bool loss : {false, true}) {
             const Column* column = find_column(table, loss ? "loss_modulus" : "storage_modulus");
-            const bool none = !loss && std::isfinite(table.fluid_viscosity);  // a Newtonian fluid stores nothing
-            for (std::size_t row = 0; column != nullptr && !none && row < table.rows(); ++row) {
-                if (!std::isfinite(column->values[row])) {
+            const bool fluid = std::isfinite(table.fluid_viscosity);  // stores nothing, and loses in proportion to the frequency
+            for (std::size_t row = 0; column != nullptr && (loss || !fluid) && row < table.rows(); ++row) {
+                if (!std::isfinite(column->values[row]) || (fluid && std::isnan(angular_frequency(table, row)))) {
                     continue;
                 }
                 all.push_back(observation_at(experiment, k, row, loss));
@@ -238,6 +246,8 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
 std::vector<Complex> Forward::material(const Settings& settings, Run run) const {
     std::map<std::size_t, double> linear = linear_moduli(settings, run.exact);
     std::vector<Complex> moduli = amplitude_factors(settings, run);
+    const bool settled = settings.volume_fraction_difference > 0;
+    const double exponent = settled ? simulator_.volume_fraction_exponent(settings, run.exact) : 0.0;
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         moduli[k] *= linear[observation.structures];
@@ -251,6 +261,9 @@ std::vector<Complex> Forward::material(const Settings& settings, Run run) const 
         if (settings.felt_viscosity > 0 && std::isfinite(observation.angular_frequency)) {
             moduli[k] *= run.exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
                                    : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
+        }
+        if (settled && std::isfinite(observation.gap)) {
+            moduli[k] *= gradient_factor(settings, observation, exponent);
         }
         if (std::isfinite(observation.time)) {
             moduli[k] *= std::pow(1 + observation.time / settings.build_up_time, settings.build_up_exponent);

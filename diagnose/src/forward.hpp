@@ -83,6 +83,7 @@ private:
 
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
                                             std::complex<double> modulus) const;
+    double gradient_factor(const Settings& settings, const Observation& observation, double exponent) const;
     bool strain_varies(const Settings& settings) const;
     std::complex<double> breaking_response(const Settings& settings, double strain, std::size_t error) const;
     std::vector<std::complex<double>> exact_breaking_response(const Settings& settings,

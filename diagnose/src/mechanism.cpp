@@ -34,6 +34,7 @@ std::span<const Mechanism> catalogue() {
         mechanisms::ageing_after_shear(),
         mechanisms::wall_slip(),
         mechanisms::gap_error(),
+        mechanisms::volume_fraction_gradient(),
         mechanisms::tool_compliance(),
         mechanisms::tool_inertia(),
         mechanisms::numerical(),

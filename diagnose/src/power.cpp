@@ -158,7 +158,8 @@ double part(const PowerPoint& point) {
     return static_cast<double>(point.found.count) / point.found.of;
 }
 
-/// Where, coming from the strong end, a share first falls below a probability; interpolated in the logarithm of the strength.
+/// Where, coming from the strong end, a share first falls below a probability; interpolated in the logarithm of the strength
+/// where that is positive.
 /// @param points weak to strong. @param shares of them.
 double crossing(const std::vector<PowerPoint>& points, double probability, const std::vector<double>& shares) {
     if (shares.back() < probability) {
@@ -167,7 +168,9 @@ double crossing(const std::vector<PowerPoint>& points, double probability, const
     for (std::size_t k = points.size() - 1; k > 0; --k) {
         if (shares[k - 1] < probability) {
             const double way = (probability - shares[k - 1]) / (shares[k] - shares[k - 1]);
-            return points[k - 1].strength * std::pow(points[k].strength / points[k - 1].strength, way);
+            const double weak = points[k - 1].strength;
+            const double strong = points[k].strength;
+            return weak > 0 ? weak * std::pow(strong / weak, way) : weak + way * (strong - weak);
         }
     }
     return points.front().strength;  // found over the whole range

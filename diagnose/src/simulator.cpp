@@ -4,10 +4,9 @@
 #include <coagula/common/contact_law.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/mechanics/linear.hpp>
-#include <coagula/mechanics/rheometer.hpp>
 
 #include "cache_key.hpp"
-#include "interpolation.hpp"
+#include "linear_grid.hpp"
 #include "unit_stiffness.hpp"
 
 #include <algorithm>
@@ -18,10 +17,6 @@ namespace coagula::diagnose {
 
 namespace {
 
-/// Nodes of the grids, uniform in the logarithm. Bending below its lowest node is off.
-constexpr Axis ratio_axis{0.02, 2.0, 9};
-constexpr Axis bending_axis{1e-6, 0.2, 12};
-constexpr Axis tolerance_axis{5e-4, 0.08, 12};
 
 mechanics::LinearResponse solve(const Packing& packing, const ContactNetwork& bonds, double ratio, double bending, double radius,
                                 const Progress& progress) {
@@ -46,6 +41,9 @@ Simulator::Simulator(std::vector<Packing> structures, std::vector<std::string> n
     require(!structures_.empty() && structures_.size() == names_.size(), "a diagnosis needs at least one structure");
     require(groups_.empty() || groups_.size() == structures_.size(), "every structure must belong to a group, or none");
     radius_ = mean_radius(structures_.front());
+    for (const Packing& packing : structures_) {
+        volume_fractions_.push_back(coagula::volume_fraction(packing));
+    }
 }
 
 std::size_t Simulator::groups() const {
@@ -107,23 +105,8 @@ double Simulator::exact_linear_modulus(const Settings& settings, std::size_t gro
 }
 
 double Simulator::linear_modulus(const Settings& settings, std::size_t group) {
-    const Settings base;
-    const auto over_tolerance = [&](double ratio, double bending) {
-        if (settings.bond_tolerance == base.bond_tolerance) {
-            return node(ratio, bending, base.bond_tolerance, group);
-        }
-        return interpolate(tolerance_axis, settings.bond_tolerance,
-                           [&](double tolerance) { return node(ratio, bending, tolerance, group); });
-    };
-    const auto over_bending = [&](double ratio) {
-        if (settings.bending_ratio < bending_axis.low) {
-            return over_tolerance(ratio, 0);
-        }
-        return interpolate(bending_axis, settings.bending_ratio, [&](double bending) { return over_tolerance(ratio, bending); });
-    };
-    const double modulus = settings.stiffness_ratio == base.stiffness_ratio
-                               ? over_bending(base.stiffness_ratio)
-                               : interpolate(ratio_axis, settings.stiffness_ratio, over_bending);
+    const double modulus = between_nodes(
+        settings, [&](double ratio, double bending, double tolerance) { return node(ratio, bending, tolerance, group); });
     return settings.normal_stiffness / unit_stiffness * modulus;
 }
 

@@ -79,6 +79,15 @@ class Check(ProgramTest):
         self.assertTrue(columns["storage_modulus"]["standard_errors"])
         self.assertAlmostEqual(columns["heterogeneity"]["min"], 0.37)
 
+    def test_names_of_quantities_are_headings(self):
+        names = ("coordination", "structure", "storage_modulus [Pa]", "loss_modulus [Pa]", "phase [rad]", "deflection [mrad]",
+                 "plate_radius [mm]", "rattler_fraction [1]")
+        rows = "".join(f"{4 + 0.1 * i},{i},{1e6 + 1e5 * i},{1e6 + 1e5 * i},{math.pi / 4},2,{12.5 + i},0.1\n" for i in range(1, 6))
+        self.write("s.csv", ",".join(names) + "\n" + rows)
+        (table,) = self.found(experiment('kind = "structure-series"\nfile = "s.csv"'))["measurements"]
+        self.assertEqual({column["name"] for column in table["columns"]}, {name.split(" ")[0] for name in names})
+        self.assertEqual(table["left_out"], [])
+
     def test_rows_columns_and_clock_are_chosen(self):
         self.write("sweep.csv", sweep(9))
         chosen = '\nrows = [2, 9]\nwithout = ["stress", "loss_modulus"]\ntime_per_row = "3 s"'
@@ -222,6 +231,20 @@ class CementPaste(ProgramTest):
         cells = self.found["measurements"][-1]["left_out"]
         self.assertEqual({cell["column"] for cell in cells}, {"stress", "torque", "complex_viscosity", "gap"})
         self.assertEqual([cell["value"] for cell in cells if cell["column"] == "torque"], ["7.67E-01"])
+
+    def test_harmonics_of_the_waveform_are_the_moduli_of_the_instrument(self):
+        found = self.found["measurements"][3]["harmonics"]
+        lines = (CEMENT / "LAOS_0.55_250_1.csv").read_bytes().decode("utf-16").splitlines()
+        start = [i for i, line in enumerate(lines) if line.startswith("Abschnitt und")][1]
+        points = (line.split("\t") for line in lines[start + 4:])
+        point = next(cells for cells in points if len(cells) > 8 and cells[1] == "41" and cells[2])
+        strain, storage, loss = (float(point[i].replace(",", ".")) for i in (2, 6, 7))
+        self.assertAlmostEqual(found["strain"] / (strain / 100), 1, delta=0.01)
+        self.assertAlmostEqual(found["storage_modulus"] / storage, 1, delta=0.015)
+        self.assertAlmostEqual(found["loss_modulus"] / loss, 1, delta=0.015)
+        self.assertAlmostEqual(found["third_harmonic"], 0.31, delta=0.01)  # a plastic body has a third
+        for table in self.found["measurements"][:3]:
+            self.assertNotIn("harmonics", table)
 
     def test_the_third_batch_is_a_sample_effect(self):
         for noise in self.found["noise"][:2]:

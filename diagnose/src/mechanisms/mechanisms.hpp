@@ -21,6 +21,7 @@ Mechanism ageing();
 Mechanism ageing_after_shear();
 Mechanism wall_slip();
 Mechanism gap_error();
+Mechanism volume_fraction_gradient();
 Mechanism tool_compliance();
 Mechanism tool_inertia();
 Mechanism numerical();

@@ -15,11 +15,11 @@
 
 namespace coagula::diagnose {
 
-inline Packing structure(Index particles, std::uint64_t seed, double target_coordination = unset) {
+inline Packing structure(Index particles, std::uint64_t seed, double target_coordination = unset, double volume_fraction = 0.4) {
     generators::VoidExpansionOptions options;
     options.particles = particles;
     options.voids = particles / 2;
-    options.volume_fraction = 0.4;
+    options.volume_fraction = volume_fraction;
     options.radii = Eigen::VectorXd::Constant(particles, 0.25e-6);
     options.seed = seed;
     if (std::isfinite(target_coordination)) {

@@ -142,8 +142,9 @@ struct Experiment {
     /// One per structure: which rows of a structure series it stands for, those with this number in `structure`, from 1; empty: all
     /// stand for the same sample.
     std::vector<std::size_t> structure_groups;
-    std::vector<std::size_t> structure_sizes;  ///< particles of each structure, once it has been read
-    std::optional<StructureRecipe> recipe;     ///< otherwise
+    std::vector<std::size_t> structure_sizes;        ///< particles of each structure, once it has been read
+    std::vector<double> structure_volume_fractions;  ///< of each structure, once it has been read
+    std::optional<StructureRecipe> recipe;           ///< otherwise
     std::vector<Measurement> measurements;
 };
 

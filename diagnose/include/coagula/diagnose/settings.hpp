@@ -37,6 +37,9 @@ struct Settings {
 
     double size_drift = 0;  ///< measured moduli over those simulated exceed 1 by this share times (1000 / particles)^(1/3)
 
+    double volume_fraction_difference = 0;  ///< between the lowest and the highest layer over the nominal gap of the instrument (1
+                                            ///< mm where none is stated); grows in proportion to the gap
+
     double localisation_plane = 0;  ///< standard deviation of measured centres in the plane x-y [m]
     double localisation_axis = 0;   ///< along z [m]
     double missed_share = 0;        ///< of the particles

@@ -43,6 +43,12 @@ public:
     /// The largest group; 0 if there are none.
     std::size_t groups() const;
 
+    /// Mean volume fraction of the structures of a group.
+    double volume_fraction(std::size_t group = 0) const;
+    /// Slope of the logarithm of the linear modulus over that of the volume fraction, by least squares over all structures that
+    /// bear a load; 0 where their volume fractions do not differ by a hundredth.
+    double volume_fraction_exponent(const Settings& settings, bool exact = false);
+
     /// G* / G at amplitude gamma_0 of a sweep that goes up in amplitude, for finite bond strength, by the explicit rheometer.
     /// @param error 0: the mean over the structures; else, up to strength_errors(), that mean moved by one of the independent
     /// standard errors that so few structures leave.
@@ -76,6 +82,7 @@ private:
     const std::vector<double>& linear_moduli(std::size_t structure, double ratio, double bending, double tolerance);
     double node(double ratio, double bending, double tolerance, std::size_t group);
     double scatter_between_structures();
+    double exponent_node(double ratio, double bending, double tolerance);
     std::vector<std::complex<double>> sweep(std::size_t structure, const Settings& settings, double strength,
                                             const std::vector<double>& amplitudes);
     std::vector<std::complex<double>> structure_response(std::size_t structure, const Settings& settings,
@@ -92,7 +99,9 @@ private:
     std::vector<Packing> structures_;
     std::vector<std::string> names_;
     std::vector<std::size_t> groups_;
-    std::map<std::array<double, 4>, double> nodes_;  ///< by ratio, bending, tolerance and group
+    std::vector<double> volume_fractions_;
+    std::map<std::array<double, 4>, double> nodes_;      ///< by ratio, bending, tolerance and group
+    std::map<std::array<double, 3>, double> exponents_;  ///< of the volume fraction, by ratio, bending and tolerance
     std::map<std::pair<int, int>, std::vector<double>> shell_nodes_;
     std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;  ///< by group
     double scatter_ = -1;                                                   ///< between structures, once it has been asked for
