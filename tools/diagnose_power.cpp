@@ -163,6 +163,7 @@ void run_power(const Arguments& arguments) {
     ExperimentStructures structures = structures_of(file.experiment, progress);
     diagnose::SimulationCache cache = folder ? read_cache(folder->path() / "simulations.txt") : diagnose::SimulationCache{};
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress);
+    simulator.use(std::move(structures.stages));
     const Power power = diagnose::find_power(file.experiment, simulator, options, progress);
 
     Json json = to_json(power, options);

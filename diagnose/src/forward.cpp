@@ -1,6 +1,7 @@
 #include "forward.hpp"
 
 #include "neighbour_shells.hpp"
+#include "pore_curves.hpp"
 #include "springpot.hpp"
 #include "table_cells.hpp"
 
@@ -139,7 +140,21 @@ const char* observable_of(const Observation& observation) {
     if (std::isfinite(observation.distance)) {
         return "neighbours";
     }
+    if (is_pore(observation)) {
+        return "exclusion_probability";
+    }
     return observation.loss ? "loss_modulus" : "storage_modulus";
+}
+
+bool is_modulus(const Observation& observation) {
+    return !std::isfinite(observation.distance) && !is_pore(observation);
+}
+
+double relative_to(const Observation& observation, double level) {
+    if (is_modulus(observation)) {
+        return level;
+    }
+    return is_pore(observation) ? 1.0 : std::max(level, 1.0);
 }
 
 std::vector<Observation> observations_of(const Experiment& experiment) {
@@ -150,6 +165,10 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
         if (table.kind == MeasurementKind::coordinates && std::isfinite(experiment.sample.particle_radius)) {
             const std::vector<Observation> shells = neighbours_in(experiment, k);
             all.insert(all.end(), shells.begin(), shells.end());
+        }
+        if (table.kind == MeasurementKind::pore_curve && std::isfinite(experiment.sample.particle_radius)) {
+            const std::vector<Observation> pores = pores_in(experiment, k);
+            all.insert(all.end(), pores.begin(), pores.end());
         }
         if (!has_moduli(table.kind)) {
             continue;
@@ -211,7 +230,7 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
     std::map<std::size_t, double> linear;
     for (const Observation& observation : observations_) {
         const std::size_t group = observation.structures;
-        if (!linear.contains(group) && !std::isfinite(observation.distance)) {
+        if (!linear.contains(group) && is_modulus(observation)) {
             const double free =
                 exact ? simulator_.exact_linear_modulus(settings, group) : simulator_.linear_modulus(settings, group);
             const double stretched =
@@ -249,6 +268,9 @@ std::vector<Complex> Forward::material(const Settings& settings, bool exact) con
 }
 
 Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
+    if (exact && change_of(settings) != StructureChange{}) {
+        return Forward(experiment_, observations_, simulator_.remade(change_of(settings))).predict(as_stated(settings), true);
+    }
     const Settings part = of_material(settings);
     if (exact || last_material_.empty() || !(part == last_settings_)) {
         last_material_ = material(part, exact);
@@ -259,6 +281,11 @@ Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
         const Observation& observation = observations_[k];
         if (std::isfinite(observation.distance)) {
             predicted[static_cast<Index>(k)] = simulator_.neighbours(settings, observation.row, exact);
+            continue;
+        }
+        if (is_pore(observation)) {
+            predicted[static_cast<Index>(k)] = simulator_.exclusion_probability(
+                settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius);
             continue;
         }
         const Complex material = std::isfinite(observation.fluid_viscosity)

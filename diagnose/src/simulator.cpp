@@ -57,11 +57,20 @@ ContactModel breaking_model(double ratio, double strength) {
 
 Simulator::Simulator(std::vector<Packing> structures, std::vector<std::string> names, SimulationCache& cache,
                      const Progress& progress, std::vector<std::size_t> groups)
-    : structures_(std::move(structures)), names_(std::move(names)), groups_(std::move(groups)), cache_(cache), progress_(progress) {
-    require(!structures_.empty() && structures_.size() == names_.size(), "a diagnosis needs at least one structure");
+    : Simulator(Structures(std::move(structures)), std::move(names), cache, progress, std::move(groups), 0) {
+    require(structures_.size() > 0 && structures_.size() == names_.size(), "a diagnosis needs at least one structure");
     require(groups_.empty() || groups_.size() == structures_.size(), "every structure must belong to a group, or none");
-    radius_ = mean_radius(structures_.front());
+    radius_ = mean_radius(structures_[0]);
 }
+
+Simulator::Simulator(Structures structures, std::vector<std::string> names, SimulationCache& cache, Progress progress,
+                     std::vector<std::size_t> groups, double radius)
+    : structures_(std::move(structures)),
+      names_(std::move(names)),
+      groups_(std::move(groups)),
+      cache_(cache),
+      progress_(std::move(progress)),
+      radius_(radius) {}
 
 std::size_t Simulator::groups() const {
     return groups_.empty() ? 0 : *std::max_element(groups_.begin(), groups_.end());
@@ -82,7 +91,7 @@ double Simulator::particles(std::size_t group) const {
     const std::vector<std::size_t> structures = members(group);
     double sum = 0;
     for (const std::size_t k : structures) {
-        sum += static_cast<double>(structures_[k].size());
+        sum += static_cast<double>(structures_.particles(k));
     }
     return sum / static_cast<double>(structures.size());
 }
@@ -122,6 +131,9 @@ double Simulator::exact_linear_modulus(const Settings& settings, std::size_t gro
 }
 
 double Simulator::linear_modulus(const Settings& settings, std::size_t group) {
+    if (const StructureChange change = change_of(settings); change != StructureChange{}) {
+        return over_changes(change, [&](Simulator& other) { return other.linear_modulus(as_stated(settings), group); });
+    }
     const Settings base;
     const auto over_tolerance = [&](double ratio, double bending) {
         if (settings.bond_tolerance == base.bond_tolerance) {

@@ -4,11 +4,14 @@
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
 #include <coagula/diagnose/settings.hpp>
+#include <coagula/diagnose/structure_source.hpp>
 
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +31,14 @@ public:
     /// empty.
     Simulator(std::vector<Packing> structures, std::vector<std::string> names, SimulationCache& cache,
               const Progress& progress = {}, std::vector<std::size_t> groups = {});
+
+    /// Lets structures be made again and pores be measured by other stages.
+    void use(OtherStages stages);
+
+    /// The same simulation with structures that have this changed. They are made when something is asked of them that the cache
+    /// does not know. `linear_modulus`, `neighbours` and `exclusion_probability` ask it by themselves at nodes of a grid; all else
+    /// is that of the structures as they were given. Throws std::invalid_argument where no recipe can make them.
+    Simulator& remade(const StructureChange& change);
 
     /// G [Pa] at vanishing strain without losses, mean over the structures of a group; group 0: over all.
     double linear_modulus(const Settings& settings, std::size_t group = 0);
@@ -66,9 +77,17 @@ public:
     /// it, mean over the structures.
     double neighbours(const Settings& settings, std::size_t shell, bool exact = false);
 
+    /// Probability that a point of the void space is farther than this [m] from the nearest particle surface, mean over the
+    /// structures.
+    double exclusion_probability(const Settings& settings, double pore_radius);
+
     double radius() const { return radius_; }
 
 private:
+    Simulator(Structures structures, std::vector<std::string> names, SimulationCache& cache, Progress progress,
+              std::vector<std::size_t> groups, double radius);
+    double over_changes(const StructureChange& change, const std::function<double(Simulator&)>& asked);
+    const PoreCurve& pore_curve(std::size_t structure);
     std::vector<std::size_t> members(std::size_t group) const;
     const std::vector<double>& linear_moduli(std::size_t structure, double ratio, double bending, double tolerance);
     double node(double ratio, double bending, double tolerance, std::size_t group);
@@ -83,8 +102,9 @@ private:
     const std::vector<std::complex<double>>& drag_curve(std::size_t group);
     std::vector<double> shells(double plane, double axis);
     const std::vector<double>& shell_node(int plane, int axis);
+    const std::vector<double>& shells_about_places();
 
-    std::vector<Packing> structures_;
+    Structures structures_;
     std::vector<std::string> names_;
     std::vector<std::size_t> groups_;
     std::map<std::array<double, 4>, double> nodes_;  ///< by ratio, bending, tolerance and group
@@ -94,6 +114,10 @@ private:
     SimulationCache& cache_;
     Progress progress_;
     double radius_;
+    std::vector<double> shells_about_places_;  ///< likewise
+    OtherStages stages_;
+    std::map<StructureChange, std::unique_ptr<Simulator>> remade_;
+    std::map<std::size_t, PoreCurve> pore_curves_;
     std::vector<double> secant_curve_;    ///< once it has been asked for
     std::vector<double> strength_curve_;  ///< likewise
 };
