@@ -185,7 +185,8 @@ void run(const Arguments& arguments) {
 
 /// As long as 15 mV take to a coordination of 5.4 (docs/brownian.md), in R^2/D; their barrier is 6 kT high.
 constexpr double longest_coagulation = 4;
-constexpr double highest_barrier = 8;  // kT
+constexpr double highest_barrier = 8;     // kT
+constexpr double sample_interval = 5e-4;  // R^2/D, as of a run that ends by its coordination alone
 
 }  // namespace
 
@@ -197,7 +198,9 @@ Packing coagulated_packing(const Arguments& arguments, const Progress& progress)
     if (barrier > highest_barrier) {
         throw InputError("nothing coagulates against a barrier of " + to_text(barrier) + " kT");
     }
-    options.stop_time = longest_coagulation * choose_time_step(potential, radius, radius, options).diffusion_time;
+    const double diffusion_time = choose_time_step(potential, radius, radius, options).diffusion_time;
+    options.stop_time = longest_coagulation * diffusion_time;
+    options.sample_interval = sample_interval * diffusion_time;
     const Packing start = stabilised_suspension(arguments, options, progress);
     BrownianRun made = simulate_brownian(start, potential, options, progress);
     if (made.ended_by != "coordination") {
