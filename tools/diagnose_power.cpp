@@ -164,6 +164,7 @@ void run_power(const Arguments& arguments) {
     diagnose::SimulationCache cache = folder ? read_cache(folder->path() / "simulations.txt") : diagnose::SimulationCache{};
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
                                   file.experiment.structure_groups);
+    simulator.use(std::move(structures.stages));
     const Power power = diagnose::find_power(file.experiment, simulator, options, progress);
 
     Json json = to_json(power, options);

@@ -67,6 +67,7 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     const std::vector<std::string> sentences = structure_sentences(file.experiment, structures);
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
                                   file.experiment.structure_groups);
+    simulator.use(std::move(structures.stages));
     const diagnose::Diagnosis diagnosis = diagnose::diagnose(file.experiment, simulator, options, progress);
 
     const std::string contact = model_text(diagnosis, radius);

@@ -1,34 +1,46 @@
 #include "experiment_structures.hpp"
 
 #include "arguments.hpp"
+#include "structure_recipe.hpp"
 
+#include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/common/checks.hpp>
-#include <coagula/generators/void_expansion.hpp>
 #include <coagula/io/structure_file.hpp>
 
-#include <cmath>
 #include <fstream>
 
 namespace coagula::tools {
 
 namespace {
 
-Packing generate(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
-                 const Progress& progress) {
-    if (recipe.generator != "vem") {
-        throw InputError("the experiment asks for structures by '" + recipe.generator +
-                         "', which diagnose cannot make yet: generate them and name the files under structures");
+/// Exact for equal spheres. Exact curves of unequal ones take a triangulation per radius; sampling errs by a tenth of what
+/// structures scatter.
+diagnose::PoreCurve measure_pores(const Packing& packing) {
+    if (is_monodisperse(packing)) {
+        const characterize::PoreSizes pores = characterize::measure_pores(packing);
+        return {pores.max, {pores.exclusion_probability.begin(), pores.exclusion_probability.end()}};
     }
-    generators::VoidExpansionOptions options;
-    options.particles = recipe.particles;
-    options.voids = recipe.voids;
-    options.volume_fraction = sample.volume_fraction;
-    options.radii = Eigen::VectorXd::Constant(recipe.particles, sample.particle_radius);
-    options.seed = seed;
-    if (std::isfinite(recipe.target_coordination)) {
-        options.target_coordination = recipe.target_coordination;
+    constexpr Index radii = 200;
+    constexpr Index points = 400000;
+    constexpr std::uint64_t seed = 20121;
+    // Twice as far until no pore is larger.
+    for (double largest = 2 * mean_radius(packing);; largest *= 2) {
+        const Eigen::VectorXd radius = Eigen::VectorXd::LinSpaced(radii, 0, largest);
+        const Eigen::VectorXd found = characterize::sample_pores(packing, radius, points, seed).exclusion_probability;
+        if (found[radii - 1] == 0) {
+            return {largest, {found.begin(), found.end()}};
+        }
     }
-    return generators::expand_voids(options, progress).packing;
+}
+
+diagnose::OtherStages stages_of(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, const Progress& progress) {
+    return {
+        .make =
+            [=](std::size_t k, const diagnose::StructureChange& change) {
+                return generate_structure(recipe, sample, recipe.seeds[k], change, progress);
+            },
+        .name = [=](std::size_t k,
+                    const diagnose::StructureChange& change) { return generation_call(recipe, sample, recipe.seeds[k], change); }};
 }
 
 }  // namespace
@@ -43,12 +55,14 @@ ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progr
     }
     if (found.packings.empty() && experiment.recipe) {
         for (const std::size_t seed : experiment.recipe->seeds) {
-            found.packings.push_back(generate(*experiment.recipe, experiment.sample, seed, progress));
+            found.packings.push_back(generate_structure(*experiment.recipe, experiment.sample, seed, {}, progress));
         }
+        found.stages = stages_of(*experiment.recipe, experiment.sample, progress);
     }
     if (found.packings.empty()) {
         throw InputError("the experiment names no structures: give files, or a recipe that makes them");
     }
+    found.stages.measure_pores = measure_pores;
     for (const Packing& packing : found.packings) {
         found.hashes.push_back(io::positions_sha256(packing));
         experiment.structure_sizes.push_back(static_cast<std::size_t>(packing.size()));

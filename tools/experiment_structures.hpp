@@ -15,6 +15,7 @@ namespace coagula::tools {
 struct ExperimentStructures {
     std::vector<Packing> packings;
     std::vector<std::string> hashes;  ///< SHA-256 of the positions
+    diagnose::OtherStages stages;     ///< what the simulator asks of the generators and of characterize
 };
 
 /// Reads or generates them, and notes their sizes and volume fractions in the experiment. Throws InputError when there are none, or

@@ -1,4 +1,5 @@
 // coagula generate vem: a packing of chosen heterogeneity by the void expansion method.
+#include "generate.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
 #include "provenance.hpp"
@@ -70,6 +71,10 @@ void run(const Arguments& arguments) {
 }
 
 }  // namespace
+
+Packing expanded_packing(const Arguments& arguments, const Progress& progress) {
+    return generators::expand_voids(expansion_options(arguments), progress).packing;
+}
 
 Verb generate_vem_verb() {
     return {

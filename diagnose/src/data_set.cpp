@@ -1,5 +1,6 @@
 #include "data_set.hpp"
 
+#include "pore_curves.hpp"
 #include "weights.hpp"
 
 #include <algorithm>
@@ -113,6 +114,9 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         data.sample.push_back(found - data.sample_names.begin());
         if (found == data.sample_names.end()) {
             data.sample_names.push_back(name);
+        }
+        if (is_pore(one)) {
+            data.sample.back() = -1;
         }
     }
     data.noise = noise_of(data.observations, deviation);

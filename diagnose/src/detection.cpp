@@ -167,14 +167,15 @@ double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residua
 std::span<const Coordinate> all_coordinates() {
     static constexpr std::array all{Coordinate::strain,       Coordinate::angular_frequency, Coordinate::time,
                                     Coordinate::gap,          Coordinate::plate_radius,      Coordinate::heterogeneity,
-                                    Coordinate::coordination, Coordinate::volume_fraction,   Coordinate::distance};
+                                    Coordinate::coordination, Coordinate::volume_fraction,   Coordinate::distance,
+                                    Coordinate::pore_radius};
     return all;
 }
 
 const char* name_of(Coordinate coordinate) {
-    constexpr std::array<const char*, 10> names{
-        "strain",       "angular_frequency", "time",     "gap", "plate_radius", "heterogeneity",
-        "coordination", "volume_fraction",   "distance", "none"};
+    constexpr std::array<const char*, 11> names{"strain",       "angular_frequency", "time",         "gap",
+                                                "plate_radius", "heterogeneity",     "coordination", "volume_fraction",
+                                                "distance",     "pore_radius",       "none"};
     return names.at(static_cast<std::size_t>(coordinate));
 }
 
@@ -198,6 +199,8 @@ double coordinate_of(const Observation& observation, Coordinate coordinate) {
             return observation.volume_fraction;
         case Coordinate::distance:
             return observation.distance;
+        case Coordinate::pore_radius:
+            return observation.pore_radius;
         default:
             return 0;
     }

@@ -21,6 +21,7 @@ enum class Coordinate {
     coordination,
     volume_fraction,
     distance,
+    pore_radius,
     none
 };
 /// All but none.

@@ -49,7 +49,8 @@ std::vector<const Mechanism*> possible_causes(const Experiment& experiment, cons
         }
     }
     if (possible.empty()) {
-        throw InputError("none of the causes asked for can show in this experiment");
+        throw InputError(wanted.empty() ? "no cause of the catalogue can show in this experiment"
+                                        : "none of the causes asked for can show in this experiment");
     }
     return possible;
 }

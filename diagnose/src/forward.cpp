@@ -1,6 +1,7 @@
 #include "forward.hpp"
 
 #include "neighbour_shells.hpp"
+#include "pore_curves.hpp"
 #include "springpot.hpp"
 #include "table_cells.hpp"
 
@@ -147,7 +148,21 @@ const char* observable_of(const Observation& observation) {
     if (std::isfinite(observation.distance)) {
         return "neighbours";
     }
+    if (is_pore(observation)) {
+        return "exclusion_probability";
+    }
     return observation.loss ? "loss_modulus" : "storage_modulus";
+}
+
+bool is_modulus(const Observation& observation) {
+    return !std::isfinite(observation.distance) && !is_pore(observation);
+}
+
+double relative_to(const Observation& observation, double level) {
+    if (is_modulus(observation)) {
+        return level;
+    }
+    return is_pore(observation) ? 1.0 : std::max(level, 1.0);
 }
 
 std::vector<Observation> observations_of(const Experiment& experiment) {
@@ -158,6 +173,10 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
         if (table.kind == MeasurementKind::coordinates && std::isfinite(experiment.sample.particle_radius)) {
             const std::vector<Observation> shells = neighbours_in(experiment, k);
             all.insert(all.end(), shells.begin(), shells.end());
+        }
+        if (table.kind == MeasurementKind::pore_curve && std::isfinite(experiment.sample.particle_radius)) {
+            const std::vector<Observation> pores = pores_in(experiment, k);
+            all.insert(all.end(), pores.begin(), pores.end());
         }
         if (!has_moduli(table.kind)) {
             continue;
@@ -231,7 +250,7 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
     std::map<std::size_t, double> linear;
     for (const Observation& observation : observations_) {
         const std::size_t group = observation.structures;
-        if (!linear.contains(group) && !std::isfinite(observation.distance)) {
+        if (!linear.contains(group) && is_modulus(observation)) {
             const double free =
                 exact ? simulator_.exact_linear_modulus(settings, group) : simulator_.linear_modulus(settings, group);
             const double stretched =
@@ -292,6 +311,11 @@ Eigen::VectorXd Forward::seen(const Settings& settings, Run run) const {
             predicted[static_cast<Index>(k)] = simulator_.neighbours(settings, observation.row, run.exact);
             continue;
         }
+        if (is_pore(observation)) {
+            predicted[static_cast<Index>(k)] = simulator_.exclusion_probability(
+                settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius);
+            continue;
+        }
         const Complex material = std::isfinite(observation.fluid_viscosity)
                                      ? Complex(0, observation.fluid_viscosity * observation.angular_frequency)
                                      : settings.normal_stiffness * moduli[k];
@@ -302,6 +326,9 @@ Eigen::VectorXd Forward::seen(const Settings& settings, Run run) const {
 }
 
 Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
+    if (exact && change_of(settings) != StructureChange{}) {
+        return Forward(experiment_, observations_, simulator_.remade(change_of(settings))).predict(as_stated(settings), true);
+    }
     return seen(settings, {.exact = exact});
 }
 

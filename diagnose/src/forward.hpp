@@ -38,15 +38,24 @@ struct Observation {
     double volume_fraction = unset;
     // Of coordinates: the value is the mean number of neighbours in a shell, whose number is the row.
     double distance = unset;  ///< middle of the shell over the diameter
+    // Of a pore curve: the value is the share of the void space farther from any surface than this.
+    double pore_radius = unset;  ///< [m]
 };
 
 /// Whether tables of this kind hold G' or G''.
 bool has_moduli(MeasurementKind kind);
 
-/// "storage_modulus", "loss_modulus" or "neighbours".
+/// "storage_modulus", "loss_modulus", "neighbours" or "exclusion_probability".
 const char* observable_of(const Observation& observation);
 
-/// The moduli of all tables of moduli, row by row, cells that were left out skipped.
+/// A modulus, and not what was counted of the structure.
+bool is_modulus(const Observation& observation);
+
+/// What a difference in this observation is measured against where the expectation is `level`: that, but neighbours against one
+/// neighbour at least and probabilities as they stand.
+double relative_to(const Observation& observation, double level);
+
+/// The moduli of all tables of moduli, row by row, cells that were left out skipped; then what tables show of the structure.
 std::vector<Observation> observations_of(const Experiment& experiment);
 
 /// |G*| at each observation of these moduli [Pa].

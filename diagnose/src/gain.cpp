@@ -36,9 +36,9 @@ double root_mean_square(const DataSet& held, const Eigen::VectorXd& prediction) 
     // Relative to |G*| of the row, so that G'' counts by what it is worth.
     double sum = 0;
     for (std::size_t k = 0; k < held.observations.size(); ++k) {
-        double level = 0;
+        double level = is_modulus(held.observations[k]) ? 0.0 : relative_to(held.observations[k], held.observations[k].value);
         for (std::size_t j = 0; j < held.observations.size(); ++j) {
-            if (held.observations[j].measurement == held.observations[k].measurement &&
+            if (is_modulus(held.observations[k]) && held.observations[j].measurement == held.observations[k].measurement &&
                 held.observations[j].row == held.observations[k].row) {
                 level = std::hypot(level, held.observations[j].value);
             }

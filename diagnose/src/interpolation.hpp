@@ -1,4 +1,4 @@
-// Cubic interpolation between nodes that are equally spaced in the logarithm.
+// Cubic interpolation between nodes that are equally spaced, most in the logarithm.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,19 @@ struct Axis {
     double place(double value) const { return (count - 1) * std::log(value / low) / std::log(high / low); }
 };
 
+/// Nodes that are equally spaced as they stand.
+struct LinearAxis {
+    double low;
+    double high;
+    int count;
+
+    double node(int k) const { return low + (high - low) * k / (count - 1); }
+    double place(double value) const { return (count - 1) * (value - low) / (high - low); }
+};
+
 /// The value at `value` from those at the nodes, at(k): a cubic through the four nearest nodes; outside the axis its end.
-template <class At>
-auto interpolate_nodes(const Axis& axis, double value, const At& at) {
+template <class AnyAxis, class At>
+auto interpolate_nodes(const AnyAxis& axis, double value, const At& at) {
     const double place = std::clamp(axis.place(value), 0.0, static_cast<double>(axis.count - 1));
     const int first = std::clamp(static_cast<int>(std::floor(place)) - 1, 0, axis.count - 4);
     const double t = place - first;

@@ -46,7 +46,9 @@ Eigen::MatrixXd Likelihood::effect_directions(const Eigen::VectorXd& prediction,
     // Rows of different samples have independent errors: whitening then keeps each in its column.
     const Eigen::VectorXd values = dense_ ? prediction : whiten(prediction);
     for (Index row = 0; row < prediction.size(); ++row) {
-        parts(row, data_.sample[static_cast<std::size_t>(row)]) = values[row];
+        if (const Index sample = data_.sample[static_cast<std::size_t>(row)]; sample >= 0) {
+            parts(row, sample) = values[row];
+        }
     }
     for (Index error = 0; error < model.cols(); ++error) {
         parts.col(data_.samples() + error) = dense_ ? Eigen::VectorXd(model.col(error)) : whiten(model.col(error));
@@ -86,6 +88,9 @@ double Likelihood::log_density(const Eigen::VectorXd& prediction, const Eigen::M
         const Index sample = data_.sample[static_cast<std::size_t>(row)];
         const double plain = white_[row] - white[row];
         misfit += plain * plain;
+        if (sample < 0) {
+            continue;
+        }
         squares[sample] += white[row] * white[row];
         products[sample] += white[row] * plain;
     }

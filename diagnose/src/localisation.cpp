@@ -38,16 +38,44 @@ const std::vector<double>& Simulator::shell_node(int plane, int axis) {
     return node;
 }
 
+/// As of the function, mean over the structures.
+const std::vector<double>& Simulator::shells_about_places() {
+    if (!shells_about_places_.empty()) {
+        return shells_about_places_;
+    }
+    shells_about_places_.assign(shell_count + 1, 0.0);
+    for (std::size_t k = 0; k < structures_.size(); ++k) {
+        const std::string key = "places " + names_[k];
+        auto found = cache_.find(key);
+        if (found == cache_.end()) {
+            found = cache_.emplace(key, shells_about_free_places(structures_[k])).first;
+        }
+        for (std::size_t entry = 0; entry < shells_about_places_.size(); ++entry) {
+            shells_about_places_[entry] += found->second[entry] / static_cast<double>(structures_.size());
+        }
+    }
+    return shells_about_places_;
+}
+
 double Simulator::neighbours(const Settings& settings, std::size_t shell, bool exact) {
+    if (const StructureChange change = change_of(settings); change != StructureChange{}) {
+        return over_changes(change, [&](Simulator& other) { return other.neighbours(as_stated(settings), shell); });
+    }
     const double plane = settings.localisation_plane / (2 * radius_);
     const double axis = settings.localisation_axis / (2 * radius_);
+    const double pairs =
+        exact || (plane == 0 && axis == 0) ? shells(plane, axis)[shell] : interpolate_nodes(error_axis, plane, [&](int i) {
+            return interpolate_nodes(error_axis, axis, [&](int j) { return shell_node(i, j)[shell]; });
+        });
     const double found = 1 - settings.missed_share;
-    if (exact || (plane == 0 && axis == 0)) {
-        return found * shells(plane, axis)[shell];
+    if (settings.false_share == 0) {
+        return found * pairs;
     }
-    return found * interpolate_nodes(error_axis, plane, [&](int i) {
-               return interpolate_nodes(error_axis, axis, [&](int j) { return shell_node(i, j)[shell]; });
-           });
+    // Pairs of particles, of a particle and a false point seen from either, and of false points, which lie anywhere.
+    const std::vector<double>& near = shells_about_places();
+    const double share = settings.false_share;
+    const double false_density = share / (1 - share) * near.back();
+    return found * ((1 - share) * pairs + share * (2 * near[shell] + false_density * shell_volume(shell)));
 }
 
 }  // namespace coagula::diagnose

@@ -28,9 +28,22 @@ std::string value_text(double value, Coordinate coordinate) {
             return three_digits(value) + " s";
         case Coordinate::gap:
             return three_digits(1e3 * value) + " mm";
+        case Coordinate::pore_radius:
+            return three_digits(1e6 * value) + " um";
         default:
             return three_digits(value);
     }
+}
+
+/// An observable in words.
+std::string spoken(const std::string& observable) {
+    if (observable == "neighbours") {
+        return "the number of neighbours";
+    }
+    if (observable == "exclusion_probability") {
+        return "the share of the void space in larger pores";
+    }
+    return observable == "loss_modulus" ? "G''" : "G'";
 }
 
 /// The row from which on the residuals differ most from those before.
@@ -56,13 +69,14 @@ std::size_t change_point(const std::vector<Index>& rows, const Eigen::VectorXd& 
     return place;
 }
 
-/// Mean of measured less predicted over the size of the prediction of |G*|.
+/// Mean of measured less predicted over the size of the prediction of |G*|; of a probability as it stands.
 double mean_departure(const std::vector<Observation>& observations, const Eigen::VectorXd& prediction,
                       const std::vector<Index>& rows, std::size_t from, std::size_t to, bool loss, double scale) {
     double sum = 0;
     for (std::size_t k = from; k < to; ++k) {
         const double expected = prediction[rows[k]];
-        sum += (observations[static_cast<std::size_t>(rows[k])].value - expected) / (loss ? scale : expected);
+        const Observation& one = observations[static_cast<std::size_t>(rows[k])];
+        sum += (one.value - expected) / (loss ? scale : relative_to(one, expected));
     }
     return sum / static_cast<double>(std::max<std::size_t>(1, to - from));
 }
@@ -90,14 +104,14 @@ std::vector<Failure> localise(const std::vector<Observation>& observations, cons
             std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
         failure.from = coordinate_of(observations[static_cast<std::size_t>(statistic.rows[place])], statistic.coordinate);
         failure.departure = late;
-        failure.sentence = std::string(statistic.observable == "neighbours" ? "the number of neighbours"
-                                       : loss                               ? "G''"
-                                                                            : "G'") +
-                           (late < early ? " falls below" : " rises above") + " the base model along " +
+        failure.sentence = spoken(statistic.observable) + (late < early ? " falls below" : " rises above") +
+                           " the base model along " +
                            (statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis) +
                            ": mean difference " + three_digits(100 * early) + " % before and " + three_digits(100 * late) +
                            " % from " + value_text(failure.from, statistic.coordinate) + " on" +
-                           (loss ? " (of the largest predicted modulus)" : "");
+                           (loss                                              ? " (of the largest predicted modulus)"
+                            : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
+                                                                              : "");
         failures.push_back(std::move(failure));
     }
     return failures;

@@ -39,6 +39,8 @@ std::span<const Mechanism> catalogue() {
         mechanisms::tool_inertia(),
         mechanisms::numerical(),
         mechanisms::localisation_error(),
+        mechanisms::polydispersity(),
+        mechanisms::surface_potential(),
     };
     // clang-format on
     return all;

@@ -4,9 +4,11 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/random.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace coagula::diagnose {
 
@@ -52,6 +54,7 @@ NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diame
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis) {
     const double diameter = 2 * mean_radius(packing);
     Packing seen = packing;
+    seen.radii.setConstant(diameter / 2);  // the shells are distances of centres, whatever the sizes
     for (Index particle = 0; particle < seen.size(); ++particle) {
         const auto number = 3 * static_cast<std::uint64_t>(particle);
         seen.positions.col(particle) += Eigen::Vector3d(sigma_plane * normal_number(error_seed, 0, number),
@@ -66,6 +69,46 @@ std::vector<double> shells_of_structure(const Packing& packing, double sigma_pla
         }
     }
     return mean;
+}
+
+std::vector<double> shells_about_free_places(const Packing& packing) {
+    constexpr int places = 5000;
+    constexpr double nearest = 0.5;
+    const double diameter = 2 * mean_radius(packing);
+    const Eigen::Array3d box = packing.cell.lengths().array();
+    std::vector<double> mean(shell_count, 0);
+    int free = 0;
+    for (std::uint64_t number = 0; free < places && number < 100 * places; ++number) {
+        const auto u = random_uniform(error_seed, RandomPurpose::diagnosis, 1, number);
+        const Eigen::Array3d place = box * Eigen::Array3d(u[0], u[1], u[2]);
+        std::vector<int> shells;
+        bool taken = false;
+        for (Index particle = 0; particle < packing.size() && !taken; ++particle) {
+            Eigen::Array3d branch = packing.positions.col(particle).array() - place;
+            branch -= box * (branch / box).round();
+            const double distance = branch.matrix().norm() / diameter;
+            taken = distance < nearest;
+            if (const int shell = shell_at(distance); shell >= 0) {
+                shells.push_back(shell);
+            }
+        }
+        if (!taken) {
+            ++free;
+            for (const int shell : shells) {
+                mean[static_cast<std::size_t>(shell)] += 1;
+            }
+        }
+    }
+    for (double& value : mean) {
+        value /= std::max(1, free);
+    }
+    mean.push_back(static_cast<double>(packing.size()) * std::pow(diameter, 3) / box.prod());
+    return mean;
+}
+
+double shell_volume(std::size_t shell) {
+    const double inner = first_shell + shell_width * static_cast<double>(shell);
+    return 4 * std::numbers::pi / 3 * (std::pow(inner + shell_width, 3) - std::pow(inner, 3));
 }
 
 }  // namespace coagula::diagnose

@@ -29,4 +29,13 @@ NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diame
 /// plane and along z [m], drawn from a fixed seed. Packings too small for the reach are refused by std::invalid_argument.
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis);
 
+/// Mean number of particles of a periodic structure in the shells about random places that are not nearer than half a diameter to a
+/// centre: where a search for particles finds one that is none. Nearer than that it takes both for one (the separation that Crocker
+/// and Grier, J. Colloid Interface Sci. 179 (1996) 298, ask for between two centres is that of touching images). Last, the
+/// particles per cube of the diameter.
+std::vector<double> shells_about_free_places(const Packing& packing);
+
+/// Volume of a shell over the cube of the diameter.
+double shell_volume(std::size_t shell);
+
 }  // namespace coagula::diagnose

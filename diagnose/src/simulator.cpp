@@ -17,7 +17,6 @@ namespace coagula::diagnose {
 
 namespace {
 
-
 mechanics::LinearResponse solve(const Packing& packing, const ContactNetwork& bonds, double ratio, double bending, double radius,
                                 const Progress& progress) {
     ContactModel model{.normal_stiffness = unit_stiffness, .shear_stiffness = ratio * unit_stiffness};
@@ -37,14 +36,20 @@ mechanics::LinearResponse solve(const Packing& packing, const ContactNetwork& bo
 
 Simulator::Simulator(std::vector<Packing> structures, std::vector<std::string> names, SimulationCache& cache,
                      const Progress& progress, std::vector<std::size_t> groups)
-    : structures_(std::move(structures)), names_(std::move(names)), groups_(std::move(groups)), cache_(cache), progress_(progress) {
-    require(!structures_.empty() && structures_.size() == names_.size(), "a diagnosis needs at least one structure");
+    : Simulator(Structures(std::move(structures)), std::move(names), cache, progress, std::move(groups), 0) {
+    require(structures_.size() > 0 && structures_.size() == names_.size(), "a diagnosis needs at least one structure");
     require(groups_.empty() || groups_.size() == structures_.size(), "every structure must belong to a group, or none");
-    radius_ = mean_radius(structures_.front());
-    for (const Packing& packing : structures_) {
-        volume_fractions_.push_back(coagula::volume_fraction(packing));
-    }
+    radius_ = mean_radius(structures_[0]);
 }
+
+Simulator::Simulator(Structures structures, std::vector<std::string> names, SimulationCache& cache, Progress progress,
+                     std::vector<std::size_t> groups, double radius)
+    : structures_(std::move(structures)),
+      names_(std::move(names)),
+      groups_(std::move(groups)),
+      cache_(cache),
+      progress_(std::move(progress)),
+      radius_(radius) {}
 
 std::size_t Simulator::groups() const {
     return groups_.empty() ? 0 : *std::max_element(groups_.begin(), groups_.end());
@@ -65,7 +70,7 @@ double Simulator::particles(std::size_t group) const {
     const std::vector<std::size_t> structures = members(group);
     double sum = 0;
     for (const std::size_t k : structures) {
-        sum += static_cast<double>(structures_[k].size());
+        sum += static_cast<double>(structures_.particles(k));
     }
     return sum / static_cast<double>(structures.size());
 }
@@ -105,6 +110,9 @@ double Simulator::exact_linear_modulus(const Settings& settings, std::size_t gro
 }
 
 double Simulator::linear_modulus(const Settings& settings, std::size_t group) {
+    if (const StructureChange change = change_of(settings); change != StructureChange{}) {
+        return over_changes(change, [&](Simulator& other) { return other.linear_modulus(as_stated(settings), group); });
+    }
     const double modulus = between_nodes(
         settings, [&](double ratio, double bending, double tolerance) { return node(ratio, bending, tolerance, group); });
     return settings.normal_stiffness / unit_stiffness * modulus;

@@ -45,13 +45,15 @@ double layers_in_series(double exponent, double relative_difference) {
     return 2 * x / integral;
 }
 
-double Simulator::volume_fraction(std::size_t group) const {
-    const std::vector<std::size_t> structures = members(group);
-    double sum = 0;
-    for (const std::size_t k : structures) {
-        sum += volume_fractions_[k];
+double Simulator::volume_fraction(std::size_t group) {
+    const auto [found, added] = volume_fractions_.try_emplace(group, 0.0);
+    if (added) {
+        const std::vector<std::size_t> structures = members(group);
+        for (const std::size_t k : structures) {
+            found->second += coagula::volume_fraction(structures_[k]) / static_cast<double>(structures.size());
+        }
     }
-    return sum / static_cast<double>(structures.size());
+    return found->second;
 }
 
 /// At one node: slope of the logarithms over the structures that bear a load; 0 where these have one volume fraction only.
@@ -69,7 +71,7 @@ double Simulator::exponent_node(double ratio, double bending, double tolerance) 
     std::vector<double> borne;
     for (std::size_t k = 0; k < structures_.size(); ++k) {
         if (moduli[k] > floppy * largest) {
-            fractions.push_back(volume_fractions_[k]);
+            fractions.push_back(coagula::volume_fraction(structures_[k]));
             borne.push_back(moduli[k]);
         }
     }

@@ -26,6 +26,8 @@ Mechanism tool_compliance();
 Mechanism tool_inertia();
 Mechanism numerical();
 Mechanism localisation_error();
+Mechanism polydispersity();
+Mechanism surface_potential();
 
 inline bool any_measurement(const Experiment& experiment, bool (*holds)(const Measurement&)) {
     return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), holds);
@@ -51,6 +53,15 @@ inline bool takes_time(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) {
         return find_column(table, "storage_modulus") != nullptr && table.kind != MeasurementKind::structure_series;
     });
+}
+
+/// Something was measured that shows what structures look like, or how stiff they are when their contacts are known.
+inline bool sees_structure(const Experiment& experiment) {
+    const bool images = any_measurement(experiment, [](const Measurement& table) {
+        return table.kind == MeasurementKind::coordinates || table.kind == MeasurementKind::pore_curve;
+    });
+    return (images && std::isfinite(experiment.sample.particle_radius)) ||
+           (has_moduli(experiment) && std::isfinite(experiment.sample.normal_stiffness));
 }
 
 inline bool knows_frequency(const Experiment& experiment) {

@@ -40,4 +40,50 @@ inline double drawn_normal(std::uint64_t seed, std::uint64_t number, std::uint64
     return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * std::numbers::pi * u[1]);
 }
 
+/// Centres as a microscope finds them: errors, some particles missed, no periodic box.
+inline Measurement seen_by_microscope(const Packing& hidden, double sigma_plane, double sigma_axis, double missed,
+                                      std::uint64_t seed) {
+    Measurement table{.kind = MeasurementKind::coordinates,
+                      .label = "hidden",
+                      .sample = "sample",
+                      .columns = {{"x", "m", {}}, {"y", "m", {}}, {"z", "m", {}}},
+                      .left_out = {}};
+    for (Index particle = 0; particle < hidden.size(); ++particle) {
+        const auto number = 4 * static_cast<std::uint64_t>(particle);
+        if (random_uniform(seed, RandomPurpose::test, 4, number)[0] < missed) {
+            continue;
+        }
+        for (Index axis = 0; axis < 3; ++axis) {
+            const double error =
+                (axis < 2 ? sigma_plane : sigma_axis) * drawn_normal(seed, number + static_cast<std::uint64_t>(axis));
+            table.columns[static_cast<std::size_t>(axis)].values.push_back(hidden.positions(axis, particle) + error);
+        }
+    }
+    return table;
+}
+
+/// Adds centres where no particle is, none nearer than half a diameter to another, until they are this share of all.
+inline void add_false_centres(Measurement& table, double share, double diameter, std::uint64_t seed) {
+    const std::size_t particles = table.rows();
+    const auto centre = [&](std::size_t row) {
+        return Eigen::Vector3d(table.columns[0].values[row], table.columns[1].values[row], table.columns[2].values[row]);
+    };
+    Eigen::Array3d high = centre(0);
+    for (std::size_t row = 0; row < particles; ++row) {
+        high = high.max(centre(row).array());
+    }
+    const auto wanted = static_cast<std::size_t>(std::lround(share / (1 - share) * static_cast<double>(particles)));
+    for (std::uint64_t number = 0; table.rows() < particles + wanted; ++number) {
+        const auto u = random_uniform(seed, RandomPurpose::test, 5, number);
+        const Eigen::Vector3d place = (high * Eigen::Array3d(u[0], u[1], u[2])).matrix();
+        bool taken = false;
+        for (std::size_t row = 0; row < table.rows() && !taken; ++row) {
+            taken = (centre(row) - place).norm() < 0.5 * diameter;
+        }
+        for (std::size_t axis = 0; axis < 3 && !taken; ++axis) {
+            table.columns[axis].values.push_back(place[static_cast<Index>(axis)]);
+        }
+    }
+}
+
 }  // namespace coagula::diagnose

@@ -1,5 +1,6 @@
 // Effects hidden in the instrument, the sample's age, the contacts and the microscope: raw torque and angle, positions and steps of
 // time by formulas and solvers that the diagnosis does not use, for other structures; the diagnosis sees the table only.
+#include "forward.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/mechanics/frequency.hpp>
@@ -275,24 +276,9 @@ TEST(HiddenEffects, OneSweepUpwardsTiesAgeAndStrain) {
     ASSERT_FALSE(found.proposals.empty());
 }
 
-/// Centres as a microscope finds them: errors, some particles missed, no periodic box.
+/// Centres as a microscope finds them, of a structure that the diagnosis does not know.
 Measurement coordinates(double sigma_plane, double sigma_axis, double missed, std::uint64_t seed) {
-    const Packing hidden = structure(700, 79);
-    Column x{"x", "m", {}};
-    Column y{"y", "m", {}};
-    Column z{"z", "m", {}};
-    for (Index particle = 0; particle < hidden.size(); ++particle) {
-        const auto number = 4 * static_cast<std::uint64_t>(particle);
-        if (random_uniform(seed, RandomPurpose::test, 4, number)[0] < missed) {
-            continue;
-        }
-        x.values.push_back(hidden.positions(0, particle) + sigma_plane * drawn_normal(seed, number));
-        y.values.push_back(hidden.positions(1, particle) + sigma_plane * drawn_normal(seed, number + 1));
-        z.values.push_back(hidden.positions(2, particle) + sigma_axis * drawn_normal(seed, number + 2));
-    }
-    Measurement table = table_of(MeasurementKind::coordinates, x);
-    table.columns = {x, y, z};
-    return table;
+    return seen_by_microscope(structure(700, 79), sigma_plane, sigma_axis, missed, seed);
 }
 
 TEST(HiddenEffects, ErrorsOfLocalisationAreNamed) {
@@ -304,6 +290,41 @@ TEST(HiddenEffects, ErrorsOfLocalisationAreNamed) {
     EXPECT_EQ(found.failures.front().axis, "distance");
     const Diagnosis nothing = diagnose_table(coordinates(0, 0, 0, 10));
     EXPECT_FALSE(nothing.detected);
+}
+
+/// Centres where no particle is, drawn among those of a structure that the simulation does not know.
+TEST(HiddenEffects, FalseParticlesAreCounted) {
+    Settings settings;
+    settings.localisation_plane = 3e-8;
+    settings.localisation_axis = 6e-8;
+    settings.missed_share = 0.05;
+    settings.false_share = 0.08;
+    Measurement table =
+        seen_by_microscope(structure(1500, 79), settings.localisation_plane, settings.localisation_axis, settings.missed_share, 11);
+    add_false_centres(table, settings.false_share, 0.5e-6, 12);
+    Experiment experiment;
+    experiment.sample.particle_radius = 0.25e-6;
+    experiment.measurements = {table};
+    double squares = 0;
+    double without = 0;
+    Settings all_true = settings;
+    all_true.false_share = 0;
+    const std::vector<Observation> seen = observations_of(experiment);
+    for (const Observation& shell : seen) {
+        const double predicted = simulator().neighbours(settings, shell.row);
+        squares += std::pow((shell.value - predicted) / shell.standard_error, 2) / static_cast<double>(seen.size());
+        without += std::pow((shell.value - simulator().neighbours(all_true, shell.row)) / shell.standard_error, 2) /
+                   static_cast<double>(seen.size());
+    }
+    EXPECT_LT(squares, 2);
+    EXPECT_GT(without, 3);
+    const Diagnosis found = diagnose_table(table);
+    EXPECT_TRUE(found.detected);
+    EXPECT_EQ(found.credible_set, std::vector<std::string>{"localisation-error"});
+    const EstimatedParameter& share = found.causes.front().parameters.back();
+    EXPECT_EQ(share.name, "false_share");
+    EXPECT_LT(share.low, 0.08);
+    EXPECT_GT(share.high, 0.08);
 }
 
 }  // namespace

@@ -43,6 +43,11 @@ struct Settings {
     double localisation_plane = 0;  ///< standard deviation of measured centres in the plane x-y [m]
     double localisation_axis = 0;   ///< along z [m]
     double missed_share = 0;        ///< of the particles
+    double false_share = 0;         ///< of the centres: points where no particle is
+
+    double size_deviation = 0;  ///< standard deviation of the radii over their mean
+    double coagulation_potential =
+        std::numeric_limits<double>::infinity();  ///< surface potential of the coagulation [V]; infinite: as the recipe says
 
     double slip = 0;             ///< wall slip b: apparent modulus G / (1 + 2 G b / gap) [m/Pa]
     double gap_error = 0;        ///< true gap less the stated one [m]

@@ -4,11 +4,14 @@
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
 #include <coagula/diagnose/settings.hpp>
+#include <coagula/diagnose/structure_source.hpp>
 
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +32,14 @@ public:
     Simulator(std::vector<Packing> structures, std::vector<std::string> names, SimulationCache& cache,
               const Progress& progress = {}, std::vector<std::size_t> groups = {});
 
+    /// Lets structures be made again and pores be measured by other stages.
+    void use(OtherStages stages);
+
+    /// The same simulation with structures that have this changed. They are made when something is asked of them that the cache
+    /// does not know. `linear_modulus`, `neighbours` and `exclusion_probability` ask it by themselves at nodes of a grid; all else
+    /// is that of the structures as they were given. Throws std::invalid_argument where no recipe can make them.
+    Simulator& remade(const StructureChange& change);
+
     /// G [Pa] at vanishing strain without losses, mean over the structures of a group; group 0: over all.
     double linear_modulus(const Settings& settings, std::size_t group = 0);
     double exact_linear_modulus(const Settings& settings, std::size_t group = 0);
@@ -44,7 +55,7 @@ public:
     std::size_t groups() const;
 
     /// Mean volume fraction of the structures of a group.
-    double volume_fraction(std::size_t group = 0) const;
+    double volume_fraction(std::size_t group = 0);
     /// Slope of the logarithm of the linear modulus over that of the volume fraction, by least squares over all structures that
     /// bear a load; 0 where their volume fractions do not differ by a hundredth.
     double volume_fraction_exponent(const Settings& settings, bool exact = false);
@@ -75,9 +86,17 @@ public:
     /// it, mean over the structures.
     double neighbours(const Settings& settings, std::size_t shell, bool exact = false);
 
+    /// Probability that a point of the void space is farther than this [m] from the nearest particle surface, mean over the
+    /// structures.
+    double exclusion_probability(const Settings& settings, double pore_radius);
+
     double radius() const { return radius_; }
 
 private:
+    Simulator(Structures structures, std::vector<std::string> names, SimulationCache& cache, Progress progress,
+              std::vector<std::size_t> groups, double radius);
+    double over_changes(const StructureChange& change, const std::function<double(Simulator&)>& asked);
+    const PoreCurve& pore_curve(std::size_t structure);
     std::vector<std::size_t> members(std::size_t group) const;
     const std::vector<double>& linear_moduli(std::size_t structure, double ratio, double bending, double tolerance);
     double node(double ratio, double bending, double tolerance, std::size_t group);
@@ -95,11 +114,12 @@ private:
     const std::vector<std::complex<double>>& drag_curve(std::size_t group);
     std::vector<double> shells(double plane, double axis);
     const std::vector<double>& shell_node(int plane, int axis);
+    const std::vector<double>& shells_about_places();
 
-    std::vector<Packing> structures_;
+    Structures structures_;
     std::vector<std::string> names_;
     std::vector<std::size_t> groups_;
-    std::vector<double> volume_fractions_;
+    std::map<std::size_t, double> volume_fractions_;     ///< by group
     std::map<std::array<double, 4>, double> nodes_;      ///< by ratio, bending, tolerance and group
     std::map<std::array<double, 3>, double> exponents_;  ///< of the volume fraction, by ratio, bending and tolerance
     std::map<std::pair<int, int>, std::vector<double>> shell_nodes_;
@@ -108,7 +128,11 @@ private:
     SimulationCache& cache_;
     Progress progress_;
     double radius_;
-    std::vector<double> secant_curve_;                                ///< once it has been asked for
+    OtherStages stages_;
+    std::map<StructureChange, std::unique_ptr<Simulator>> remade_;
+    std::map<std::size_t, PoreCurve> pore_curves_;
+    std::vector<double> shells_about_places_;                         ///< once it has been asked for
+    std::vector<double> secant_curve_;                                ///< likewise
     std::vector<std::vector<std::complex<double>>> strength_curves_;  ///< likewise, the mean and its errors
 };
 

@@ -1,0 +1,64 @@
+// The structures behind a simulation: as they were given, or made again with something changed.
+#pragma once
+
+#include <coagula/common/packing.hpp>
+#include <coagula/diagnose/settings.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// What structures have otherwise than the recipe of the experiment says.
+struct StructureChange {
+    double size_deviation = 0;  ///< standard deviation of the radii over their mean, of lognormal sizes
+    double surface_potential = std::numeric_limits<double>::infinity();  ///< of coagulation [V]; infinite: as the recipe says
+
+    auto operator<=>(const StructureChange&) const = default;
+};
+
+/// The part of settings that needs other structures, and settings without it.
+StructureChange change_of(const Settings& settings);
+Settings as_stated(Settings settings);
+
+/// Probability that a point of the void space is farther than r from the nearest particle surface, at equally spaced r.
+struct PoreCurve {
+    double largest;                   ///< pore radius [m]
+    std::vector<double> probability;  ///< from r = 0 to `largest`
+
+    /// Linear between the radii; 0 beyond the largest.
+    double at(double radius) const;
+};
+
+/// What a simulation asks of the stages before it, which this library does not include.
+struct OtherStages {
+    /// Makes a structure, by its number, by the recipe with this change. Empty where the structures are no recipe's.
+    std::function<Packing(std::size_t structure, const StructureChange& change)> make = {};
+    /// All that decides what `make` returns, in one line: part of the name of what is simulated with it.
+    std::function<std::string(std::size_t structure, const StructureChange& change)> name = {};
+    /// The pore curve of a structure; empty: no pore curve can be predicted.
+    std::function<PoreCurve(const Packing& packing)> measure_pores = {};
+};
+
+/// Structures by their numbers; what has to be made is made when it is first asked for. Not for several threads at once.
+class Structures {
+public:
+    explicit Structures(std::vector<Packing> given);
+    /// @param particles of each.
+    Structures(std::vector<std::size_t> particles, std::function<Packing(std::size_t structure)> make);
+
+    const Packing& operator[](std::size_t structure) const;
+    std::size_t size() const { return particles_.size(); }
+    std::size_t particles(std::size_t structure) const { return particles_[structure]; }
+
+private:
+    std::vector<std::size_t> particles_;
+    std::function<Packing(std::size_t structure)> make_;
+    mutable std::vector<std::optional<Packing>> packings_;
+};
+
+}  // namespace coagula::diagnose

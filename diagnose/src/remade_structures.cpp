@@ -1,0 +1,63 @@
+// Causes that change the structures themselves: the same simulation with structures made again.
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/simulator.hpp>
+
+#include "cache_key.hpp"
+#include "interpolation.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+/// Where structures are made again; between these values what is measured of them is interpolated.
+constexpr Axis size_axis{0.03, 0.4, 7};  // at 0.03 no shell of neighbours notices
+/// Below 11 mV particles of 0.25 um in water have no barrier, and coagulation hardly knows the potential.
+constexpr LinearAxis potential_axis{0.011, 0.015, 5};
+
+}  // namespace
+
+void Simulator::use(OtherStages stages) {
+    stages_ = std::move(stages);
+}
+
+Simulator& Simulator::remade(const StructureChange& change) {
+    std::unique_ptr<Simulator>& other = remade_[change];
+    if (other) {
+        return *other;
+    }
+    require(stages_.make && stages_.name, "only structures that a recipe made can be made again");
+    std::vector<std::string> names;
+    std::vector<std::size_t> particles;
+    for (std::size_t k = 0; k < structures_.size(); ++k) {
+        names.push_back(names_[k] + " remade: " + stages_.name(k, change));
+        particles.push_back(structures_.particles(k));
+    }
+    const auto make = [this, change](std::size_t structure) {
+        progress_.update("simulating", 0.0, "structures made again");
+        return stages_.make(structure, change);
+    };
+    other.reset(new Simulator(Structures(std::move(particles), make), std::move(names), cache_, progress_, groups_, radius_));
+    other->stages_.measure_pores = stages_.measure_pores;
+    return *other;
+}
+
+/// What is asked of structures with these changes, between the nodes of each; several changes add up.
+double Simulator::over_changes(const StructureChange& change, const std::function<double(Simulator&)>& asked) {
+    const double stated = asked(*this);
+    double value = stated;
+    if (change.size_deviation > 0) {
+        value -= stated - interpolate_nodes(size_axis, change.size_deviation,
+                                            [&](int k) { return asked(remade({.size_deviation = size_axis.node(k)})); });
+    }
+    if (std::isfinite(change.surface_potential)) {
+        value -= stated - interpolate_nodes(potential_axis, change.surface_potential,
+                                            [&](int k) { return asked(remade({.surface_potential = potential_axis.node(k)})); });
+    }
+    return value;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,84 @@
+"""coagula diagnose with structures by a recipe: causes that change the structures, coordinates, pore curves, what cannot be made."""
+
+import unittest
+
+from support import ProgramTest
+
+EXPERIMENT = """[sample]
+particle_radius = "{radius} um"
+volume_fraction = 0.4
+
+[structures]
+{structures}
+particles = 200
+seeds = [1, 2]
+"""
+
+TABLE = """
+[[measurement]]
+kind = "{kind}"
+file = "{name}.csv"
+sample = "{name}"
+"""
+
+
+class Recipe(ProgramTest):
+    def experiment(self, structures, kind, *tables, radius=0.25):
+        self.write("experiment.toml", EXPERIMENT.format(structures=structures, radius=radius) +
+                   "".join(TABLE.format(kind=kind, name=name) for name in tables))
+
+    def test_sizes_hidden_in_coordinates_are_found(self):
+        for seed in ("31", "32"):
+            self.succeed("generate", "vem", "--particles", "600", "--volume-fraction", "0.4", "--radius", "0.25um", "--size-distribution",
+                         "normal:0.15", "--seed", seed, "--quiet", "-o", f"hidden{seed}.h5")
+            self.succeed("export", f"hidden{seed}.h5", "--format", "csv", "-o", f"hidden{seed}.csv")
+        self.experiment('generator = "vem"\nvoids = 100', "coordinates", "hidden31", "hidden32")
+        words = ("diagnose", "experiment.toml", "-o", "results", "--force", "--causes", "polydispersity,localisation-error", "--bootstrap", "299")
+        found = self.succeed_json(*words)
+        self.assertTrue(found["detected"])
+        self.assertEqual(found["credible_set"][0], "polydispersity")
+        size = found["causes"][0]["parameters"]["relative_size_deviation"]
+        self.assertLess(size["low"], 0.15)
+        self.assertGreater(size["high"], 0.14)
+        self.assertGreater(found["gain"]["rmse_ratio"], 2)
+        # What was simulated is known by the recipe, and serves again to the same result.
+        cache = (self.folder / "results" / "simulations.txt").read_text()
+        self.assertIn("--size-distribution lognormal:0.4 --target-coordination 4.69 --seed 2", cache)
+        again = self.succeed_json(*words)
+        self.assertEqual(again["causes"], found["causes"])
+        self.assertLess(again["seconds"], 0.5 * found["seconds"])
+
+    def test_a_pore_curve_of_coagulated_structures(self):
+        """Small particles, whose barrier at 15 mV is low. The sample coagulated as the recipe says."""
+        for seed in ("7", "8"):
+            self.succeed("generate", "brownian", "--particles", "200", "--volume-fraction", "0.4", "--radius", "0.1um", "--surface-potential",
+                         "0mV", "--stop-coordination", "4.69", "--seed", seed, "--quiet", "-o", "sample.h5", "--force")
+            exact = self.succeed_json("characterize", "sample.h5", "--only", "pores", "--radii", "40", "-o", "pores.h5", "--force")
+            curve = exact["pore_curve"]
+            self.write(f"pores{seed}.csv", "pore_radius [m],exclusion_probability\n" +
+                       "".join(f"{r},{p}\n" for r, p in zip(curve["radius"], curve["exclusion_probability"])))
+        self.experiment('generator = "brownian"\nsurface_potential = "0 mV"', "pore-curve", "pores7", "pores8", radius=0.1)
+        found = self.succeed_json("diagnose", "experiment.toml", "-o", "results", "--bootstrap", "299")
+        self.assertEqual(found["verdict"], "no-discrepancy")
+        self.assertEqual({row["observable"] for row in found["rows"]}, {"exclusion_probability"})
+        cache = (self.folder / "results" / "simulations.txt").read_text()
+        for change in ("--surface-potential 0.015 ", "--size-distribution lognormal:0.4 "):
+            self.assertIn(change, cache)
+
+    def test_refusals(self):
+        self.write("pores.csv", "pore_radius [um],exclusion_probability\n" + "".join(f"{0.02 * k},{1 / (1 + k)}\n" for k in range(12)))
+        words = ("diagnose", "experiment.toml", "-o", "results")
+        self.experiment('generator = "brownian"', "pore-curve", "pores")
+        self.fail_with(2, *words, says="structures.surface_potential")
+        self.experiment('generator = "brownian"\nsurface_potential = "60 mV"', "pore-curve", "pores")
+        self.fail_with(2, *words, says=("barrier", "--surface-potential 0.06"))
+        self.copy_of_packing()
+        self.write("files.toml", '[sample]\nparticle_radius = "0.25 um"\n[structures]\nfiles = ["packing.h5"]\n' +
+                   TABLE.format(kind="pore-curve", name="pores"))
+        self.fail_with(2, "diagnose", "files.toml", "-o", "results", says="no cause")
+        self.experiment('generator = "vem"\ntarget_coordination = 7', "pore-curve", "pores")
+        self.fail_with(2, *words, says="target-coordination")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,128 @@
+// Causes that change the structures themselves: particles of several sizes.
+#include "remade_structures.hpp"
+
+#include <gtest/gtest.h>
+
+namespace coagula::diagnose {
+namespace {
+
+using generators::SizeKind;
+
+Settings with_sizes(double deviation) {
+    Settings settings;
+    settings.size_deviation = deviation;
+    return settings;
+}
+
+/// Mean number of neighbours between two distances over the diameter, pair by pair with the nearest image.
+double neighbours_between(const Packing& packing, double low, double high) {
+    const double diameter = 2 * mean_radius(packing);
+    const Eigen::Array3d box = packing.cell.lengths().array();
+    double count = 0;
+    for (Index i = 0; i < packing.size(); ++i) {
+        for (Index j = 0; j < packing.size(); ++j) {
+            Eigen::Array3d branch = (packing.positions.col(j) - packing.positions.col(i)).array();
+            branch -= box * (branch / box).round();
+            const double distance = branch.matrix().norm() / diameter;
+            count += i != j && distance >= low && distance < high ? 1 : 0;
+        }
+    }
+    return count / static_cast<double>(packing.size());
+}
+
+constexpr std::size_t contact_shell = 4;  // 0.95 to 1.05 diameters
+
+TEST(Polydispersity, WidensThePeakOfTheContactsAndKeepsCoordination) {
+    const Packing equal = structure(recipe_particles, 1);
+    const Packing unequal = structure_with_sizes(recipe_particles, 1, SizeKind::lognormal, 0.15);
+    EXPECT_LT(neighbours_between(unequal, 0.95, 1.05), 0.6 * neighbours_between(equal, 0.95, 1.05));
+    EXPECT_GT(neighbours_between(unequal, 0.75, 0.95), neighbours_between(equal, 0.75, 0.95) + 1);
+    const auto coordination = [](const Packing& packing) {
+        return 2.0 * static_cast<double>(find_contacts(packing, 0.01).size()) / static_cast<double>(packing.size());
+    };
+    EXPECT_NEAR(coordination(unequal), coordination(equal), 0.1);
+}
+
+TEST(Polydispersity, NodesAreTheStructuresThemselves) {
+    constexpr double deviation = 0.4;  // the last node
+    double counted = 0;
+    for (const std::uint64_t seed : {1, 2}) {
+        counted +=
+            0.5 * neighbours_between(structure_with_sizes(recipe_particles, seed, SizeKind::lognormal, deviation), 0.95, 1.05);
+    }
+    EXPECT_NEAR(recipe().simulator.neighbours(with_sizes(deviation), contact_shell), counted, 1e-12);
+    EXPECT_EQ(recipe().simulator.neighbours(with_sizes(0), contact_shell),
+              recipe().simulator.neighbours(Settings{}, contact_shell));
+}
+
+/// Between the nodes as close to structures of that deviation as these are to each other.
+TEST(Polydispersity, BetweenTheNodesStructuresAreMet) {
+    for (const double deviation : {0.06, 0.13, 0.28}) {
+        Simulator& exact = recipe().simulator.remade({.size_deviation = deviation});
+        for (std::size_t shell = 2; shell < 10; ++shell) {
+            const double counted = exact.neighbours(Settings{}, shell);
+            const double scatter = std::sqrt(2 * std::max(counted, 1.0) / (2 * recipe_particles));
+            EXPECT_NEAR(recipe().simulator.neighbours(with_sizes(deviation), shell), counted, 2.5 * scatter)
+                << deviation << ", shell " << shell;
+        }
+        // Moduli of two structures of 300 particles scatter by a tenth about their mean.
+        EXPECT_NEAR(recipe().simulator.linear_modulus(with_sizes(deviation)) / exact.linear_modulus(Settings{}), 1, 0.3);
+    }
+}
+
+/// What is in the cache needs no structure: a second diagnosis makes none.
+TEST(Polydispersity, StructuresAreMadeOnceAndOnlyWhenAskedFor) {
+    Recipe first;
+    first.simulator.neighbours(Settings{}, contact_shell);
+    first.simulator.linear_modulus(Settings{});
+    EXPECT_EQ(first.made, 0);
+    first.simulator.neighbours(with_sizes(0.4), contact_shell);
+    first.simulator.linear_modulus(with_sizes(0.4));
+    EXPECT_EQ(first.made, 8);  // two structures at four nodes
+    Recipe second;
+    second.cache = first.cache;
+    EXPECT_EQ(second.simulator.neighbours(with_sizes(0.4), contact_shell),
+              first.simulator.neighbours(with_sizes(0.4), contact_shell));
+    EXPECT_EQ(second.simulator.linear_modulus(with_sizes(0.4)), first.simulator.linear_modulus(with_sizes(0.4)));
+    EXPECT_EQ(second.made, 0);
+    Simulator of_files({structure(200, 1)}, {"file"}, first.cache);
+    EXPECT_THROW(of_files.neighbours(with_sizes(0.1), contact_shell), std::invalid_argument);
+}
+
+/// Sizes that are normal, not lognormal, in structures of another number of particles, are seen through coordinates.
+TEST(Polydispersity, HiddenInCoordinatesIsNamed) {
+    std::vector<Measurement> tables;
+    for (const std::uint64_t seed : {31, 32}) {
+        tables.push_back(seen_by_microscope(structure_with_sizes(700, seed, SizeKind::normal, 0.12), 0, 0, 0, seed));
+    }
+    const Diagnosis found = diagnose_by_recipe(tables);
+    EXPECT_TRUE(found.detected);
+    ASSERT_FALSE(found.causes.empty());
+    EXPECT_EQ(found.causes.front().name, "polydispersity");
+    EXPECT_TRUE(in_set(found, "polydispersity"));
+    EXPECT_GT(found.gain.rmse_ratio, 2);
+    const EstimatedParameter& deviation = found.causes.front().parameters[1];
+    EXPECT_LT(deviation.low, 0.12);
+    EXPECT_GT(deviation.high, 0.11);
+}
+
+/// Equal errors in all directions, no particle missed: sizes and errors of localisation look alike.
+TEST(Polydispersity, TiesWithErrorsOfLocalisation) {
+    const Diagnosis found = diagnose_by_recipe({seen_by_microscope(structure(700, 35), 2.5e-8, 2.5e-8, 0, 35)});
+    EXPECT_EQ(found.verdict, Verdict::tied);
+    EXPECT_TRUE(in_set(found, "polydispersity"));
+    EXPECT_TRUE(in_set(found, "localisation-error"));
+    for (const Failure& failure : found.failures) {
+        EXPECT_TRUE(std::isfinite(failure.departure));
+        EXPECT_EQ(failure.sentence.find("nan"), std::string::npos) << failure.sentence;
+    }
+}
+
+TEST(Polydispersity, EqualSpheresShowNone) {
+    const Diagnosis found = diagnose_by_recipe(
+        {seen_by_microscope(structure(700, 33), 0, 0, 0, 33), seen_by_microscope(structure(700, 34), 0, 0, 0, 34)});
+    EXPECT_FALSE(found.detected);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose

@@ -1,0 +1,21 @@
+// Structures by the recipe of an experiment file: what `coagula generate` makes with the same words.
+#pragma once
+
+#include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
+#include <coagula/diagnose/measurement.hpp>
+#include <coagula/diagnose/structure_source.hpp>
+
+#include <string>
+
+namespace coagula::tools {
+
+/// The call of `coagula generate` that makes a structure of the recipe with a change, without its output.
+std::string generation_call(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
+                            const diagnose::StructureChange& change = {});
+
+/// Makes it. Throws InputError when sample or recipe lack something, or when nothing coagulates.
+Packing generate_structure(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
+                           const diagnose::StructureChange& change, const Progress& progress);
+
+}  // namespace coagula::tools
