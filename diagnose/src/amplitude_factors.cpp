@@ -29,14 +29,14 @@ bool Forward::strain_varies(const Settings& settings) const {
 
 /// G* / G of a sweep upwards that has come to this strain at the rim. Between plates the torque shows
 /// 4 / R^4 times the integral of G*(gamma_R r / R) r^3 (Macosko, Rheology, 1994, sec. 5.5).
-Complex Forward::breaking_response(const Settings& settings, double strain, std::size_t error) const {
+Eigen::VectorXcd Forward::breaking_response(const Settings& settings, double strain) const {
     if (!strain_varies(settings)) {
-        return simulator_.amplitude_response(settings, strain, error);
+        return simulator_.amplitude_response(settings, strain);
     }
     static const std::vector<Ring> rings = plate_rings(3);
-    Complex mean = 0;
-    for (const Ring& ring : rings) {
-        mean += ring.weight * simulator_.amplitude_response(settings, ring.radius * strain, error);
+    Eigen::VectorXcd mean = rings[0].weight * simulator_.amplitude_response(settings, rings[0].radius * strain);
+    for (std::size_t k = 1; k < rings.size(); ++k) {
+        mean += rings[k].weight * simulator_.amplitude_response(settings, rings[k].radius * strain);
     }
     return mean;
 }
@@ -101,18 +101,13 @@ std::map<std::size_t, Complex> Forward::exact_factors(const Settings& settings, 
     return factors;
 }
 
-/// G* / G from breaking bonds for every observation. A bond that broke stays broken: the largest strain so far counts.
-std::vector<Complex> Forward::amplitude_factors(const Settings& given, Run run) const {
-    const Settings settings = with_weakest_bonds(given);
-    std::vector<Complex> factors(observations_.size(), 1.0);
-    if (!std::isfinite(settings.critical_strain)) {
-        return factors;
-    }
+/// The largest strain that the sample of each observation had seen by then, itself included; NaN where there is no strain.
+std::vector<double> Forward::largest_strains() const {
+    std::vector<double> largest(observations_.size(), unset);
     for (std::size_t table = 0; table < experiment_.measurements.size(); ++table) {
-        const std::map<std::size_t, Complex> rows = run.exact ? exact_factors(settings, table) : std::map<std::size_t, Complex>{};
         const std::vector<double> earlier = strains_before(table);
         const double before = earlier.empty() ? 0.0 : *std::max_element(earlier.begin(), earlier.end());
-        double largest = before;
+        double so_far = before;
         std::size_t row_before = 0;
         for (std::size_t k = 0; k < observations_.size(); ++k) {
             const Observation& observation = observations_[k];
@@ -120,18 +115,45 @@ std::vector<Complex> Forward::amplitude_factors(const Settings& given, Run run) 
                 continue;
             }
             if (observation.row <= row_before) {
-                largest = before;  // the other modulus, from the start of the sweep
+                so_far = before;  // the other modulus, from the start of the sweep
             }
             row_before = observation.row;
-            if (const auto found = rows.find(observation.row); found != rows.end()) {
-                factors[k] = found->second;
+            so_far = std::max(so_far, observation.strain);
+            largest[k] = so_far;
+        }
+    }
+    return largest;
+}
+
+/// G* / G from breaking bonds, observations x mean and errors of Simulator::amplitude_response; the mean alone if exact. A bond
+/// that broke stays broken: the largest strain so far counts.
+Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) const {
+    const Settings settings = with_weakest_bonds(given);
+    const bool breaks = std::isfinite(settings.critical_strain);
+    const Index columns = breaks && !exact ? simulator_.amplitude_response(settings, 0).size() : 1;
+    Eigen::MatrixXcd factors = Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), columns);
+    std::map<std::size_t, std::map<std::size_t, Complex>> runs;  // by table and row
+    for (std::size_t k = 0; breaks && k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        const auto i = static_cast<Index>(k);
+        if (!std::isfinite(observation.strain)) {
+            continue;
+        }
+        if (exact) {
+            const auto [run, added] = runs.try_emplace(observation.measurement);
+            if (added) {
+                run->second = exact_factors(settings, observation.measurement);
+            }
+            if (const auto found = run->second.find(observation.row); found != run->second.end()) {
+                factors(i, 0) = found->second;
                 continue;
             }
-            const bool falls = observation.strain < largest;
-            largest = std::max(largest, observation.strain);
-            const Complex response = breaking_response(settings, largest, run.error);
+        }
+        const Eigen::VectorXcd response = breaking_response(settings, largest_strains_[k]);
+        factors.row(i) = response.head(columns).transpose();
+        if (observation.strain < largest_strains_[k]) {
             // Nothing breaks on the way down, and what runs lose there falls towards zero with their rate (bench_friction).
-            factors[k] = falls ? Complex(response.real()) : response;
+            factors.row(i) = factors.row(i).real().cast<Complex>().eval();
         }
     }
     return factors;

@@ -40,17 +40,6 @@ ContactModel breaking_model(double ratio, double strength) {
     return model;
 }
 
-/// Mean of curves, entry by entry.
-std::vector<Complex> mean_of(const std::vector<std::vector<Complex>>& curves) {
-    std::vector<Complex> mean(curves.front().size());
-    for (const std::vector<Complex>& curve : curves) {
-        for (std::size_t k = 0; k < curve.size(); ++k) {
-            mean[k] += curve[k] / static_cast<double>(curves.size());
-        }
-    }
-    return mean;
-}
-
 /// Smooth shapes of unit mean square over the loads, a column each: a constant and half waves.
 Eigen::MatrixXd smooth_shapes(Index loads) {
     Eigen::MatrixXd shapes(loads, shape_orders);
@@ -90,25 +79,18 @@ Eigen::MatrixXd errors_of_mean(const Eigen::MatrixXd& differences) {
 }
 
 /// The mean of the curves of several structures and, after it, that mean moved by each of its standard errors, of G' and of G''.
-std::vector<std::vector<Complex>> mean_and_errors(const std::vector<std::vector<Complex>>& curves) {
-    std::vector<std::vector<Complex>> all{mean_of(curves)};
-    const std::vector<Complex> mean = all.front();
-    for (const Complex direction : {Complex(1, 0), Complex(0, 1)}) {
-        Eigen::MatrixXd differences(static_cast<Index>(mean.size()), static_cast<Index>(curves.size()));
-        for (Index curve = 0; curve < differences.cols(); ++curve) {
-            for (Index load = 0; load < differences.rows(); ++load) {
-                const auto k = static_cast<std::size_t>(load);
-                differences(load, curve) = std::real((curves[static_cast<std::size_t>(curve)][k] - mean[k]) * std::conj(direction));
-            }
-        }
-        const Eigen::MatrixXd errors = curves.size() > 1 ? errors_of_mean(differences) : Eigen::MatrixXd(differences.rows(), 0);
-        for (Index error = 0; error < errors.cols(); ++error) {
-            all.push_back(mean);
-            for (std::size_t k = 0; k < mean.size(); ++k) {
-                all.back()[k] += errors(static_cast<Index>(k), error) * direction;
-            }
-        }
+/// @param curves loads x structures. @return the same loads x mean and errors.
+Eigen::MatrixXcd mean_and_errors(const Eigen::MatrixXcd& curves) {
+    const Eigen::VectorXcd mean = curves.rowwise().mean();
+    if (curves.cols() < 2) {
+        return mean;
     }
+    const Eigen::MatrixXcd differences = curves.colwise() - mean;
+    const Eigen::MatrixXd storage = errors_of_mean(differences.real());
+    const Eigen::MatrixXd loss = errors_of_mean(differences.imag());
+    Eigen::MatrixXcd all(mean.size(), 1 + storage.cols() + loss.cols());
+    all << mean, storage.cast<Complex>(), Complex(0, 1) * loss.cast<Complex>();
+    all.rightCols(all.cols() - 1).colwise() += mean;
     return all;
 }
 
@@ -179,8 +161,8 @@ std::vector<Complex> Simulator::exact_amplitude_response(const Settings& setting
     return mean;
 }
 
-const std::vector<std::vector<Complex>>& Simulator::strength_curves() {
-    if (!strength_curves_.empty()) {
+const Eigen::MatrixXcd& Simulator::strength_curves() {
+    if (strength_curves_.size() > 0) {
         return strength_curves_;
     }
     Settings settings;
@@ -189,29 +171,25 @@ const std::vector<std::vector<Complex>>& Simulator::strength_curves() {
     for (int k = 1; k <= load_nodes; ++k) {
         amplitudes.push_back(k * load_step * settings.critical_strain);
     }
-    std::vector<std::vector<Complex>> curves;
+    Eigen::MatrixXcd curves(load_nodes, static_cast<Index>(structures_.size()));
     for (std::size_t k = 0; k < structures_.size(); ++k) {
-        curves.push_back(structure_response(k, settings, amplitudes));
+        const std::vector<Complex> one = structure_response(k, settings, amplitudes);
+        curves.col(static_cast<Index>(k)) = Eigen::Map<const Eigen::VectorXcd>(one.data(), load_nodes);
     }
-    strength_curves_ = mean_and_errors(curves);
-    for (std::vector<Complex>& curve : strength_curves_) {
-        curve.insert(curve.begin(), 1);  // at rest
-    }
+    const Eigen::MatrixXcd all = mean_and_errors(curves);
+    strength_curves_.setOnes(all.cols(), load_nodes + 1);  // at rest
+    strength_curves_.rightCols(load_nodes) = all.transpose();
     return strength_curves_;
 }
 
-std::size_t Simulator::strength_errors() {
-    return strength_curves().size() - 1;
-}
-
-Complex Simulator::amplitude_response(const Settings& settings, double amplitude, std::size_t error) {
+Eigen::VectorXcd Simulator::amplitude_response(const Settings& settings, double amplitude) {
     if (!std::isfinite(settings.critical_strain)) {
-        return 1;
+        return Eigen::VectorXcd::Ones(1);
     }
-    const std::vector<Complex>& curve = strength_curves()[error];
+    const Eigen::MatrixXcd& curves = strength_curves();
     const double place = std::min(amplitude / settings.critical_strain / load_step, static_cast<double>(load_nodes));
-    const auto below = std::min(static_cast<std::size_t>(place), curve.size() - 2);
-    return curve[below] + (place - static_cast<double>(below)) * (curve[below + 1] - curve[below]);
+    const auto below = std::min<Index>(static_cast<Index>(place), load_nodes - 1);
+    return curves.col(below) + (place - static_cast<double>(below)) * (curves.col(below + 1) - curves.col(below));
 }
 
 }  // namespace coagula::diagnose

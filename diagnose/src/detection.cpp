@@ -83,19 +83,18 @@ std::vector<Settings> over_prior(const Settings& from, const Mechanism& mechanis
     return all;
 }
 
-/// A step towards every mechanism that the fit does not have.
-void add_causes(const Inference& inference, const Fit& fit, Index rows, const Eigen::MatrixXd& basis,
+/// A step towards every one of these mechanisms that the fit does not have.
+void add_causes(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows, const Eigen::MatrixXd& basis,
                 std::vector<MisfitStatistic>& all) {
     const Likelihood& likelihood = inference.likelihood();
     const Eigen::VectorXd here = likelihood.whiten(inference.forward().predict(fit.settings));
-    for (const Mechanism& mechanism : catalogue()) {
-        const bool has = std::find(fit.hypothesis.begin(), fit.hypothesis.end(), &mechanism) != fit.hypothesis.end();
-        if (has || !mechanism.applies(inference.forward().experiment())) {
+    for (const Mechanism* mechanism : causes) {
+        if (std::find(fit.hypothesis.begin(), fit.hypothesis.end(), mechanism) != fit.hypothesis.end()) {
             continue;
         }
-        MisfitStatistic one{.observable = "all", .cause = mechanism.name};
+        MisfitStatistic one{.observable = "all", .cause = mechanism->name};
         std::vector<Eigen::VectorXd> directions;
-        for (const Settings& settings : over_prior(fit.settings, mechanism)) {
+        for (const Settings& settings : over_prior(fit.settings, *mechanism)) {
             Eigen::VectorXd step = Eigen::VectorXd::Zero(rows);
             step.head(here.size()) = likelihood.whiten(inference.forward().predict(settings)) - here;
             const double length = step.norm();
@@ -116,7 +115,8 @@ void add_causes(const Inference& inference, const Fit& fit, Index rows, const Ei
 }
 
 /// All ways to fail. @param basis orthonormal, of what the fitted quantities move.
-std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit& fit, Index rows, const Eigen::MatrixXd& basis) {
+std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows,
+                                           const Eigen::MatrixXd& basis) {
     const DataSet& data = inference.likelihood().data();
     const auto between = [](Index from, Index to) {
         std::vector<Index> range(static_cast<std::size_t>(to - from));
@@ -132,7 +132,7 @@ std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit
         all.push_back({.observable = "normal_stiffness", .rows = {rows - 1}});
     }
     add_smooth(data.observations, all);
-    add_causes(inference, fit, rows, basis, all);
+    add_causes(inference, fit, causes, rows, basis, all);
     return all;
 }
 
@@ -206,7 +206,7 @@ double coordinate_of(const Observation& observation, Coordinate coordinate) {
     }
 }
 
-Detection detect(const Inference& inference, const Fit& fit, std::uint64_t seed, int bootstrap) {
+Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap) {
     const DataSet& data = inference.likelihood().data();
     const Departures departures = departures_of(inference, fit);
     const Index rows = departures.residual.size();
@@ -214,7 +214,7 @@ Detection detect(const Inference& inference, const Fit& fit, std::uint64_t seed,
     const Eigen::MatrixXd basis = decomposition.householderQ() * Eigen::MatrixXd::Identity(rows, decomposition.rank());
 
     Detection result;
-    result.statistics = statistics_of(inference, fit, rows, basis);
+    result.statistics = statistics_of(inference, fit, causes, rows, basis);
     const auto kinds = static_cast<Index>(result.statistics.size());
     Eigen::MatrixXd values(kinds, bootstrap + 1);  // the data themselves come last
     for (int sample = 0; sample <= bootstrap; ++sample) {

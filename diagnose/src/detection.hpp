@@ -52,7 +52,7 @@ struct Detection {
 
 /// The statistics of the residuals, standardised, and the p-value of the largest: the part of data sets drawn from the fitted model
 /// and fitted again (linearised at the fit) whose largest one is as large.
-/// @param inference, fit the model and where it was fitted.
-Detection detect(const Inference& inference, const Fit& fit, std::uint64_t seed, int bootstrap = 999);
+/// @param inference, fit the model and where it was fitted. @param causes towards which steps are looked for.
+Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap);
 
 }  // namespace coagula::diagnose

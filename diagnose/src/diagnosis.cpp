@@ -97,7 +97,7 @@ Comparison compare(const Fit& base, const std::vector<const Mechanism*>& possibl
         fits.push_back(inference.fit({mechanism}));
     }
     const std::size_t best = most_probable_cause(fits, priors);
-    const Detection rest = detect(inference, fits[best], options.seed, options.bootstrap);
+    const Detection rest = detect(inference, fits[best], possible, options.seed, options.bootstrap);
     std::size_t pairs = 0;
     for (const MisfitStatistic& statistic : rest.statistics) {
         const auto partner =
@@ -111,7 +111,7 @@ Comparison compare(const Fit& base, const std::vector<const Mechanism*>& possibl
     comparison.winner = most_probable_cause(fits, priors);
     comparison.p_value = comparison.winner == best
                              ? rest.p_value
-                             : detect(inference, fits[comparison.winner], options.seed, options.bootstrap).p_value;
+                             : detect(inference, fits[comparison.winner], possible, options.seed, options.bootstrap).p_value;
     return comparison;
 }
 
@@ -260,7 +260,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     progress.update("fitting the base model", 0.1);
     const Fit base = inference.fit({});
     diagnosis.base = cause_of(base);
-    const Detection detection = detect(inference, base, options.seed, options.bootstrap);
+    const Detection detection = detect(inference, base, possible, options.seed, options.bootstrap);
     diagnosis.p_value = detection.p_value;
     diagnosis.detected = diagnosis.p_value <= options.level;
     keep_statistics(detection, diagnosis);

@@ -209,7 +209,7 @@ Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, cons
 }
 
 Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
-    : experiment_(experiment), observations_(observations), simulator_(simulator) {
+    : experiment_(experiment), observations_(observations), simulator_(simulator), largest_strains_(largest_strains()) {
     for (const Observation& observation : observations_) {
         const Measurement& table = experiment_.measurements[observation.measurement];
         if (table.kind != MeasurementKind::structure_series) {
@@ -262,65 +262,66 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
 }
 
 /// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional.
-std::vector<Complex> Forward::material(const Settings& settings, Run run) const {
-    std::map<std::size_t, double> linear = linear_moduli(settings, run.exact);
-    std::vector<Complex> moduli = amplitude_factors(settings, run);
+/// The mean over the structures, then with each error in how they yield.
+Eigen::MatrixXcd Forward::material(const Settings& settings, bool exact) const {
+    std::map<std::size_t, double> linear = linear_moduli(settings, exact);
+    Eigen::VectorXcd moduli(static_cast<Index>(observations_.size()));
     const bool settled = settings.volume_fraction_difference > 0;
-    const double exponent = settled ? simulator_.volume_fraction_exponent(settings, run.exact) : 0.0;
+    const double exponent = settled ? simulator_.volume_fraction_exponent(settings, exact) : 0.0;
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
-        moduli[k] *= linear[observation.structures];
+        Complex modulus = linear[observation.structures];
         if (std::isfinite(observation.strain)) {
-            moduli[k] *= simulator_.contact_response(settings, observation.strain);
+            modulus *= simulator_.contact_response(settings, observation.strain);
         }
         if (settings.springpot_ratio > 0 && std::isfinite(observation.angular_frequency)) {
             // A springpot in the same proportion to both springs scales the whole stiffness matrix.
-            moduli[k] *= 1.0 + springpot(settings, observation.angular_frequency);
+            modulus *= 1.0 + springpot(settings, observation.angular_frequency);
         }
         if (settings.felt_viscosity > 0 && std::isfinite(observation.angular_frequency)) {
-            moduli[k] *= run.exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
-                                   : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
+            modulus *= exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
+                             : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
         }
         if (settled && std::isfinite(observation.gap)) {
-            moduli[k] *= gradient_factor(settings, observation, exponent);
+            modulus *= gradient_factor(settings, observation, exponent);
         }
         if (std::isfinite(observation.time)) {
-            moduli[k] *= std::pow(1 + observation.time / settings.build_up_time, settings.build_up_exponent);
-            moduli[k] *= 1 + settings.ageing_per_decade * std::log10(1 + observation.time / settings.ageing_start);
+            modulus *= std::pow(1 + observation.time / settings.build_up_time, settings.build_up_exponent);
+            modulus *= 1 + settings.ageing_per_decade * std::log10(1 + observation.time / settings.ageing_start);
         }
+        moduli[static_cast<Index>(k)] = modulus;
     }
-    return moduli;
+    return moduli.asDiagonal() * amplitude_factors(settings, exact);
 }
 
-const std::vector<Complex>& Forward::remembered_material(const Settings& settings, Run run) const {
-    if (run.exact || !(settings == last_settings_)) {
-        last_materials_.clear();
-        last_settings_ = run.exact ? Settings{.normal_stiffness = unset} : settings;  // what is exact serves once
+const Eigen::MatrixXcd& Forward::remembered_material(const Settings& settings, bool exact) const {
+    if (exact || last_material_.rows() == 0 || !(settings == last_settings_)) {
+        last_material_ = material(settings, exact);
+        last_settings_ = exact ? Settings{.normal_stiffness = unset} : settings;  // what is exact serves once
     }
-    const auto found = last_materials_.find(run.error);
-    return found != last_materials_.end() ? found->second : last_materials_[run.error] = material(settings, run);
+    return last_material_;
 }
 
-/// What the instrument shows of every observation.
-Eigen::VectorXd Forward::seen(const Settings& settings, Run run) const {
-    const std::vector<Complex>& moduli = remembered_material(of_material(settings), run);
+/// What the instrument shows of every observation, of these moduli of the material at a normal stiffness of 1 N/m.
+Eigen::VectorXd Forward::seen(const Settings& settings, const Eigen::VectorXcd& moduli, bool exact) const {
     Eigen::VectorXd predicted(static_cast<Index>(observations_.size()));
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
+        const auto i = static_cast<Index>(k);
         if (std::isfinite(observation.distance)) {
-            predicted[static_cast<Index>(k)] = simulator_.neighbours(settings, observation.row, run.exact);
+            predicted[i] = simulator_.neighbours(settings, observation.row, exact);
             continue;
         }
         if (is_pore(observation)) {
-            predicted[static_cast<Index>(k)] = simulator_.exclusion_probability(
+            predicted[i] = simulator_.exclusion_probability(
                 settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius);
             continue;
         }
         const Complex material = std::isfinite(observation.fluid_viscosity)
                                      ? Complex(0, observation.fluid_viscosity * observation.angular_frequency)
-                                     : settings.normal_stiffness * moduli[k];
+                                     : settings.normal_stiffness * moduli[i];
         const Complex modulus = seen_by_instrument(settings, observation, material);
-        predicted[static_cast<Index>(k)] = observation.loss ? modulus.imag() : modulus.real();
+        predicted[i] = observation.loss ? modulus.imag() : modulus.real();
     }
     return predicted;
 }
@@ -329,16 +330,15 @@ Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
     if (exact && change_of(settings) != StructureChange{}) {
         return Forward(experiment_, observations_, simulator_.remade(change_of(settings))).predict(as_stated(settings), true);
     }
-    return seen(settings, {.exact = exact});
+    return seen(settings, remembered_material(of_material(settings), exact).col(0), exact);
 }
 
 Eigen::MatrixXd Forward::yield_errors(const Settings& settings) const {
-    const bool breaks = std::isfinite(std::min(settings.critical_strain, settings.rim_critical_strain));
-    const std::size_t errors = breaks ? simulator_.strength_errors() : 0;
-    Eigen::MatrixXd changes(static_cast<Index>(observations_.size()), static_cast<Index>(errors));
-    const Eigen::VectorXd mean = errors > 0 ? seen(settings, {}) : Eigen::VectorXd();
-    for (std::size_t error = 1; error <= errors; ++error) {
-        changes.col(static_cast<Index>(error) - 1) = seen(settings, {.error = error}) - mean;
+    const Eigen::MatrixXcd& moduli = remembered_material(of_material(settings), false);
+    Eigen::MatrixXd changes(moduli.rows(), moduli.cols() - 1);
+    const Eigen::VectorXd mean = changes.cols() > 0 ? seen(settings, moduli.col(0), false) : Eigen::VectorXd();
+    for (Index error = 0; error < changes.cols(); ++error) {
+        changes.col(error) = seen(settings, moduli.col(error + 1), false) - mean;
     }
     return changes;
 }

@@ -84,33 +84,29 @@ public:
     double level_error() const { return simulator_.structure_error(); }
 
 private:
-    /// How the simulator is asked.
-    struct Run {
-        bool exact = false;     ///< at the settings themselves instead of between the nodes of its grids
-        std::size_t error = 0;  ///< of amplitude_response
-    };
-
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
                                             std::complex<double> modulus) const;
     double gradient_factor(const Settings& settings, const Observation& observation, double exponent) const;
     bool strain_varies(const Settings& settings) const;
-    std::complex<double> breaking_response(const Settings& settings, double strain, std::size_t error) const;
+    Eigen::VectorXcd breaking_response(const Settings& settings, double strain) const;
     std::vector<std::complex<double>> exact_breaking_response(const Settings& settings,
                                                               const std::vector<double>& amplitudes) const;
     std::vector<double> strains_before(std::size_t table) const;
     std::map<std::size_t, std::complex<double>> exact_factors(const Settings& settings, std::size_t table) const;
-    std::vector<std::complex<double>> amplitude_factors(const Settings& settings, Run run) const;
+    std::vector<double> largest_strains() const;
+    Eigen::MatrixXcd amplitude_factors(const Settings& settings, bool exact) const;
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
-    std::vector<std::complex<double>> material(const Settings& settings, Run run) const;
-    const std::vector<std::complex<double>>& remembered_material(const Settings& settings, Run run) const;
-    Eigen::VectorXd seen(const Settings& settings, Run run) const;
+    Eigen::MatrixXcd material(const Settings& settings, bool exact) const;
+    const Eigen::MatrixXcd& remembered_material(const Settings& settings, bool exact) const;
+    Eigen::VectorXd seen(const Settings& settings, const Eigen::VectorXcd& moduli, bool exact) const;
 
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
-    // The material of the last call, and with each error: fits vary stiffness and instrument more often than anything else.
+    std::vector<double> largest_strains_;
+    // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
-    mutable std::map<std::size_t, std::vector<std::complex<double>>> last_materials_;
+    mutable Eigen::MatrixXcd last_material_;
 };
 
 }  // namespace coagula::diagnose

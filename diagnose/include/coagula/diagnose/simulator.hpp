@@ -6,6 +6,8 @@
 #include <coagula/diagnose/settings.hpp>
 #include <coagula/diagnose/structure_source.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <complex>
 #include <cstddef>
@@ -61,10 +63,9 @@ public:
     double volume_fraction_exponent(const Settings& settings, bool exact = false);
 
     /// G* / G at amplitude gamma_0 of a sweep that goes up in amplitude, for finite bond strength, by the explicit rheometer.
-    /// @param error 0: the mean over the structures; else, up to strength_errors(), that mean moved by one of the independent
-    /// standard errors that so few structures leave.
-    std::complex<double> amplitude_response(const Settings& settings, double amplitude, std::size_t error = 0);
-    std::size_t strength_errors();
+    /// The mean over the structures comes first, then that mean moved by each of the independent standard errors that so few
+    /// structures leave; these are missing where there is one structure or nothing breaks.
+    Eigen::VectorXcd amplitude_response(const Settings& settings, double amplitude);
     /// The same for all amplitudes of one sweep in their order.
     std::vector<std::complex<double>> exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes);
 
@@ -106,7 +107,7 @@ private:
                                             const std::vector<double>& amplitudes);
     std::vector<std::complex<double>> structure_response(std::size_t structure, const Settings& settings,
                                                          const std::vector<double>& amplitudes);
-    const std::vector<std::vector<std::complex<double>>>& strength_curves();
+    const Eigen::MatrixXcd& strength_curves();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
     double prestressed_modulus(std::size_t structure, const Settings& settings);
@@ -131,9 +132,9 @@ private:
     OtherStages stages_;
     std::map<StructureChange, std::unique_ptr<Simulator>> remade_;
     std::map<std::size_t, PoreCurve> pore_curves_;
-    std::vector<double> shells_about_places_;                         ///< once it has been asked for
-    std::vector<double> secant_curve_;                                ///< likewise
-    std::vector<std::vector<std::complex<double>>> strength_curves_;  ///< likewise, the mean and its errors
+    std::vector<double> shells_about_places_;  ///< once it has been asked for
+    std::vector<double> secant_curve_;         ///< likewise
+    Eigen::MatrixXcd strength_curves_;         ///< likewise: the mean and its errors x loads
 };
 
 }  // namespace coagula::diagnose
