@@ -102,7 +102,9 @@ def print_table(path):
     of = lambda *rows: [entry for entry in entries if entry["row"] in rows]
     table = Table()
     for row in NULLS:
-        table.add(row, "detected", [entry["found"]["detected"] for entry in of(row)], 0.03, 0.07)
+        # The structures of a series are drawn once for all runs, so that their part of the errors is no draw.
+        least = 0.0 if row == "null-series" else 0.03
+        table.add(row, "detected", [entry["found"]["detected"] for entry in of(row)], least, 0.07)
     table.add("all of these", "a gain whose interval excludes 0", [has_gain(entry) for entry in of(*NULLS)], 0.0, 0.05)
     singles = of("single", "contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")
     strong = [entry for entry in singles if is_strong(entry)]
