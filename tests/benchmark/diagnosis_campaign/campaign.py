@@ -23,8 +23,7 @@ from session import follow_up, placed
 from table import in_set, print_table
 
 
-DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "null-series", "single", "structure-series", "pair", "tie",
-                "tie-level", "tie-stiffening", "outside"]
+DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "single", "pair", "tie", "outside"]
 BREAKING_ROWS = {"bond-strength", "tie-yield"}
 
 
