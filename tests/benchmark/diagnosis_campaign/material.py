@@ -17,6 +17,7 @@ CONTACT = STIFFNESS / 2
 RADIUS = 0.25e-6
 COORDINATIONS = (5.4, 5.0, 4.7, 4.4, 4.15)  # of a structure series
 SERIES_STRUCTURES = 4                       # behind each row of it
+SERIES_KNOWN = 2                            # of the diagnosis behind each row
 CONTACTS = {"bond-bending": (0.003, 0.03), "shear-stiffness": (0.3, 0.8), "bond-range": (0.025, 0.045)}
 OSCILLATION = ["--steps-per-oscillation", "6000", "--damping", "0.7"]
 
@@ -54,7 +55,7 @@ class Material:
         for number in range(known):
             self.known_structure(number)
         for coordination in COORDINATIONS:
-            for number in range(2):
+            for number in range(SERIES_KNOWN):
                 self.known_structure(number, coordination)
 
     def known_structure(self, number, coordination=None):

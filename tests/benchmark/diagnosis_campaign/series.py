@@ -4,11 +4,10 @@ from dataclasses import dataclass
 
 import numpy
 
-from material import COORDINATIONS, SERIES_STRUCTURES, STIFFNESS
+from material import COORDINATIONS, SERIES_KNOWN, SERIES_STRUCTURES, STIFFNESS
 from session import Hidden
 
 ERROR = 0.03  # of a measured modulus, relative
-KNOWN = 2     # structures of the diagnosis behind each row
 
 
 @dataclass
@@ -32,8 +31,8 @@ class Series:
         rows = ["coordination [1],storage_modulus [Pa],error [Pa]"]
         rows += [f"{c:.9g},{m:.9g},{e:.9g}" for c, m, e in zip(COORDINATIONS, measured, errors)]
         (folder / "series.csv").write_text("\n".join(rows) + "\n")
-        files = [str(material.known_structure(number, coordination)) for coordination in COORDINATIONS for number in range(KNOWN)]
-        groups = [row + 1 for row in range(len(COORDINATIONS)) for _ in range(KNOWN)]
+        files = [str(material.known_structure(number, coordination)) for coordination in COORDINATIONS for number in range(SERIES_KNOWN)]
+        groups = [row + 1 for row in range(len(COORDINATIONS)) for _ in range(SERIES_KNOWN)]
         path = folder / "experiment.toml"
         path.write_text(f"""[sample]
 particle_radius = "0.25 um"

@@ -68,10 +68,53 @@ class Session:
 
     def write(self, material, folder, generator):
         """The experiment file and its tables."""
-        return write(self, material, folder, generator)
+        folder.mkdir(parents=True, exist_ok=True)
+        structures = [material.known_structure(number) for number in range(self.known_structures)]
+        offsets = {}
+        lines = ["[sample]", 'particle_radius = "0.25 um"', "volume_fraction = 0.4", "", "[instrument]", 'geometry = "plate-plate"',
+                 f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
+        if self.known_stiffness:
+            lines[3:3] = [f"normal_stiffness = {self.stiffness}", "normal_stiffness_error = 0.05"]
+        for number, table in enumerate(self.tables):
+            clean = reading(material, self, table)
+            self.moduli.append(clean)
+            spread = 0.0 if numpy.isfinite(table.viscosity) else self.noise.sample
+            offset = offsets.setdefault(table.sample, 1 + spread * generator.standard_normal())
+            size = offset * (1 + self.noise.torque * errors(generator, self.noise, len(clean)))
+            measured = clean * size * numpy.exp(1j * self.noise.phase * errors(generator, self.noise, len(clean)))
+            columns = {"strain [1]": table.strain, "frequency [Hz]": table.frequency, "time [s]": table.time, "gap [m]": table.gap,
+                       "storage_modulus [Pa]": measured.real, "loss_modulus [Pa]": measured.imag}
+            if self.storage_only:
+                del columns["loss_modulus [Pa]"]
+            rows = [",".join(columns)] + [",".join(f"{value:.9g}" for value in row) for row in zip(*columns.values())]
+            (folder / f"table{number}.csv").write_text("\n".join(rows) + "\n")
+            lines += ["[[measurement]]", f'kind = "{table.kind}"', f'file = "table{number}.csv"', f'sample = "{table.sample}"',
+                      f"run_order = {table.order}", f"values = {{ plate_radius = {table.plate} }}"]
+            lines += ["rough_plates = true"] * table.rough + [f"fluid_viscosity = {table.viscosity:.9g}"] * bool(numpy.isfinite(table.viscosity)) + [""]
+        path = folder / "experiment.toml"
+        path.write_text("\n".join(lines))
+        return path
 
     def gain(self, material):
-        return gain(self, material)
+        """By how much chi-square falls when the true model takes the place of the base model, stiffness and sample effects fitted in both."""
+        base = replace(self, hidden=Hidden())
+        names = sorted({table.sample for table in self.tables})
+        difference, directions = [], []
+        for table in self.tables:
+            on, off = reading(material, self, table), reading(material, base, table)
+            scatter = (self.noise.torque * abs(on), numpy.hypot(self.noise.phase * abs(on), self.noise.torque * abs(on.imag)))
+            for part, deviation in ((numpy.real, scatter[0]), (numpy.imag, scatter[1]))[:1 if self.storage_only else 2]:
+                difference.append(part(on - off) / deviation)
+                own = numpy.outer(part(off) / deviation, [1.0] + [float(name == table.sample) for name in names])
+                directions.append(own)
+        difference, directions = numpy.concatenate(difference), numpy.vstack(directions)
+        prior = numpy.hstack([numpy.zeros((len(names), 1)), numpy.eye(len(names)) / self.noise.sample])
+        if self.known_stiffness:
+            prior = numpy.vstack([prior, numpy.eye(1, len(names) + 1) / 0.05])
+        directions = numpy.vstack([directions, prior])
+        difference = numpy.concatenate([difference, numpy.zeros(len(prior))])
+        fit = numpy.linalg.lstsq(directions, difference, rcond=None)[0]
+        return float(numpy.sum((difference - directions @ fit)**2))
 
 
 def sweep(kind, sample, order, strain, frequency, step, gap=GAP, plate=PLATE):
@@ -196,54 +239,3 @@ def errors(generator, noise, count):
     for row in range(1, count):
         drawn[row] = noise.correlation * drawn[row - 1] + numpy.sqrt(1 - noise.correlation**2) * drawn[row]
     return drawn
-
-
-def write(session, material, folder, generator):
-    folder.mkdir(parents=True, exist_ok=True)
-    structures = [material.known_structure(number) for number in range(session.known_structures)]
-    offsets = {}
-    lines = ["[sample]", 'particle_radius = "0.25 um"', "volume_fraction = 0.4", "", "[instrument]", 'geometry = "plate-plate"',
-             f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
-    if session.known_stiffness:
-        lines[3:3] = [f"normal_stiffness = {session.stiffness}", "normal_stiffness_error = 0.05"]
-    for number, table in enumerate(session.tables):
-        clean = reading(material, session, table)
-        session.moduli.append(clean)
-        spread = 0.0 if numpy.isfinite(table.viscosity) else session.noise.sample
-        offset = offsets.setdefault(table.sample, 1 + spread * generator.standard_normal())
-        size = offset * (1 + session.noise.torque * errors(generator, session.noise, len(clean)))
-        measured = clean * size * numpy.exp(1j * session.noise.phase * errors(generator, session.noise, len(clean)))
-        columns = {"strain [1]": table.strain, "frequency [Hz]": table.frequency, "time [s]": table.time, "gap [m]": table.gap,
-                   "storage_modulus [Pa]": measured.real, "loss_modulus [Pa]": measured.imag}
-        if session.storage_only:
-            del columns["loss_modulus [Pa]"]
-        rows = [",".join(columns)] + [",".join(f"{value:.9g}" for value in row) for row in zip(*columns.values())]
-        (folder / f"table{number}.csv").write_text("\n".join(rows) + "\n")
-        lines += ["[[measurement]]", f'kind = "{table.kind}"', f'file = "table{number}.csv"', f'sample = "{table.sample}"',
-                  f"run_order = {table.order}", f"values = {{ plate_radius = {table.plate} }}"]
-        lines += ["rough_plates = true"] * table.rough + [f"fluid_viscosity = {table.viscosity:.9g}"] * bool(numpy.isfinite(table.viscosity)) + [""]
-    path = folder / "experiment.toml"
-    path.write_text("\n".join(lines))
-    return path
-
-
-def gain(session, material):
-    """By how much chi-square falls when the true model takes the place of the base model, stiffness and sample effects fitted in both."""
-    base = replace(session, hidden=Hidden())
-    names = sorted({table.sample for table in session.tables})
-    difference, directions = [], []
-    for table in session.tables:
-        on, off = reading(material, session, table), reading(material, base, table)
-        scatter = (session.noise.torque * abs(on), numpy.hypot(session.noise.phase * abs(on), session.noise.torque * abs(on.imag)))
-        for part, deviation in ((numpy.real, scatter[0]), (numpy.imag, scatter[1]))[:1 if session.storage_only else 2]:
-            difference.append(part(on - off) / deviation)
-            own = numpy.outer(part(off) / deviation, [1.0] + [float(name == table.sample) for name in names])
-            directions.append(own)
-    difference, directions = numpy.concatenate(difference), numpy.vstack(directions)
-    prior = numpy.hstack([numpy.zeros((len(names), 1)), numpy.eye(len(names)) / session.noise.sample])
-    if session.known_stiffness:
-        prior = numpy.vstack([prior, numpy.eye(1, len(names) + 1) / 0.05])
-    directions = numpy.vstack([directions, prior])
-    difference = numpy.concatenate([difference, numpy.zeros(len(prior))])
-    fit = numpy.linalg.lstsq(directions, difference, rcond=None)[0]
-    return float(numpy.sum((difference - directions @ fit)**2))

@@ -120,6 +120,7 @@ def print_table(path):
     table.add("structure series", "named first", [named_first(entry) for entry in series], 0.90)
     table.add("structure series", "true cause in the 95 % set",
               [in_set(entry["truth"], entry["found"]["credible_set"]) for entry in series if entry["found"]["detected"]], 0.93)
+    table.add("structure series", "confidently wrong", [confidently_wrong(entry) for entry in of("structure-series")], 0.0, 0.02)
     every = of("pair", *TIES, *NULLS, "structure-series") + singles
     table.add("all that is in the catalogue, and nothing", "confidently wrong", [confidently_wrong(entry) for entry in {id(e): e for e in every}.values()], 0.0, 0.02)
     for row, name in TIES.items():

@@ -236,5 +236,43 @@ TEST(StructureError, OfYieldIsNotKnownOfOneStructure) {
     EXPECT_EQ(Simulator({structure(64, 1)}, {"one"}, cache).amplitude_response(settings, 2e-4).size(), 1);
 }
 
+/// A level of the modulus within what so few structures leave open is no discrepancy where the stiffness is known, one far beyond
+/// is.
+TEST(StructureError, OfTheLevelCountsWhereTheStiffnessIsKnown) {
+    std::vector<Packing> structures;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        structures.push_back(structure(100, seed));
+    }
+    SimulationCache cache;
+    Simulator simulator(structures, {"1", "2", "3", "4"}, cache);
+    Settings truth;
+    truth.normal_stiffness = 40;
+    const auto is_found = [&](double departure) {
+        const double modulus = simulator.exact_linear_modulus(truth) * std::exp(departure * simulator.structure_error());
+        Measurement table;
+        table.label = "sweep";
+        table.sample = "sample";
+        Column storage{"storage_modulus", "Pa", {}};
+        for (std::uint64_t row = 0; row < 8; ++row) {
+            storage.values.push_back(modulus * (1 + 0.01 * drawn_normal(5, row)));
+        }
+        storage.standard_errors.assign(8, 0.01 * modulus);
+        table.columns = {{"angular_frequency", "rad/s", logarithmic_steps(1, 100, 8)}, storage};
+        Experiment experiment;
+        experiment.sample.normal_stiffness = truth.normal_stiffness;
+        experiment.sample.normal_stiffness_error = 0.01;
+        experiment.measurements = {table};
+        DiagnosisOptions options;
+        options.bootstrap = 199;
+        options.causes = {"shear-stiffness"};
+        options.noise.sample = 0.01;
+        return diagnose(experiment, simulator, options).detected;
+    };
+    ASSERT_GT(simulator.structure_error(), 0.05) << "the known stiffness itself is hardly better known";
+    EXPECT_FALSE(is_found(-1));
+    EXPECT_FALSE(is_found(1));
+    EXPECT_TRUE(is_found(6));
+}
+
 }  // namespace
 }  // namespace coagula::diagnose
