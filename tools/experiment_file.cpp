@@ -327,12 +327,14 @@ struct TableSetting {
     int run_order;
     bool rough_plates;
     double fluid_viscosity;
+    int oscillations;
 
     void give_to(diagnose::Measurement& measurement) const {
         measurement.sample = sample;
         measurement.run_order = run_order;
         measurement.rough_plates = rough_plates;
         measurement.fluid_viscosity = fluid_viscosity;
+        measurement.oscillations = oscillations;
     }
 };
 
@@ -340,7 +342,8 @@ TableSetting read_setting(TomlKeys& keys, std::size_t number) {
     TableSetting setting{.sample = keys.text("sample").value_or("measurement " + std::to_string(number)),
                          .run_order = small_count(keys, "run_order", 0),
                          .rough_plates = keys.flag("rough_plates"),
-                         .fluid_viscosity = keys.quantity("fluid_viscosity", "Pa.s").value_or(unset)};
+                         .fluid_viscosity = keys.quantity("fluid_viscosity", "Pa.s").value_or(unset),
+                         .oscillations = small_count(keys, "oscillations", 1)};
     if (setting.fluid_viscosity <= 0) {
         keys.fail("fluid_viscosity", "must be > 0 Pa.s");
     }

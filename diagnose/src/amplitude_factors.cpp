@@ -27,34 +27,38 @@ bool Forward::strain_varies(const Settings& settings) const {
     return std::isfinite(settings.rim_critical_strain) && geometry && *geometry == Geometry::plate_plate;
 }
 
-/// G* / G of a sweep upwards that has come to this strain at the rim. Between plates the torque shows
+/// G* / G of an oscillation of this strain at the rim after the largest before. Between plates the torque shows
 /// 4 / R^4 times the integral of G*(gamma_R r / R) r^3 (Macosko, Rheology, 1994, sec. 5.5).
-Eigen::VectorXcd Forward::breaking_response(const Settings& settings, double strain) const {
+Eigen::VectorXcd Forward::breaking_response(const Settings& settings, double before, double strain) const {
     if (!strain_varies(settings)) {
-        return simulator_.amplitude_response(settings, strain);
+        return simulator_.amplitude_response(settings, before, strain);
     }
     static const std::vector<Ring> rings = plate_rings(3);
-    Eigen::VectorXcd mean = rings[0].weight * simulator_.amplitude_response(settings, rings[0].radius * strain);
+    const auto in = [&](const Ring& ring) -> Eigen::VectorXcd {
+        return ring.weight * simulator_.amplitude_response(settings, ring.radius * before, ring.radius * strain);
+    };
+    Eigen::VectorXcd mean = in(rings[0]);
     for (std::size_t k = 1; k < rings.size(); ++k) {
-        mean += rings[k].weight * simulator_.amplitude_response(settings, rings[k].radius * strain);
+        mean += in(rings[k]);
     }
     return mean;
 }
 
-/// The same by runs at the amplitudes of one sweep in their order, of which every ring sees its share.
-std::vector<Complex> Forward::exact_breaking_response(const Settings& settings, const std::vector<double>& amplitudes) const {
+/// How the material yields in runs at these amplitudes, of which every ring sees its share.
+std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, const std::vector<double>& amplitudes) const {
     if (!strain_varies(settings)) {
         return simulator_.exact_amplitude_response(settings, amplitudes);
     }
-    std::vector<Complex> mean(amplitudes.size());
+    std::vector<Yielded> mean(amplitudes.size());
     for (const Ring& ring : plate_rings(1)) {
         std::vector<double> local = amplitudes;
         for (double& amplitude : local) {
             amplitude *= ring.radius;
         }
-        const std::vector<Complex> responses = simulator_.exact_amplitude_response(settings, local);
+        const std::vector<Yielded> responses = simulator_.exact_amplitude_response(settings, local);
         for (std::size_t k = 0; k < mean.size(); ++k) {
-            mean[k] += ring.weight * responses[k];
+            mean[k].first += ring.weight * responses[k].first;
+            mean[k].settled += ring.weight * responses[k].settled;
         }
     }
     return mean;
@@ -66,7 +70,7 @@ std::vector<double> Forward::strains_before(std::size_t table) const {
     std::vector<std::pair<int, double>> earlier;
     for (const Observation& observation : observations_) {
         const Measurement& other = tables[observation.measurement];
-        if (other.sample == tables[table].sample && other.run_order < tables[table].run_order && !observation.loss &&
+        if (other.sample == tables[table].sample && other.run_order < tables[table].run_order &&
             std::isfinite(observation.strain)) {
             earlier.emplace_back(other.run_order, observation.strain);
         }
@@ -79,35 +83,32 @@ std::vector<double> Forward::strains_before(std::size_t table) const {
     return strains;
 }
 
-/// G* / G of one table by a run at its own amplitudes after those before it on the sample, by row.
-std::map<std::size_t, Complex> Forward::exact_factors(const Settings& settings, std::size_t table) const {
-    std::vector<std::size_t> rows;
-    std::vector<double> amplitudes = strains_before(table);
-    const std::size_t history = amplitudes.size();
+/// Those strains of a table and of the runs before it on the sample that were larger than all before.
+std::vector<double> Forward::growing_strains(std::size_t table) const {
+    std::vector<double> strains = strains_before(table);
     for (const Observation& observation : observations_) {
-        if (observation.measurement == table && !observation.loss && std::isfinite(observation.strain)) {
-            rows.push_back(observation.row);
-            amplitudes.push_back(observation.strain);
+        if (observation.measurement == table && std::isfinite(observation.strain)) {
+            strains.push_back(observation.strain);
         }
     }
-    std::map<std::size_t, Complex> factors;
-    if (rows.empty()) {
-        return factors;
+    std::vector<double> growing;
+    for (const double strain : strains) {
+        if (growing.empty() || strain > growing.back()) {
+            growing.push_back(strain);
+        }
     }
-    const std::vector<Complex> run = exact_breaking_response(settings, amplitudes);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        factors[rows[k]] = run[history + k];
-    }
-    return factors;
+    return growing;
 }
 
-/// The largest strain that the sample of each observation had seen by then, itself included; NaN where there is no strain.
-std::vector<double> Forward::largest_strains() const {
-    std::vector<double> largest(observations_.size(), unset);
+/// The largest strain that the sample of each observation had seen before the oscillation that was measured; 0 where it had seen
+/// none.
+std::vector<double> Forward::largest_strains_before() const {
+    std::vector<double> largest(observations_.size(), 0);
     for (std::size_t table = 0; table < experiment_.measurements.size(); ++table) {
         const std::vector<double> earlier = strains_before(table);
-        const double before = earlier.empty() ? 0.0 : *std::max_element(earlier.begin(), earlier.end());
-        double so_far = before;
+        const double at_start = earlier.empty() ? 0.0 : *std::max_element(earlier.begin(), earlier.end());
+        const bool repeated = experiment_.measurements[table].oscillations > 1;
+        double so_far = at_start;
         std::size_t row_before = 0;
         for (std::size_t k = 0; k < observations_.size(); ++k) {
             const Observation& observation = observations_[k];
@@ -115,45 +116,58 @@ std::vector<double> Forward::largest_strains() const {
                 continue;
             }
             if (observation.row <= row_before) {
-                so_far = before;  // the other modulus, from the start of the sweep
+                so_far = at_start;  // the other modulus, from the start of the sweep
             }
             row_before = observation.row;
+            largest[k] = repeated ? std::max(so_far, observation.strain) : so_far;
             so_far = std::max(so_far, observation.strain);
-            largest[k] = so_far;
         }
     }
     return largest;
 }
 
-/// G* / G from breaking bonds, observations x mean and errors of Simulator::amplitude_response; the mean alone if exact. A bond
-/// that broke stays broken: the largest strain so far counts.
-Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) const {
-    const Settings settings = with_weakest_bonds(given);
-    const bool breaks = std::isfinite(settings.critical_strain);
-    const Index columns = breaks && !exact ? simulator_.amplitude_response(settings, 0).size() : 1;
-    Eigen::MatrixXcd factors = Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), columns);
-    std::map<std::size_t, std::map<std::size_t, Complex>> runs;  // by table and row
-    for (std::size_t k = 0; breaks && k < observations_.size(); ++k) {
+/// G* / G from breaking bonds by runs at the strains of the tables themselves, observation by observation.
+Eigen::VectorXcd Forward::exact_amplitude_factors(const Settings& settings) const {
+    struct Run {
+        std::vector<double> strains;
+        std::vector<Yielded> responses;
+    };
+    Eigen::VectorXcd factors = Eigen::VectorXcd::Ones(static_cast<Index>(observations_.size()));
+    std::map<std::size_t, Run> runs;  // by table
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
-        const auto i = static_cast<Index>(k);
         if (!std::isfinite(observation.strain)) {
             continue;
         }
-        if (exact) {
-            const auto [run, added] = runs.try_emplace(observation.measurement);
-            if (added) {
-                run->second = exact_factors(settings, observation.measurement);
-            }
-            if (const auto found = run->second.find(observation.row); found != run->second.end()) {
-                factors(i, 0) = found->second;
-                continue;
-            }
+        const auto [found, added] = runs.try_emplace(observation.measurement);
+        Run& run = found->second;
+        if (added) {
+            run.strains = growing_strains(observation.measurement);
+            run.responses = exact_breaking_response(settings, run.strains);
         }
-        const Eigen::VectorXcd response = breaking_response(settings, largest_strains_[k]);
-        factors.row(i) = response.head(columns).transpose();
-        if (observation.strain < largest_strains_[k]) {
-            // Nothing breaks on the way down, and what runs lose there falls towards zero with their rate (bench_friction).
-            factors.row(i) = factors.row(i).real().cast<Complex>().eval();
+        const double before = largest_strains_before_[k];
+        const auto place = std::lower_bound(run.strains.begin(), run.strains.end(), std::max(before, observation.strain));
+        const Yielded& response = run.responses[static_cast<std::size_t>(place - run.strains.begin())];
+        factors[static_cast<Index>(k)] = observation.strain > before ? response.first : response.settled;
+    }
+    return factors;
+}
+
+/// G* / G from breaking bonds, observations x mean and errors of Simulator::amplitude_response; the mean alone if exact. A bond
+/// that broke stays broken.
+Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) const {
+    const Settings settings = with_weakest_bonds(given);
+    if (!std::isfinite(settings.critical_strain)) {
+        return Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), 1);
+    }
+    if (exact) {
+        return exact_amplitude_factors(settings);
+    }
+    const Index columns = simulator_.amplitude_response(settings, 0, 0).size();
+    Eigen::MatrixXcd factors = Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), columns);
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        if (const double strain = observations_[k].strain; std::isfinite(strain)) {
+            factors.row(static_cast<Index>(k)) = breaking_response(settings, largest_strains_before_[k], strain).transpose();
         }
     }
     return factors;

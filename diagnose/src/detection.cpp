@@ -213,6 +213,8 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(departures.jacobian);
     const Eigen::MatrixXd basis = decomposition.householderQ() * Eigen::MatrixXd::Identity(rows, decomposition.rank());
 
+    const double degrees = inference.forward().yield_errors(fit.settings).degrees;
+    const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
     Detection result;
     result.statistics = statistics_of(inference, fit, causes, rows, basis);
     const auto kinds = static_cast<Index>(result.statistics.size());
@@ -222,9 +224,13 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
         if (sample < bootstrap) {
             const Eigen::VectorXd errors = draw_errors(data, seed, static_cast<std::uint64_t>(sample));
             drawn.head(errors.size()) = errors;
+            const auto normal = [&](Index row) {
+                return normal_number(seed, static_cast<std::uint64_t>(sample),
+                                     static_cast<std::uint64_t>(1000000 + rows - 1 - row));
+            };
+            const double scale = std::isfinite(degrees) ? 1 / std::sqrt(scaled_chi_square(degrees, normal(rows))) : 1.0;
             for (Index row = errors.size(); row < rows; ++row) {
-                const auto number = static_cast<std::uint64_t>(1000000 + rows - 1 - row);
-                drawn[row] = normal_number(seed, static_cast<std::uint64_t>(sample), number);
+                drawn[row] = (row < last_error ? scale : 1.0) * normal(row);
             }
         }
         drawn -= basis * (basis.transpose() * drawn);

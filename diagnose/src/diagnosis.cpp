@@ -131,8 +131,7 @@ std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidenc
     return probabilities_of(std::move(logarithms));
 }
 
-std::vector<SampleEffect> effects_of(const Likelihood& likelihood, const Eigen::VectorXd& prediction,
-                                     const Eigen::MatrixXd& errors) {
+std::vector<SampleEffect> effects_of(const Likelihood& likelihood, const Eigen::VectorXd& prediction, const ModelErrors& errors) {
     const Eigen::VectorXd values = likelihood.effects(prediction, errors);
     std::vector<SampleEffect> effects;
     for (std::size_t k = 0; k < likelihood.data().sample_names.size(); ++k) {
@@ -147,7 +146,7 @@ void predict_rows(const DataSet& data, const Inference& inference, const Setting
     const Likelihood& likelihood = inference.likelihood();
     const Eigen::VectorXd by_base = inference.forward().predict(base);
     const Eigen::VectorXd by_extended = inference.forward().predict(extended, true);
-    const Eigen::MatrixXd errors = inference.forward().yield_errors(extended);
+    const ModelErrors errors = inference.forward().yield_errors(extended);
     const Eigen::VectorXd base_residual = likelihood.residual(by_base);
     const Eigen::VectorXd extended_residual = likelihood.residual(by_extended, errors);
     diagnosis.base_effects = effects_of(likelihood, by_base, {});

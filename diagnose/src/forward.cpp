@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -209,7 +210,10 @@ Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, cons
 }
 
 Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
-    : experiment_(experiment), observations_(observations), simulator_(simulator), largest_strains_(largest_strains()) {
+    : experiment_(experiment),
+      observations_(observations),
+      simulator_(simulator),
+      largest_strains_before_(largest_strains_before()) {
     for (const Observation& observation : observations_) {
         const Measurement& table = experiment_.measurements[observation.measurement];
         if (table.kind != MeasurementKind::structure_series) {
@@ -333,14 +337,14 @@ Eigen::VectorXd Forward::predict(const Settings& settings, bool exact) const {
     return seen(settings, remembered_material(of_material(settings), exact).col(0), exact);
 }
 
-Eigen::MatrixXd Forward::yield_errors(const Settings& settings) const {
+ModelErrors Forward::yield_errors(const Settings& settings) const {
     const Eigen::MatrixXcd& moduli = remembered_material(of_material(settings), false);
     Eigen::MatrixXd changes(moduli.rows(), moduli.cols() - 1);
     const Eigen::VectorXd mean = changes.cols() > 0 ? seen(settings, moduli.col(0), false) : Eigen::VectorXd();
     for (Index error = 0; error < changes.cols(); ++error) {
         changes.col(error) = seen(settings, moduli.col(error + 1), false) - mean;
     }
-    return changes;
+    return {changes, changes.cols() > 0 ? simulator_.yield_degrees() : std::numeric_limits<double>::infinity()};
 }
 
 Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {

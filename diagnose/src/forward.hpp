@@ -5,6 +5,8 @@
 #include <coagula/diagnose/settings.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
+#include "model_errors.hpp"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -73,7 +75,7 @@ public:
 
     /// What the prediction changes by, a column for each of the independent standard errors that so few structures leave in the way
     /// in which they yield (Simulator::amplitude_response); no columns where no bonds break or there is one structure.
-    Eigen::MatrixXd yield_errors(const Settings& settings) const;
+    ModelErrors yield_errors(const Settings& settings) const;
 
     /// Standard deviation of the error that so few structures leave in the prediction of the rows of structure series
     /// (Simulator::structure_error) where these have about such values: in proportion to the base model, because a value that is
@@ -88,12 +90,12 @@ private:
                                             std::complex<double> modulus) const;
     double gradient_factor(const Settings& settings, const Observation& observation, double exponent) const;
     bool strain_varies(const Settings& settings) const;
-    Eigen::VectorXcd breaking_response(const Settings& settings, double strain) const;
-    std::vector<std::complex<double>> exact_breaking_response(const Settings& settings,
-                                                              const std::vector<double>& amplitudes) const;
+    Eigen::VectorXcd breaking_response(const Settings& settings, double before, double strain) const;
+    std::vector<Yielded> exact_breaking_response(const Settings& settings, const std::vector<double>& amplitudes) const;
     std::vector<double> strains_before(std::size_t table) const;
-    std::map<std::size_t, std::complex<double>> exact_factors(const Settings& settings, std::size_t table) const;
-    std::vector<double> largest_strains() const;
+    std::vector<double> growing_strains(std::size_t table) const;
+    Eigen::VectorXcd exact_amplitude_factors(const Settings& settings) const;
+    std::vector<double> largest_strains_before() const;
     Eigen::MatrixXcd amplitude_factors(const Settings& settings, bool exact) const;
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
     Eigen::MatrixXcd material(const Settings& settings, bool exact) const;
@@ -103,7 +105,7 @@ private:
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
-    std::vector<double> largest_strains_;
+    std::vector<double> largest_strains_before_;
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
     mutable Eigen::MatrixXcd last_material_;

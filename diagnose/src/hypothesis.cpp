@@ -3,7 +3,9 @@
 #include "departures.hpp"
 #include "weights.hpp"
 
+#include <ceres/ceres.h>
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +21,7 @@ constexpr double softest = 1e-3;  ///< particle [N/m]: fresh pastes of some pasc
 constexpr double stiffest = 1e5;
 constexpr double log_stiffness_range = 18.42;  ///< of these
 constexpr int posterior_draws = 64;
+constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit stays away
 
 /// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
 constexpr double enough_nodes = 2.5;
@@ -72,7 +75,7 @@ Node Inference::best_stiffness(Settings settings, double start) const {
     double slope_before = 0;
     for (int iteration = 0; iteration < 40; ++iteration) {
         const Eigen::VectorXd here = predict(place);
-        const Eigen::MatrixXd errors = forward_.yield_errors(settings);
+        const ModelErrors errors = forward_.yield_errors(settings);
         const Eigen::VectorXd slope_of_prediction = (predict(place + step) - here) / step;
         const auto density = [&](double offset) {
             return likelihood_.log_density(here + offset * slope_of_prediction, errors) + log_prior(place + offset);
@@ -104,40 +107,77 @@ Settings Inference::settings_at(const std::vector<MechanismParameter>& parameter
     return settings;
 }
 
-/// Gauss and Newton's method from a place of the prior for stiffness, parameters and sample effects together, kept inside the
-/// prior; then the grid about what it finds, by the covariance of the parameters.
+/// Whitened residuals by the places of the parameters in their priors, stiffness, sample effects and errors of the model at their
+/// best for these: what those move is projected out (Kaufman, BIT 15 (1975) 49).
+class Inference::ProjectedResiduals : public ceres::CostFunction {
+public:
+    ProjectedResiduals(const Inference& inference, const Hypothesis& hypothesis, Index axes, const EvaluateNode& evaluate)
+        : inference_(inference), hypothesis_(hypothesis), evaluate_(evaluate) {
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(axes));
+        set_num_residuals(static_cast<int>(departures_at(Eigen::VectorXd::Constant(axes, 0.5)).residual.size()));
+    }
+
+    bool Evaluate(const double* const* places, double* residuals, double** jacobians) const override {
+        const Index axes = parameter_block_sizes().front();
+        const Departures departures = departures_at(Eigen::Map<const Eigen::VectorXd>(places[0], axes));
+        const Eigen::MatrixXd& all = departures.jacobian;
+        Eigen::MatrixXd others(all.rows(), all.cols() - axes);
+        others << all.col(0), all.rightCols(all.cols() - 1 - axes);
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(others);
+        const Eigen::MatrixXd basis = factor.householderQ() * Eigen::MatrixXd::Identity(all.rows(), factor.rank());
+        const auto project = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
+            return columns - basis * (basis.transpose() * columns);
+        };
+        Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = project(departures.residual);
+        if (jacobians != nullptr && jacobians[0] != nullptr) {
+            using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+            Eigen::Map<RowMajor>(jacobians[0], num_residuals(), axes) = -project(all.middleCols(1, axes));
+        }
+        return true;
+    }
+
+private:
+    Departures departures_at(const Eigen::VectorXd& place) const {
+        Fit fit{
+            .hypothesis = hypothesis_, .settings = settings_at(parameters_of(hypothesis_), place), .parameters = {}, .draws = {}};
+        fit.settings.normal_stiffness = std::exp(evaluate_(place).log_stiffness);
+        return departures_of(inference_, fit);
+    }
+
+    const Inference& inference_;
+    const Hypothesis& hypothesis_;
+    const EvaluateNode& evaluate_;
+};
+
+/// Least squares from a place of the prior, kept inside it; then the grid about what it finds, by the covariance there. None where
+/// not all parameters are determined.
 std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
                                                         const EvaluateNode& evaluate) const {
-    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
     const Index axes = place.size();
-    Node here = evaluate(place);
-    Eigen::MatrixXd covariance;
-    for (int iteration = 0; iteration < 30; ++iteration) {
-        Fit fit{.hypothesis = hypothesis, .settings = settings_at(parameters, place), .parameters = {}, .draws = {}};
-        fit.settings.normal_stiffness = std::exp(here.log_stiffness);
-        const Departures departures = departures_of(*this, fit);
-        const Eigen::MatrixXd information = departures.jacobian.transpose() * departures.jacobian;
-        const Eigen::LDLT<Eigen::MatrixXd> factor(information);
-        if (factor.info() != Eigen::Success || factor.rcond() < 1e-13) {
-            return std::nullopt;  // not all parameters are determined
-        }
-        covariance = factor.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols())).block(1, 1, axes, axes);
-        const Eigen::VectorXd step = factor.solve(departures.jacobian.transpose() * departures.residual).segment(1, axes);
-        bool better = false;
-        for (double part = 1; part > 1e-3 && !better; part *= 0.5) {
-            const Eigen::VectorXd moved = (place + part * step).cwiseMax(1e-3).cwiseMin(1 - 1e-3);
-            const Node there = evaluate(moved);
-            better = there.log_weight > here.log_weight + 1e-6;
-            if (better) {
-                place = moved;
-                here = there;
-            }
-        }
-        if (!better) {
-            break;
-        }
+    ceres::Problem problem;
+    problem.AddResidualBlock(new ProjectedResiduals(*this, hypothesis, axes, evaluate), nullptr, place.data());
+    for (int axis = 0; axis < static_cast<int>(axes); ++axis) {
+        place[axis] = std::clamp(place[axis], edge, 1 - edge);
+        problem.SetParameterLowerBound(place.data(), axis, edge);
+        problem.SetParameterUpperBound(place.data(), axis, 1 - edge);
     }
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = 30;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+
+    ceres::Covariance::Options dense;
+    dense.algorithm_type = ceres::DENSE_SVD;
+    dense.min_reciprocal_condition_number = 1e-13;
+    ceres::Covariance covariance(dense);
+    Eigen::MatrixXd matrix(axes, axes);
+    if (!summary.IsSolutionUsable() || !covariance.Compute(std::vector<const double*>{place.data()}, &problem) ||
+        !covariance.GetCovarianceBlock(place.data(), place.data(), matrix.data())) {
+        return std::nullopt;
+    }
+    const Eigen::LLT<Eigen::MatrixXd> root(matrix);
     if (root.info() != Eigen::Success) {
         return std::nullopt;
     }

@@ -65,6 +65,7 @@ public:
     const Likelihood& likelihood() const { return likelihood_; }
 
 private:
+    class ProjectedResiduals;
     static Settings settings_at(const std::vector<MechanismParameter>& parameters, const Eigen::VectorXd& place);
     static Eigen::MatrixXd draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters);
     PosteriorGrid grid_for(const Hypothesis& hypothesis) const;

@@ -3,25 +3,28 @@
 #include "weights.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace coagula::diagnose {
 
 namespace {
 
-/// Equally probable variances of the sample effect: scaled inverse chi-square about the estimate.
-std::vector<double> effect_variances(const DataSet& data) {
-    const double estimate = data.effect * data.effect;
-    if (!std::isfinite(data.effect_degrees) || estimate == 0) {
+/// Equally probable variances about an estimate from some degrees of freedom: scaled inverse chi-square.
+std::vector<double> variances_about(double estimate, double degrees) {
+    if (!std::isfinite(degrees) || estimate == 0) {
         return {estimate};
     }
     // Middles of seven equal parts of the normal distribution.
     std::vector<double> variances;
     for (const double normal : {-1.4652, -0.7916, -0.3661, 0.0, 0.3661, 0.7916, 1.4652}) {
-        variances.push_back(estimate / scaled_chi_square(data.effect_degrees, normal));
+        variances.push_back(estimate / scaled_chi_square(degrees, normal));
     }
     return variances;
 }
+
+/// Places of seven variances beside those of another quantity, so that both are spread evenly and independently.
+constexpr std::array<std::size_t, 7> beside{3, 6, 1, 4, 0, 5, 2};
 
 }  // namespace
 
@@ -29,10 +32,13 @@ Likelihood::Likelihood(const DataSet& data)
     : data_(data),
       white_(data.noise.whiten(data.values)),
       log_determinant_(data.noise.log_determinant()),
-      variances_(effect_variances(data)) {}
+      variances_(variances_about(data.effect * data.effect, data.effect_degrees)) {}
 
 Likelihood::Likelihood(const DataSet& data, const Eigen::MatrixXd& further)
-    : data_(data), factor_(data.noise.covariance() + further), dense_(true), variances_(effect_variances(data)) {
+    : data_(data),
+      factor_(data.noise.covariance() + further),
+      dense_(true),
+      variances_(variances_about(data.effect * data.effect, data.effect_degrees)) {
     white_ = factor_.matrixL().solve(data.values);
     log_determinant_ = 2 * factor_.matrixLLT().diagonal().array().log().sum();
 }
@@ -41,8 +47,8 @@ Eigen::VectorXd Likelihood::whiten(const Eigen::VectorXd& values) const {
     return dense_ ? Eigen::VectorXd(factor_.matrixL().solve(values)) : data_.noise.whiten(values);
 }
 
-Eigen::MatrixXd Likelihood::effect_directions(const Eigen::VectorXd& prediction, const Eigen::MatrixXd& model) const {
-    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(prediction.size(), data_.samples() + model.cols());
+Eigen::MatrixXd Likelihood::effect_directions(const Eigen::VectorXd& prediction, const ModelErrors& model) const {
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(prediction.size(), data_.samples() + model.changes.cols());
     // Rows of different samples have independent errors: whitening then keeps each in its column.
     const Eigen::VectorXd values = dense_ ? prediction : whiten(prediction);
     for (Index row = 0; row < prediction.size(); ++row) {
@@ -50,36 +56,36 @@ Eigen::MatrixXd Likelihood::effect_directions(const Eigen::VectorXd& prediction,
             parts(row, sample) = values[row];
         }
     }
-    for (Index error = 0; error < model.cols(); ++error) {
-        parts.col(data_.samples() + error) = dense_ ? Eigen::VectorXd(model.col(error)) : whiten(model.col(error));
+    for (Index error = 0; error < model.changes.cols(); ++error) {
+        parts.col(data_.samples() + error) = dense_ ? Eigen::VectorXd(model.changes.col(error)) : whiten(model.changes.col(error));
     }
     return dense_ ? Eigen::MatrixXd(factor_.matrixL().solve(parts)) : parts;
 }
 
-Eigen::VectorXd Likelihood::residual(const Eigen::VectorXd& prediction, const Eigen::MatrixXd& model) const {
+Eigen::VectorXd Likelihood::residual(const Eigen::VectorXd& prediction, const ModelErrors& model) const {
     return white_ - whiten(prediction) - effect_directions(prediction, model) * effects(prediction, model);
 }
 
-/// Standard deviations of sample effects of this one and of the model's errors.
-Eigen::VectorXd Likelihood::deviations(double effect, Index directions) const {
-    Eigen::VectorXd all = Eigen::VectorXd::Ones(directions);
+/// Standard deviations of sample effects and of the model's errors.
+Eigen::VectorXd Likelihood::deviations(double effect, double error, Index directions) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Constant(directions, error);
     all.head(data_.samples()).setConstant(effect);
     return all;
 }
 
-Eigen::VectorXd Likelihood::effects(const Eigen::VectorXd& prediction, const Eigen::MatrixXd& model) const {
+Eigen::VectorXd Likelihood::effects(const Eigen::VectorXd& prediction, const ModelErrors& model) const {
     const Eigen::MatrixXd plain = effect_directions(prediction, model);
-    const Eigen::VectorXd deviation = deviations(std::max(data_.effect, 0.0), plain.cols());
+    const Eigen::VectorXd deviation = deviations(std::max(data_.effect, 0.0), 1, plain.cols());
     const Eigen::MatrixXd directions = plain * deviation.asDiagonal();
     Eigen::MatrixXd normal = directions.transpose() * directions;
     normal.diagonal().array() += 1;
     return deviation.cwiseProduct(normal.ldlt().solve(directions.transpose() * (white_ - whiten(prediction))));
 }
 
-double Likelihood::log_density(const Eigen::VectorXd& prediction, const Eigen::MatrixXd& model) const {
+double Likelihood::log_density(const Eigen::VectorXd& prediction, const ModelErrors& model) const {
     const Eigen::VectorXd white = whiten(prediction);
-    if (dense_ || model.cols() > 0) {
-        return dense_log_density(white_ - white, effect_directions(prediction, model));
+    if (dense_ || model.changes.cols() > 0) {
+        return dense_log_density(white_ - white, effect_directions(prediction, model), model.degrees);
     }
     Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(data_.samples());
     Eigen::ArrayXd products = Eigen::ArrayXd::Zero(data_.samples());
@@ -103,20 +109,23 @@ double Likelihood::log_density(const Eigen::VectorXd& prediction, const Eigen::M
     return log_sum(logarithms) - std::log(static_cast<double>(variances_.size())) - 0.5 * (misfit + log_determinant_);
 }
 
-/// The same where errors of different samples are correlated.
-double Likelihood::dense_log_density(const Eigen::VectorXd& plain, const Eigen::MatrixXd& directions) const {
+/// The same where errors of different samples are correlated. @param degrees of freedom of the model's errors.
+double Likelihood::dense_log_density(const Eigen::VectorXd& plain, const Eigen::MatrixXd& directions, double degrees) const {
     const Eigen::MatrixXd squares = directions.transpose() * directions;
     const Eigen::VectorXd products = directions.transpose() * plain;
     std::vector<double> logarithms;
-    for (const double variance : variances_) {
-        const Eigen::VectorXd deviation = deviations(std::sqrt(variance), directions.cols());
+    const std::vector<double> errors = variances_about(1, degrees);
+    for (std::size_t k = 0; k < std::max(variances_.size(), errors.size()); ++k) {
+        const double effect = std::sqrt(variances_[variances_.size() > 1 ? k : 0]);
+        const double error = std::sqrt(errors[errors.size() > 1 ? beside.at(k) : 0]);
+        const Eigen::VectorXd deviation = deviations(effect, error, directions.cols());
         const Eigen::MatrixXd scaled = deviation.asDiagonal() * squares * deviation.asDiagonal();
         const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()) + scaled);
         const double determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
         const Eigen::VectorXd projection = deviation.cwiseProduct(products);
         logarithms.push_back(-0.5 * (determinant - projection.dot(factor.solve(projection))));
     }
-    return log_sum(logarithms) - std::log(static_cast<double>(variances_.size())) - 0.5 * (plain.squaredNorm() + log_determinant_);
+    return log_sum(logarithms) - std::log(static_cast<double>(logarithms.size())) - 0.5 * (plain.squaredNorm() + log_determinant_);
 }
 
 }  // namespace coagula::diagnose

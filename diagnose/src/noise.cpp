@@ -1,7 +1,7 @@
 #include <coagula/diagnose/noise.hpp>
 
+#include "minimum.hpp"
 #include "restricted_likelihood.hpp"
-#include "simplex.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +87,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) {
             steps[i] = 0.3 * std::abs(start[i]) + 1e-3;
         }
-        Deviations found = minimise_by_simplex<3>(function, start, steps);
+        Deviations found = minimum_of(function, start, steps);
         for (std::size_t i = 0; i < 3; ++i) {
             found[i] = moves(i, held) ? std::abs(found[i]) : start[i];
         }

@@ -62,7 +62,7 @@ bool same_fluid(const Measurement& a, const Measurement& b) {
 
 /// What comes later on a sample, or goes the other way, may differ by physics.
 bool are_replicates(const Measurement& a, const Measurement& b) {
-    if (a.rough_plates != b.rough_plates || !same_fluid(a, b)) {
+    if (a.rough_plates != b.rough_plates || a.oscillations != b.oscillations || !same_fluid(a, b)) {
         return false;
     }
     if (a.kind != b.kind || axis_of(a)->name != axis_of(b)->name || a.run_order != b.run_order || goes_up(a) != goes_up(b)) {

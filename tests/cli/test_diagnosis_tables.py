@@ -223,6 +223,9 @@ class GapSeries(Tables):
         for value, says in (("1", "key 'rough_plates': must be true or false"), ('"yes"', "key 'rough_plates': must be true or false")):
             with self.subTest(rough_plates=value):
                 self.refuse(self.experiment(self.ROUGH.replace("true", value)), says)
+        for value, says in (("0", "key 'oscillations': is 0, but must be a whole number >= 1"), ("1.5", "key 'oscillations'")):
+            with self.subTest(oscillations=value):
+                self.refuse(self.experiment(self.ROUGH + f"oscillations = {value}\n"), says)
         for value, says in (
             ("0", "measurement 2, key 'fluid_viscosity': must be > 0 Pa.s"),
             ('"-1 Pa.s"', "must be > 0 Pa.s"),

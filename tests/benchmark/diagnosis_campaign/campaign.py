@@ -6,11 +6,13 @@ Each run draws a session (cases.py) from the seed of its number, writes experime
 results.jsonl; runs that are there already are not repeated. The table of results.jsonl is printed at the end (table.py)."""
 
 import argparse
+import fcntl
 import json
 import os
 import shutil
 import subprocess
 import time
+import zlib
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -37,17 +39,30 @@ def diagnose(program, experiment, cache, *words):
                            "--bootstrap", "399", *words], capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(done.stderr)
-    new = folder / "simulations.txt"
-    if new.exists() and (not cache.exists() or new.stat().st_size > cache.stat().st_size):
-        temporary = cache.with_suffix(f".{os.getpid()}")
-        shutil.copy(new, temporary)
-        temporary.rename(cache)
+    remember(folder / "simulations.txt", cache)
     return json.loads(done.stdout)
+
+
+def remember(new, cache):
+    """Adds what was simulated to what is known; other processes do the same."""
+    with cache.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        known = cache.read_text().splitlines() if cache.exists() else []
+        lines = dict.fromkeys(known + (new.read_text().splitlines() if new.exists() else []))
+        if len(lines) > len(known):
+            temporary = cache.with_suffix(".new")
+            temporary.write_text("\n".join(lines) + "\n")
+            temporary.rename(cache)
+
+
+def drawn_by(row, number):
+    """The random generator of a run, whatever other rows there are."""
+    return numpy.random.default_rng([zlib.crc32(row.encode()), number])
 
 
 def prepared(row, number, program, folder, proposals=()):
     """The session of a run with the tables that were proposed, and its experiment file; the same errors whatever follows."""
-    generator = numpy.random.default_rng([sorted(ROWS).index(row), number])
+    generator = drawn_by(row, number)
     material = Material(program, folder / f"bank{os.getpid()}", shared=folder / "bank")
     session = ROWS[row](generator, material)
     place = folder / "runs" / f"{row}_{number}"
@@ -55,7 +70,7 @@ def prepared(row, number, program, folder, proposals=()):
     for count, what in enumerate(proposals):
         session.tables += placed([replace(table, sample=f"{table.sample}{count}") for table in follow_up(session, what)])
     if proposals:
-        generator = numpy.random.default_rng([sorted(ROWS).index(row), number])
+        generator = drawn_by(row, number)
         ROWS[row](generator, material)
         experiment = session.write(material, place, generator)
     return session, material, experiment
@@ -125,7 +140,7 @@ def main():
     chosen = parser.parse_args()
     program, folder = chosen.program.resolve(), chosen.folder.resolve()
     (folder / "bank").mkdir(parents=True, exist_ok=True)
-    Material(program, folder / "bank").prepare(known=8, jobs=chosen.jobs, breaking=not BREAKING_ROWS.isdisjoint(chosen.rows))
+    Material(program, folder / "bank").prepare(jobs=chosen.jobs, breaking=not BREAKING_ROWS.isdisjoint(chosen.rows))
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

@@ -4,13 +4,17 @@ from dataclasses import replace
 
 import numpy
 
-from material import CONTACTS, LOADS, SWEEP_ROWS
+from material import CONTACTS, KNOWN, LOADS, SWEEP_ROWS
 from series import Series
 from session import Hidden, Noise, Session, full_day, gap_day, level_day, yield_day
 
 LEAST_GAIN, LARGEST_GAIN = 25, 400
-KNOWN_THAT_BREAK = 4  # structures of the diagnosis where bonds break
+KNOWN_THAT_BREAK = 4  # structures of the diagnosis where bonds break, drawn of those that there are
 CRITICAL_STRAIN = 1e-4  # of the bank of breaking structures; the sweep's strains follow from the load
+
+
+def known_that_break(generator):
+    return tuple(int(number) for number in generator.choice(KNOWN, KNOWN_THAT_BREAK, replace=False))
 
 
 def draw_session(generator, material, hidden=Hidden(), noise=Noise(), tables=None):
@@ -78,7 +82,7 @@ def of_effect(name):
         if name == "bond-strength":
             load = strengths(1).loads[0]
             return replace(session, tables=full_day(load * CRITICAL_STRAIN, SWEEP_ROWS), hidden=strengths(1),
-                           known_structures=KNOWN_THAT_BREAK)
+                           known_structures=known_that_break(generator))
         return scaled(session, material, wanted, strengths)
     return draw
 
@@ -129,7 +133,7 @@ def tie_of_yield(generator, material):
     rim = bool(generator.integers(2))
     hidden = Hidden("plate-strain-field" if rim else "bond-strength", loads=(load,), rim=rim)
     session = draw_session(generator, material, hidden, Noise(torque=0.06, phase=0.02), yield_day(load * CRITICAL_STRAIN, SWEEP_ROWS))
-    return replace(session, known_structures=KNOWN_THAT_BREAK)
+    return replace(session, known_structures=known_that_break(generator))
 
 
 def structure_series(generator, material):

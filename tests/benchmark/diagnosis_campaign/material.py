@@ -10,6 +10,7 @@ import numpy
 
 PARTICLES = 400
 STRUCTURES = 8
+KNOWN = 16    # that the diagnosis may know
 LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
 SWEEP_ROWS = 14
 STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
@@ -19,7 +20,10 @@ COORDINATIONS = (5.4, 5.0, 4.7, 4.4, 4.15)  # of a structure series
 SERIES_STRUCTURES = 4                       # behind each row of it
 SERIES_KNOWN = 2                            # of the diagnosis behind each row
 CONTACTS = {"bond-bending": (0.003, 0.03), "shear-stiffness": (0.3, 0.8), "bond-range": (0.025, 0.045)}
-OSCILLATION = ["--steps-per-oscillation", "6000", "--damping", "0.7"]
+OSCILLATION = ["--steps-per-oscillation", "6000", "--damping", "0.7", "--orientation", "xz,yx,zy"]
+SLOW_OSCILLATION = ["--steps-per-oscillation", "24000", "--damping", "0.7", "--orientation", "xz,yx,zy"]  # where losses count
+RING_OSCILLATION = ["--steps-per-oscillation", "12000", "--damping", "0.7", "--orientation", "xz"]
+RINGS = tuple(((ring + 0.5) / 6)**0.25 for ring in range(6))  # of equal shares of the torque: radius over that of the plates
 
 
 class Material:
@@ -36,13 +40,13 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, known, jobs, breaking):
+    def prepare(self, jobs, breaking):
         """Everything that is not drawn: moduli of structures, breaking if asked for; and those structures that the diagnosis may know."""
         contacts = [("", 0.0)] + [(cause, value) for cause, values in CONTACTS.items() for value in values]
         tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in contacts]
         tasks += [("modulus", number, *contact, coordination) for coordination in COORDINATIONS
                   for number in range(SERIES_STRUCTURES) for contact in contacts]
-        tasks += [("breaking", number, load) for number in range(STRUCTURES) for load in LOADS if breaking]
+        tasks += [("breaking", number, load, ring) for number in range(STRUCTURES) for load in LOADS for ring in (1.0, *RINGS) if breaking]
         for number in range(STRUCTURES):
             self.structure(number)
         for coordination in COORDINATIONS:
@@ -52,7 +56,7 @@ class Material:
             for known_values in pool.map(computed, [(self.program, self.folder, task) for task in tasks]):
                 self.known.update(known_values)
                 self.keep()
-        for number in range(known):
+        for number in range(KNOWN):
             self.known_structure(number)
         for coordination in COORDINATIONS:
             for number in range(SERIES_KNOWN):
@@ -92,8 +96,8 @@ class Material:
     def shear(self, path, *words):
         return self.run("shear", path, "-o", self.folder / "sheared.h5", "--force", *words)
 
-    def explicit(self, path, *words):
-        return self.shear(path, "--method", "dem", "--boundary", "periodic", "--orientation", "xz,yx,zy", *OSCILLATION, *words)
+    def explicit(self, path, *words, oscillation=OSCILLATION):
+        return self.shear(path, "--method", "dem", "--boundary", "periodic", *oscillation, *words)
 
     def modulus(self, number, cause="", value=0.0, coordination=None):
         """G' of a structure with springs of unit stiffness and perhaps another contact, by small oscillations."""
@@ -112,27 +116,30 @@ class Material:
         """Of a sample as large as all structures together."""
         return float(numpy.mean([self.modulus(number, cause, value) for number in range(STRUCTURES)]))
 
-    def breaking(self, number, load):
-        """G* over G' at strains growing linearly to `load` times the critical strain, bonds breaking."""
+    def breaking(self, number, load, ring=1.0):
+        """G* over G' at strains growing linearly to `load` times the critical strain, or at a radius between plates less, bonds breaking."""
         def compute():
             strength = 1e-4 * CONTACT * RADIUS
             model = self.folder / "strength.toml"
             model.write_text(f"normal_strength = {strength}\nshear_strength = {strength}\n")
-            words = ["--oscillations", SWEEP_ROWS, "--amplitude", load * 1e-4]
-            broken = self.explicit(self.structure(number), *words, "--model", model)["oscillations"]
-            whole = self.explicit(self.structure(number), *words)["oscillations"]
+            oscillation = SLOW_OSCILLATION if ring == 1.0 else RING_OSCILLATION
+            slowly = lambda *words: self.explicit(self.structure(number), *words, oscillation=oscillation)["oscillations"]
+            broken = slowly("--oscillations", SWEEP_ROWS, "--amplitude", ring * load * 1e-4, "--model", model)
+            whole = slowly("--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude")
             mean = lambda part, of: numpy.mean(of[part], axis=0)
-            unbroken = mean("storage_modulus", whole)
+            unbroken = mean("storage_modulus", whole)[-1]
             storage = mean("storage_modulus", broken) / unbroken
-            loss = (mean("loss_modulus", broken) - mean("loss_modulus", whole)) / unbroken
+            loss = (mean("loss_modulus", broken) - mean("loss_modulus", whole)[-1]) / unbroken
             return [storage.tolist(), loss.tolist()]
-        storage, loss = self.remembered(f"breaking {number} {load}", compute)
+        storage, loss = self.remembered(f"breaking {number} {load} {ring:.3f}", compute)
         return numpy.array(storage) + 1j * numpy.array(loss)
 
-    def mean_breaking(self, load):
-        """Of a sample as large as all structures together: G* over G' of their mean."""
+    def mean_breaking(self, load, rim=False):
+        """Of a sample as large as all structures together: G* over G' of their mean, or what the torque shows of it between plates, where the
+        strain grows from 0 at the axis to that of the table at the rim."""
         weights = numpy.array([self.modulus(number) for number in range(STRUCTURES)])
-        return weights @ [self.breaking(number, load) for number in range(STRUCTURES)] / weights.sum()
+        rings = [weights @ [self.breaking(number, load, ring) for number in range(STRUCTURES)] for ring in (RINGS if rim else (1.0,))]
+        return numpy.mean(rings, axis=0) / weights.sum()
 
     def sketch(self):
         """The same with losses by their closed form, to choose how strong an effect is to be."""

@@ -63,13 +63,13 @@ class Session:
     structure: int
     moduli: list = field(default_factory=list)  # without noise
     known_stiffness: bool = False
-    known_structures: int = 2
+    known_structures: tuple = (0, 1)
     storage_only: bool = False
 
     def write(self, material, folder, generator):
         """The experiment file and its tables."""
         folder.mkdir(parents=True, exist_ok=True)
-        structures = [material.known_structure(number) for number in range(self.known_structures)]
+        structures = [material.known_structure(number) for number in self.known_structures]
         offsets = {}
         lines = ["[sample]", 'particle_radius = "0.25 um"', "volume_fraction = 0.4", "", "[instrument]", 'geometry = "plate-plate"',
                  f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
@@ -178,17 +178,6 @@ def follow_up(session, what):
     return [sweep("amplitude-sweep", "N", 0, strains, 1.0, 10), *down]
 
 
-def between_plates(material, load):
-    """G* over G that the torque between plates shows, where the strain grows from 0 at the axis to that of the table at the rim: the stress
-    at each radius over that at the rim of a material whose bonds hold, weighted by the area and the arm."""
-    at_strains = numpy.concatenate([[1.0], material.mean_breaking(load)])  # from rest in equal steps
-    rows = numpy.arange(len(at_strains))
-    radius = (numpy.arange(2000) + 0.5) / 2000
-    weights = radius**3 / numpy.sum(radius**3)
-    return numpy.array([weights @ (numpy.interp(radius * row, rows, at_strains.real) + 1j * numpy.interp(radius * row, rows, at_strains.imag))
-                        for row in rows[1:]])
-
-
 def true_modulus(material, session, table):
     """Of what is in the gap, row by row."""
     hidden = session.hidden
@@ -199,7 +188,7 @@ def true_modulus(material, session, table):
     if hidden.loss:
         modulus *= material.losses(session.structure, *hidden.loss, table.frequency)
     if hidden.loads and table.kind == "amplitude-sweep":
-        modulus *= between_plates(material, *hidden.loads) if hidden.rim else material.mean_breaking(*hidden.loads)
+        modulus *= material.mean_breaking(*hidden.loads, rim=hidden.rim)
     if hidden.ageing:
         modulus *= 1 + hidden.ageing * numpy.log10(1 + table.start + table.time)
     if hidden.warmth:

@@ -1,9 +1,10 @@
 #include "likelihood.hpp"
 
 #include <gtest/gtest.h>
+#include <boost/math/distributions/normal.hpp>
 
 #include <cmath>
-#include <numbers>
+#include <functional>
 
 namespace coagula::diagnose {
 namespace {
@@ -64,12 +65,12 @@ TEST(Likelihood, AgreesWithTheCovarianceInFull) {
 TEST(Likelihood, TakesErrorsOfTheModelAsCovariance) {
     DataSet data = correlated();
     const double exact = direct(data, data.effect, model_errors());
-    EXPECT_NEAR(Likelihood(data).log_density(prediction(), model_errors()), exact, 1e-9);
+    EXPECT_NEAR(Likelihood(data).log_density(prediction(), {model_errors()}), exact, 1e-9);
     const Likelihood dense(data, Eigen::MatrixXd::Zero(data.size(), data.size()));
-    EXPECT_NEAR(dense.log_density(prediction(), model_errors()), exact, 1e-9);
+    EXPECT_NEAR(dense.log_density(prediction(), {model_errors()}), exact, 1e-9);
     EXPECT_GT(std::abs(exact - direct(data, data.effect)), 0.1) << "the errors make no difference here";
     data.effect = 0;
-    EXPECT_NEAR(Likelihood(data).log_density(prediction(), model_errors()), direct(data, 0, model_errors()), 1e-9);
+    EXPECT_NEAR(Likelihood(data).log_density(prediction(), {model_errors()}), direct(data, 0, model_errors()), 1e-9);
 }
 
 /// The most probable errors minimise what they and the residuals cost together.
@@ -80,32 +81,43 @@ TEST(Likelihood, FindsErrorsOfTheModel) {
     DataSet moved = data;
     moved.values = prediction() + model_errors() * true_errors;
     moved.noise.deviation *= 1e-3;
-    const Eigen::VectorXd found = Likelihood(moved).effects(prediction(), model_errors());
+    const Eigen::VectorXd found = Likelihood(moved).effects(prediction(), {model_errors()});
     ASSERT_EQ(found.size(), 4);
     EXPECT_LT(found.head(2).cwiseAbs().maxCoeff(), 1e-4);
     EXPECT_LT((found.tail(2) - true_errors).cwiseAbs().maxCoeff(), 1e-3);
-    EXPECT_LT(Likelihood(moved).residual(prediction(), model_errors()).cwiseAbs().maxCoeff(), 1);
+    EXPECT_LT(Likelihood(moved).residual(prediction(), {model_errors()}).cwiseAbs().maxCoeff(), 1);
+}
+
+/// Logarithm of the mean density over the scale of a deviation that is known from some degrees of freedom.
+double averaged(double degrees, const std::function<double(double)>& log_density) {
+    double sum = 0;
+    constexpr int nodes = 200;  // middles of equal parts of the scaled inverse chi-square distribution
+    for (int k = 0; k < nodes; ++k) {
+        const double normal = boost::math::quantile(boost::math::normal(), (k + 0.5) / nodes);
+        sum += std::exp(log_density(1 / std::sqrt(scaled_chi_square(degrees, normal))) + 100);
+    }
+    return std::log(sum / nodes) - 100;
+}
+
+TEST(Likelihood, AveragesOverAnUncertainScaleOfTheModelsErrors) {
+    DataSet data = correlated();
+    const double exact =
+        averaged(3, [&](double scale) { return direct(data, data.effect, Eigen::MatrixXd(scale * model_errors())); });
+    EXPECT_NEAR(Likelihood(data).log_density(prediction(), {model_errors(), 3}), exact, 0.1);
+    EXPECT_GT(std::abs(direct(data, data.effect, model_errors()) - exact), 0.1) << "the uncertainty makes no difference here";
+    data.effect_degrees = 4;
+    const double both = averaged(4, [&](double effect) {
+        return averaged(3,
+                        [&](double scale) { return direct(data, effect * data.effect, Eigen::MatrixXd(scale * model_errors())); });
+    });
+    // Seven pairs stand for all: enough for evidences that count in e-folds.
+    EXPECT_NEAR(Likelihood(data).log_density(prediction(), {model_errors(), 3}), both, 0.5);
 }
 
 TEST(Likelihood, AveragesOverAnUncertainSampleEffect) {
     DataSet data = correlated();
     data.effect_degrees = 4;
-    double sum = 0;
-    constexpr int nodes = 20000;  // middles of equal parts of the scaled inverse chi-square distribution
-    for (int k = 0; k < nodes; ++k) {
-        // Inverse of the normal distribution by bisection.
-        const double part = (k + 0.5) / nodes;
-        double low = -6;
-        double high = 6;
-        for (int halving = 0; halving < 40; ++halving) {
-            const double middle = 0.5 * (low + high);
-            (0.5 * std::erfc(-middle / std::numbers::sqrt2) < part ? low : high) = middle;
-        }
-        if (k % 100 == 50) {
-            sum += std::exp(direct(data, data.effect / std::sqrt(scaled_chi_square(4, low))) + 100);
-        }
-    }
-    const double exact = std::log(sum / (nodes / 100)) - 100;
+    const double exact = averaged(4, [&](double scale) { return direct(data, data.effect * scale); });
     EXPECT_NEAR(Likelihood(data).log_density(prediction()), exact, 0.1);
     EXPECT_GT(std::abs(direct(data, data.effect) - exact), 0.1) << "the uncertainty makes no difference here";
 }

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace coagula::diagnose {
 namespace {
 
@@ -65,7 +67,8 @@ TEST(PlateStrainField, IsTheIntegralOverTheTorque) {
         Complex torque = 0;  // 4 times the integral of G*(gamma_R x) x^3 over x
         for (int ring = 0; ring < radii; ++ring) {
             const double x = (ring + 0.5) / radii;
-            torque += 4.0 / radii * std::pow(x, 3) * simulator().amplitude_response(uniform, x * strains[k])[0];
+            torque += 4.0 / radii * std::pow(x, 3) *
+                      simulator().amplitude_response(uniform, k > 0 ? x * strains[k - 1] : 0, x * strains[k])[0];
         }
         EXPECT_LT(std::abs(between_plates[k] - torque), 0.005) << strains[k];
     }
@@ -118,7 +121,7 @@ TEST(PlateStrainField, RunsOfTheRingsAreTheIntegralToo) {
         const double weight = std::pow((ring + 1.0) / radii, 4) - std::pow(static_cast<double>(ring) / radii, 4);
         const auto run = simulator().exact_amplitude_response(weak(&Settings::critical_strain), local);
         for (std::size_t k = 0; k < strains.size(); ++k) {
-            torque[k] += weight * run[k];
+            torque[k] += weight * run[k].first;
         }
     }
     EXPECT_LT(torque.back().real(), 0.8);
@@ -159,42 +162,24 @@ std::vector<Complex> torque_of_runs(const std::vector<double>& strains, double c
     return moduli;
 }
 
-Diagnosis diagnosis_of(const Experiment& experiment) {
+/// Two structures of 200 particles do not know well enough how a sample yields to tell the field from breaking at once, however
+/// small the errors of the data are.
+TEST(PlateStrainField, IsTiedWithBreakingAtOnceWhereStructuresAreFew) {
+    const std::vector<double> strains = logarithmic_steps(5e-5, 2.4e-3, 16);
+    const Experiment measured = sweep(strains, torque_of_runs(strains, 2e-4), Geometry::plate_plate, 0.03, 3);
     DiagnosisOptions options;
     options.bootstrap = 399;
-    return diagnose(experiment, simulator(), options);
-}
-
-struct Found {
-    Diagnosis precise;  ///< errors of 3 % of the linear modulus
-    Diagnosis usual;    ///< 10 %
-};
-
-const Found& found() {
-    static const Found made = [] {
-        const std::vector<double> strains = logarithmic_steps(5e-5, 2.4e-3, 16);
-        const std::vector<Complex> moduli = torque_of_runs(strains, 2e-4);
-        return Found{diagnosis_of(sweep(strains, moduli, Geometry::plate_plate, 0.03, 3)),
-                     diagnosis_of(sweep(strains, moduli, Geometry::plate_plate, 0.1, 2))};
-    }();
-    return made;
-}
-
-TEST(PlateStrainField, IsToldFromBreakingAtOnceByPreciseData) {
-    EXPECT_TRUE(found().precise.detected);
-    EXPECT_EQ(found().precise.causes.front().name, "plate-strain-field");
-    EXPECT_EQ(found().precise.credible_set, std::vector<std::string>{"plate-strain-field"});
-    EXPECT_GT(found().precise.gain.rmse_ratio, 2);
-    const EstimatedParameter& critical = found().precise.causes.front().parameters[1];
-    EXPECT_GT(critical.value, 2e-4 / 1.5);  // the strength of one structure differs from that of others
-    EXPECT_LT(critical.value, 2e-4 * 1.5);
-}
-
-TEST(PlateStrainField, IsTiedWithBreakingAtOnceByUsualData) {
-    EXPECT_TRUE(found().usual.detected);
-    EXPECT_EQ(found().usual.verdict, Verdict::tied);
-    EXPECT_EQ(found().usual.credible_set, (std::vector<std::string>{"plate-strain-field", "bond-strength"}));
-    EXPECT_GT(found().usual.gain.rmse_ratio, 2);
+    const Diagnosis found = diagnose(measured, simulator(), options);
+    EXPECT_TRUE(found.detected);
+    EXPECT_EQ(found.verdict, Verdict::tied);
+    EXPECT_EQ((std::set<std::string>{found.credible_set.begin(), found.credible_set.end()}),
+              (std::set<std::string>{"plate-strain-field", "bond-strength"}));
+    EXPECT_GT(found.gain.rmse_ratio, 2);
+    const auto field = std::find_if(found.causes.begin(), found.causes.end(),
+                                    [](const Cause& cause) { return cause.name == "plate-strain-field"; });
+    ASSERT_NE(field, found.causes.end());
+    EXPECT_LT(field->parameters[1].low, 2e-4);
+    EXPECT_GT(field->parameters[1].high, 2e-4);
 }
 
 }  // namespace

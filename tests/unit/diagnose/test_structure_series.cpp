@@ -209,7 +209,7 @@ TEST(StructureError, IsWhatMeanCurvesOfYieldDifferBy) {
     double parts = 0;
     for (double load = 1.5; load <= 8; load += 0.5) {
         const auto at = [&](Simulator& simulator) {
-            return simulator.amplitude_response(settings, load * settings.critical_strain);
+            return simulator.amplitude_response(settings, (load - 0.5) * settings.critical_strain, load * settings.critical_strain);
         };
         std::complex<double> variance = 0;  // of G' and of G''
         for (Simulator* simulator : {&one, &other}) {
@@ -233,7 +233,7 @@ TEST(StructureError, OfYieldIsNotKnownOfOneStructure) {
     SimulationCache cache;
     Settings settings;
     settings.critical_strain = 1e-4;
-    EXPECT_EQ(Simulator({structure(64, 1)}, {"one"}, cache).amplitude_response(settings, 2e-4).size(), 1);
+    EXPECT_EQ(Simulator({structure(64, 1)}, {"one"}, cache).amplitude_response(settings, 0, 2e-4).size(), 1);
 }
 
 /// A level of the modulus within what so few structures leave open is no discrepancy where the stiffness is known, one far beyond
@@ -247,7 +247,7 @@ TEST(StructureError, OfTheLevelCountsWhereTheStiffnessIsKnown) {
     Simulator simulator(structures, {"1", "2", "3", "4"}, cache);
     Settings truth;
     truth.normal_stiffness = 40;
-    const auto is_found = [&](double departure) {
+    const auto is_found = [&](double departure, double sample_effect) {
         const double modulus = simulator.exact_linear_modulus(truth) * std::exp(departure * simulator.structure_error());
         Measurement table;
         table.label = "sweep";
@@ -265,13 +265,15 @@ TEST(StructureError, OfTheLevelCountsWhereTheStiffnessIsKnown) {
         DiagnosisOptions options;
         options.bootstrap = 199;
         options.causes = {"shear-stiffness"};
-        options.noise.sample = 0.01;
+        options.noise.sample = sample_effect;
         return diagnose(experiment, simulator, options).detected;
     };
     ASSERT_GT(simulator.structure_error(), 0.05) << "the known stiffness itself is hardly better known";
-    EXPECT_FALSE(is_found(-1));
-    EXPECT_FALSE(is_found(1));
-    EXPECT_TRUE(is_found(6));
+    for (const double sample_effect : {0.01, 0.0}) {
+        EXPECT_FALSE(is_found(-1, sample_effect));
+        EXPECT_FALSE(is_found(1, sample_effect));
+        EXPECT_TRUE(is_found(6, sample_effect)) << sample_effect;
+    }
 }
 
 }  // namespace

@@ -23,6 +23,12 @@ namespace coagula::diagnose {
 /// Results by what was computed; a caller may keep it between diagnoses.
 using SimulationCache = std::map<std::string, std::vector<double>>;
 
+/// What bonds that break leave of the modulus G at one amplitude.
+struct Yielded {
+    std::complex<double> first;  ///< G* / G in the first oscillation
+    double settled = 0;          ///< G' / G in the next one, in which nothing breaks any more
+};
+
 /// Moduli of some structures of one sample (mean over them and over the orientations).
 ///
 /// `linear_modulus` and `amplitude_response` run the solvers at nodes of a grid and interpolate between them (cubic, in
@@ -62,12 +68,15 @@ public:
     /// bear a load; 0 where their volume fractions do not differ by a hundredth.
     double volume_fraction_exponent(const Settings& settings, bool exact = false);
 
-    /// G* / G at amplitude gamma_0 of a sweep that goes up in amplitude, for finite bond strength, by the explicit rheometer.
+    /// G* / G in the first oscillation of this amplitude for finite bond strength, where `before` was the largest before on the
+    /// sample (0: none), by the explicit rheometer. A bond breaks once: at an amplitude not above that, nothing is lost any more.
     /// The mean over the structures comes first, then that mean moved by each of the independent standard errors that so few
     /// structures leave; these are missing where there is one structure or nothing breaks.
-    Eigen::VectorXcd amplitude_response(const Settings& settings, double amplitude);
-    /// The same for all amplitudes of one sweep in their order.
-    std::vector<std::complex<double>> exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes);
+    Eigen::VectorXcd amplitude_response(const Settings& settings, double before, double amplitude);
+    /// Degrees of freedom from which the common scale of these errors is known.
+    double yield_degrees() const;
+    /// The same, of the mean alone, by a run at these amplitudes, each larger than the one before.
+    std::vector<Yielded> exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes);
 
     /// G' / G at amplitude gamma_0 of Hertz contacts that are loaded at rest, G that of linear springs: equilibrium under the
     /// strain by secant stiffnesses, which depends on strain over overlap at rest alone. What unloading loses by micro-slip is not
@@ -103,10 +112,9 @@ private:
     double node(double ratio, double bending, double tolerance, std::size_t group);
     double scatter_between_structures();
     double exponent_node(double ratio, double bending, double tolerance);
-    std::vector<std::complex<double>> sweep(std::size_t structure, const Settings& settings, double strength,
-                                            const std::vector<double>& amplitudes);
-    std::vector<std::complex<double>> structure_response(std::size_t structure, const Settings& settings,
-                                                         const std::vector<double>& amplitudes);
+    std::vector<Yielded> sweep(std::size_t structure, const Settings& settings, double strength,
+                               const std::vector<double>& amplitudes);
+    std::vector<Yielded> structure_response(std::size_t structure, const Settings& settings, const std::vector<double>& amplitudes);
     const Eigen::MatrixXcd& strength_curves();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
@@ -134,7 +142,7 @@ private:
     std::map<std::size_t, PoreCurve> pore_curves_;
     std::vector<double> shells_about_places_;  ///< once it has been asked for
     std::vector<double> secant_curve_;         ///< likewise
-    Eigen::MatrixXcd strength_curves_;         ///< likewise: the mean and its errors x loads
+    Eigen::MatrixXcd strength_curves_;         ///< likewise
 };
 
 }  // namespace coagula::diagnose

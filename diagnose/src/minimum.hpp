@@ -1,0 +1,13 @@
+#pragma once
+
+#include "restricted_likelihood.hpp"
+
+#include <functional>
+
+namespace coagula::diagnose {
+
+/// Place of a minimum of a smooth function of three deviations by a quasi-Newton method from `start` on.
+/// @param units of about the steps that count.
+Deviations minimum_of(const std::function<double(const Deviations&)>& function, const Deviations& start, const Deviations& units);
+
+}  // namespace coagula::diagnose
