@@ -148,7 +148,7 @@ std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& set
     options.steps_per_oscillation = steps_per_oscillation;
     options.damping = damping;
     options.compare_with_rest = false;
-    options.course.assign(2, 1e-3);
+    options.course.assign(2, std::min(1e-3, 0.1 * settings.critical_strain / amplitudes.back()));
     for (const double amplitude : amplitudes) {
         options.course.insert(options.course.end(), 2, amplitude / amplitudes.back());
     }
@@ -176,13 +176,13 @@ std::vector<Yielded> Simulator::structure_response(std::size_t structure, const 
     what.insert(what.end(), amplitudes.begin(), amplitudes.end());
     const std::string key = key_of("yield " + names_[structure], what);
     auto found = cache_.find(key);
-    if (found == cache_.end()) {
+    if (found == cache_.end() || found->second.size() != 3 * amplitudes.size()) {
         progress_.update("simulating", 0.0, "amplitude sweep with breaking bonds");
         std::vector<double> values;
         for (const Yielded& response : sweep(structure, settings, strength, amplitudes)) {
             values.insert(values.end(), {response.first.real(), response.first.imag(), response.settled});
         }
-        found = cache_.emplace(key, std::move(values)).first;
+        found = cache_.insert_or_assign(key, std::move(values)).first;
     }
     std::vector<Yielded> responses;
     for (std::size_t entry = 0; entry < amplitudes.size(); ++entry) {
@@ -192,11 +192,41 @@ std::vector<Yielded> Simulator::structure_response(std::size_t structure, const 
     return responses;
 }
 
+/// How one structure yields at the nodes of the strength curve but rest.
+std::vector<Yielded> Simulator::nodes_of_strength_curve(std::size_t structure) {
+    Settings settings;
+    settings.critical_strain = 1e-4;
+    std::vector<double> amplitudes;
+    for (const double load : loads) {
+        amplitudes.push_back(load * settings.critical_strain);
+    }
+    amplitudes.erase(amplitudes.begin());  // at rest
+    return structure_response(structure, settings, amplitudes);
+}
+
+/// Largest strain up to which no bond of a structure breaks, as far as the strength curve tells.
+double Simulator::unbroken_strain(std::size_t structure, const Settings& settings) {
+    const Settings base;
+    double load = 0;
+    if (settings.stiffness_ratio == base.stiffness_ratio && settings.bond_tolerance == base.bond_tolerance) {
+        const std::vector<Yielded> nodes = nodes_of_strength_curve(structure);
+        for (std::size_t node = 0; node < nodes.size() && nodes[node].first.imag() == 0; ++node) {
+            load = loads.at(node + 1);
+        }
+    }
+    return load * settings.critical_strain;
+}
+
 std::vector<Yielded> Simulator::exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes) {
     std::vector<Yielded> mean(amplitudes.size());
     const double share = 1 / static_cast<double>(structures_.size());
     for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const std::vector<Yielded> one = structure_response(k, settings, amplitudes);
+        const auto breaking = std::upper_bound(amplitudes.begin(), amplitudes.end(), unbroken_strain(k, settings));
+        std::vector<Yielded> one(static_cast<std::size_t>(breaking - amplitudes.begin()), {1, 1});
+        if (breaking != amplitudes.end()) {
+            const std::vector<Yielded> run = structure_response(k, settings, {breaking, amplitudes.end()});
+            one.insert(one.end(), run.begin(), run.end());
+        }
         for (std::size_t entry = 0; entry < mean.size(); ++entry) {
             mean[entry].first += share * one[entry].first;
             mean[entry].settled += share * one[entry].settled;
@@ -211,17 +241,10 @@ const Eigen::MatrixXcd& Simulator::strength_curves() {
     if (strength_curves_.size() > 0) {
         return strength_curves_;
     }
-    Settings settings;
-    settings.critical_strain = 1e-4;
-    std::vector<double> amplitudes;
-    for (const double load : loads) {
-        amplitudes.push_back(load * settings.critical_strain);
-    }
-    amplitudes.erase(amplitudes.begin());  // at rest
-    const auto nodes = static_cast<Index>(amplitudes.size());
+    constexpr auto nodes = static_cast<Index>(loads.size()) - 1;
     Eigen::MatrixXcd curves(nodes, static_cast<Index>(structures_.size()));
     for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const std::vector<Yielded> one = structure_response(k, settings, amplitudes);
+        const std::vector<Yielded> one = nodes_of_strength_curve(k);
         for (Index node = 0; node < nodes; ++node) {
             const Yielded& response = one[static_cast<std::size_t>(node)];
             curves(node, static_cast<Index>(k)) = Complex(response.settled, response.first.imag());

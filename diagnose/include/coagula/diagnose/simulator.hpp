@@ -115,6 +115,8 @@ private:
     std::vector<Yielded> sweep(std::size_t structure, const Settings& settings, double strength,
                                const std::vector<double>& amplitudes);
     std::vector<Yielded> structure_response(std::size_t structure, const Settings& settings, const std::vector<double>& amplitudes);
+    std::vector<Yielded> nodes_of_strength_curve(std::size_t structure);
+    double unbroken_strain(std::size_t structure, const Settings& settings);
     const Eigen::MatrixXcd& strength_curves();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
