@@ -1,6 +1,7 @@
 #include "hypothesis.hpp"
 
 #include "departures.hpp"
+#include "quiet_log.hpp"
 #include "weights.hpp"
 
 #include <ceres/ceres.h>
@@ -153,6 +154,7 @@ private:
 /// not all parameters are determined.
 std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
                                                         const EvaluateNode& evaluate) const {
+    const QuietLog quiet;
     const Index axes = place.size();
     ceres::Problem problem;
     problem.AddResidualBlock(new ProjectedResiduals(*this, hypothesis, axes, evaluate), nullptr, place.data());
@@ -170,6 +172,7 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
 
     ceres::Covariance::Options dense;
     dense.algorithm_type = ceres::DENSE_SVD;
+    dense.null_space_rank = -1;  // what is not determined has no variance then
     dense.min_reciprocal_condition_number = 1e-13;
     ceres::Covariance covariance(dense);
     Eigen::MatrixXd matrix(axes, axes);
@@ -178,7 +181,7 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
         return std::nullopt;
     }
     const Eigen::LLT<Eigen::MatrixXd> root(matrix);
-    if (root.info() != Eigen::Success) {
+    if (root.info() != Eigen::Success || root.rcond() < 1e-13) {
         return std::nullopt;
     }
     return diagnose::grid_about(place, root.matrixL(), evaluate);

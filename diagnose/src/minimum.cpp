@@ -1,5 +1,7 @@
 #include "minimum.hpp"
 
+#include "quiet_log.hpp"
+
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
 #include <ceres/numeric_diff_first_order_function.h>
@@ -27,6 +29,7 @@ struct Cost {
 }  // namespace
 
 Deviations minimum_of(const std::function<double(const Deviations&)>& function, const Deviations& start, const Deviations& units) {
+    const QuietLog quiet;
     const ceres::GradientProblem problem(
         new ceres::NumericDiffFirstOrderFunction<Cost, ceres::CENTRAL, 3>(new Cost{function, units}));
     ceres::GradientProblemSolver::Options options;
