@@ -1,5 +1,7 @@
 #include "departures.hpp"
 
+#include <Eigen/QR>
+
 #include <cmath>
 
 namespace coagula::diagnose {
@@ -48,6 +50,11 @@ Departures departures_of(const Inference& inference, const Fit& fit) {
         all.jacobian(rows - 1, 0) = 1 / inference.stiffness_error();
     }
     return all;
+}
+
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(columns);
+    return factor.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), factor.rank());
 }
 
 }  // namespace coagula::diagnose

@@ -16,4 +16,7 @@ struct Departures {
 };
 Departures departures_of(const Inference& inference, const Fit& fit);
 
+/// Orthonormal columns that span those given.
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
+
 }  // namespace coagula::diagnose

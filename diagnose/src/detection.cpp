@@ -2,8 +2,6 @@
 
 #include "weights.hpp"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -210,9 +208,7 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
     const DataSet& data = inference.likelihood().data();
     const Departures departures = departures_of(inference, fit);
     const Index rows = departures.residual.size();
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(departures.jacobian);
-    const Eigen::MatrixXd basis = decomposition.householderQ() * Eigen::MatrixXd::Identity(rows, decomposition.rank());
-
+    const Eigen::MatrixXd basis = orthonormal_basis(departures.jacobian);
     const double degrees = inference.forward().yield_errors(fit.settings).degrees;
     const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
     Detection result;

@@ -6,7 +6,6 @@
 
 #include <ceres/ceres.h>
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -112,10 +111,11 @@ Settings Inference::settings_at(const std::vector<MechanismParameter>& parameter
 /// best for these: what those move is projected out (Kaufman, BIT 15 (1975) 49).
 class Inference::ProjectedResiduals : public ceres::CostFunction {
 public:
-    ProjectedResiduals(const Inference& inference, const Hypothesis& hypothesis, Index axes, const EvaluateNode& evaluate)
+    ProjectedResiduals(const Inference& inference, const Hypothesis& hypothesis, const Eigen::VectorXd& start,
+                       const EvaluateNode& evaluate)
         : inference_(inference), hypothesis_(hypothesis), evaluate_(evaluate) {
-        mutable_parameter_block_sizes()->push_back(static_cast<int>(axes));
-        set_num_residuals(static_cast<int>(departures_at(Eigen::VectorXd::Constant(axes, 0.5)).residual.size()));
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(start.size()));
+        set_num_residuals(static_cast<int>(departures_at(start).residual.size()));
     }
 
     bool Evaluate(const double* const* places, double* residuals, double** jacobians) const override {
@@ -124,8 +124,7 @@ public:
         const Eigen::MatrixXd& all = departures.jacobian;
         Eigen::MatrixXd others(all.rows(), all.cols() - axes);
         others << all.col(0), all.rightCols(all.cols() - 1 - axes);
-        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(others);
-        const Eigen::MatrixXd basis = factor.householderQ() * Eigen::MatrixXd::Identity(all.rows(), factor.rank());
+        const Eigen::MatrixXd basis = orthonormal_basis(others);
         const auto project = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
             return columns - basis * (basis.transpose() * columns);
         };
@@ -157,7 +156,7 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
     const QuietLog quiet;
     const Index axes = place.size();
     ceres::Problem problem;
-    problem.AddResidualBlock(new ProjectedResiduals(*this, hypothesis, axes, evaluate), nullptr, place.data());
+    problem.AddResidualBlock(new ProjectedResiduals(*this, hypothesis, place, evaluate), nullptr, place.data());
     for (int axis = 0; axis < static_cast<int>(axes); ++axis) {
         place[axis] = std::clamp(place[axis], edge, 1 - edge);
         problem.SetParameterLowerBound(place.data(), axis, edge);

@@ -75,7 +75,7 @@ public:
     Eigen::VectorXcd amplitude_response(const Settings& settings, double before, double amplitude);
     /// Degrees of freedom from which the common scale of these errors is known.
     double yield_degrees() const;
-    /// The same, of the mean alone, by a run at these amplitudes, each larger than the one before.
+    /// The mean over the structures alone, by a run at these amplitudes, each larger than the one before.
     std::vector<Yielded> exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes);
 
     /// G' / G at amplitude gamma_0 of Hertz contacts that are loaded at rest, G that of linear springs: equilibrium under the
