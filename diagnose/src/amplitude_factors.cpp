@@ -13,6 +13,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr int panels = 3;  ///< of the plates, see plate_rings
+
 /// Bonds as weak as the weaker of the two causes makes them.
 Settings with_weakest_bonds(Settings settings) {
     settings.critical_strain = std::min(settings.critical_strain, settings.rim_critical_strain);
@@ -33,7 +35,7 @@ Eigen::VectorXcd Forward::breaking_response(const Settings& settings, double bef
     if (!strain_varies(settings)) {
         return simulator_.amplitude_response(settings, before, strain);
     }
-    static const std::vector<Ring> rings = plate_rings(3);
+    static const std::vector<Ring> rings = plate_rings(panels);
     const auto in = [&](const Ring& ring) -> Eigen::VectorXcd {
         return ring.weight * simulator_.amplitude_response(settings, ring.radius * before, ring.radius * strain);
     };
@@ -44,21 +46,20 @@ Eigen::VectorXcd Forward::breaking_response(const Settings& settings, double bef
     return mean;
 }
 
-/// How the material yields in runs at these amplitudes, of which every ring sees its share.
+/// How the material yields in a run at these amplitudes, each larger than the one before; between plates every ring by its share.
 std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, const std::vector<double>& amplitudes) const {
     if (!strain_varies(settings)) {
         return simulator_.exact_amplitude_response(settings, amplitudes);
     }
+    const YieldCurves curve = simulator_.exact_yield_curve(settings, amplitudes);
     std::vector<Yielded> mean(amplitudes.size());
-    for (const Ring& ring : plate_rings(1)) {
-        std::vector<double> local = amplitudes;
-        for (double& amplitude : local) {
-            amplitude *= ring.radius;
-        }
-        const std::vector<Yielded> responses = simulator_.exact_amplitude_response(settings, local);
+    for (const Ring& ring : plate_rings(panels)) {
+        double before = 0;
         for (std::size_t k = 0; k < mean.size(); ++k) {
-            mean[k].first += ring.weight * responses[k].first;
-            mean[k].settled += ring.weight * responses[k].settled;
+            const double load = ring.radius * amplitudes[k] / settings.critical_strain;
+            mean[k].first += ring.weight * curve.response(before, load)[0];
+            mean[k].settled += ring.weight * curve.response(load, load)[0].real();
+            before = load;
         }
     }
     return mean;

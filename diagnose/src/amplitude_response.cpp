@@ -11,19 +11,17 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 namespace coagula::diagnose {
 
 namespace {
 
 using Complex = std::complex<double>;
-using std::numbers::pi;
 
-/// Nodes of the strength curve: amplitude over critical strain, from rest on. Past the last one nothing changes any more.
-constexpr std::array<double, 16> loads{0, 1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 16, 32};
+/// Nodes of the strength curve: amplitude over critical strain.
+const std::vector<double> loads{1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 16, 32};
 /// Nodes on either side over which the scatter of the curves is pooled.
 constexpr Index pooled_neighbours = 4;
 /// Of freedom, for the scale of the errors, that one more structure adds: what breaks at once is so uneven that a curve counts for
@@ -32,9 +30,6 @@ constexpr double degrees_of_structure = 3;
 /// Of the explicit runs: what a run of this rate loses without breaking is taken off, but it must not shake bonds apart.
 constexpr int steps_per_oscillation = 6000;
 constexpr double damping = 0.7;
-/// Phases of the first quarter of an oscillation over which its mean is taken.
-constexpr int phases = 4;
-
 ContactModel breaking_model(double ratio, double strength) {
     ContactModel model;
     model.normal_stiffness = unit_stiffness;
@@ -97,42 +92,18 @@ Eigen::MatrixXcd mean_and_errors(const Eigen::MatrixXcd& curves) {
     return all;
 }
 
-/// What is lost in each oscillation of a curve summed up, times the square of the load: proportional to an energy.
-/// @param curves rows x loads from rest on: settled storage and, imaginary, what is lost on the way from the load before.
-void sum_up_losses(Eigen::MatrixXcd& curves) {
-    for (Index node = 1; node < curves.cols(); ++node) {
-        const double load = loads[static_cast<std::size_t>(node)];
-        const Eigen::VectorXd sum = curves.col(node - 1).imag() + load * load * curves.col(node).imag();
-        curves.col(node).imag() = sum;
+/// Amplitudes with those nodes of the strength curve between whose neighbours no amplitude lies, as far as the largest.
+std::vector<double> with_nodes_between(std::vector<double> amplitudes, double critical_strain) {
+    const std::vector<double> given = amplitudes;
+    for (std::size_t node = 0; node + 1 < loads.size() && loads[node] * critical_strain < given.back(); ++node) {
+        const double below = node > 0 ? loads[node - 1] : 0.0;
+        const auto next = std::upper_bound(given.begin(), given.end(), below * critical_strain);
+        if (*next >= loads[node + 1] * critical_strain) {
+            amplitudes.push_back(loads[node] * critical_strain);
+        }
     }
-}
-
-/// Between the nodes of the curves.
-Eigen::VectorXcd at_load(const Eigen::MatrixXcd& curves, double load) {
-    const auto above = std::upper_bound(loads.begin(), loads.end(), load);
-    if (above == loads.end()) {
-        return curves.rightCols(1);
-    }
-    const Index next = above - loads.begin();
-    const double share = (load - *(above - 1)) / (*above - *(above - 1));
-    return (1 - share) * curves.col(next - 1) + share * curves.col(next);
-}
-
-/// G* / G in the first oscillation at load `to`, of a network that had settled at load `from`, which is less. Half of the bonds
-/// that break do so while the strain grows in its first quarter and half of them, those on the other side, in its third; until then
-/// they carry load. What they lose is the energy between the two loads, however large the step.
-Eigen::VectorXcd in_first_oscillation(const Eigen::MatrixXcd& curves, double from, double to) {
-    const Eigen::VectorXcd before = at_load(curves, from);
-    const Eigen::VectorXcd after = at_load(curves, to);
-    Eigen::VectorXd growing = Eigen::VectorXd::Zero(after.size());
-    for (int k = 0; k < phases; ++k) {
-        const double sine = std::sin((k + 0.5) * pi / (2 * phases));
-        growing += 2 * sine * sine / phases * at_load(curves, std::max(from, sine * to)).real();
-    }
-    Eigen::VectorXcd response(after.size());
-    response.real() = 0.5 * after.real() + 0.25 * before.real() + 0.25 * growing;
-    response.imag() = (after.imag() - before.imag()) / (to * to);
-    return response;
+    std::sort(amplitudes.begin(), amplitudes.end());
+    return amplitudes;
 }
 
 }  // namespace
@@ -192,7 +163,7 @@ std::vector<Yielded> Simulator::structure_response(std::size_t structure, const 
     return responses;
 }
 
-/// How one structure yields at the nodes of the strength curve but rest.
+/// How one structure yields at the nodes of the strength curve.
 std::vector<Yielded> Simulator::nodes_of_strength_curve(std::size_t structure) {
     Settings settings;
     settings.critical_strain = 1e-4;
@@ -200,7 +171,6 @@ std::vector<Yielded> Simulator::nodes_of_strength_curve(std::size_t structure) {
     for (const double load : loads) {
         amplitudes.push_back(load * settings.critical_strain);
     }
-    amplitudes.erase(amplitudes.begin());  // at rest
     return structure_response(structure, settings, amplitudes);
 }
 
@@ -211,7 +181,7 @@ double Simulator::unbroken_strain(std::size_t structure, const Settings& setting
     if (settings.stiffness_ratio == base.stiffness_ratio && settings.bond_tolerance == base.bond_tolerance) {
         const std::vector<Yielded> nodes = nodes_of_strength_curve(structure);
         for (std::size_t node = 0; node < nodes.size() && nodes[node].first.imag() == 0; ++node) {
-            load = loads.at(node + 1);
+            load = loads.at(node);
         }
     }
     return load * settings.critical_strain;
@@ -235,26 +205,31 @@ std::vector<Yielded> Simulator::exact_amplitude_response(const Settings& setting
     return mean;
 }
 
-/// Mean and errors x loads from rest on: storage modulus once nothing breaks any more, and what was lost up to there, in units of
-/// an oscillation at the critical strain.
-const Eigen::MatrixXcd& Simulator::strength_curves() {
-    if (strength_curves_.size() > 0) {
-        return strength_curves_;
+YieldCurves Simulator::exact_yield_curve(const Settings& settings, const std::vector<double>& amplitudes) {
+    const std::vector<double> nodes = with_nodes_between(amplitudes, settings.critical_strain);
+    const std::vector<Yielded> run = exact_amplitude_response(settings, nodes);
+    std::vector<double> run_loads;
+    Eigen::RowVectorXcd settled(static_cast<Index>(nodes.size()));
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+        run_loads.push_back(nodes[node] / settings.critical_strain);
+        settled[static_cast<Index>(node)] = Complex(run[node].settled, run[node].first.imag());
     }
-    constexpr auto nodes = static_cast<Index>(loads.size()) - 1;
-    Eigen::MatrixXcd curves(nodes, static_cast<Index>(structures_.size()));
+    return {run_loads, settled};
+}
+
+/// Mean and errors of the structures.
+const YieldCurves& Simulator::strength_curves() {
+    if (strength_curves_) {
+        return *strength_curves_;
+    }
+    Eigen::MatrixXcd curves(static_cast<Index>(loads.size()), static_cast<Index>(structures_.size()));
     for (std::size_t k = 0; k < structures_.size(); ++k) {
         const std::vector<Yielded> one = nodes_of_strength_curve(k);
-        for (Index node = 0; node < nodes; ++node) {
-            const Yielded& response = one[static_cast<std::size_t>(node)];
-            curves(node, static_cast<Index>(k)) = Complex(response.settled, response.first.imag());
+        for (std::size_t node = 0; node < loads.size(); ++node) {
+            curves(static_cast<Index>(node), static_cast<Index>(k)) = Complex(one[node].settled, one[node].first.imag());
         }
     }
-    const Eigen::MatrixXcd all = mean_and_errors(curves);
-    strength_curves_.setOnes(all.cols(), nodes + 1);
-    strength_curves_.rightCols(nodes) = all.transpose();
-    sum_up_losses(strength_curves_);
-    return strength_curves_;
+    return strength_curves_.emplace(loads, mean_and_errors(curves).transpose());
 }
 
 double Simulator::yield_degrees() const {
@@ -265,11 +240,7 @@ Eigen::VectorXcd Simulator::amplitude_response(const Settings& settings, double 
     if (!std::isfinite(settings.critical_strain)) {
         return Eigen::VectorXcd::Ones(1);
     }
-    const Eigen::MatrixXcd& curves = strength_curves();
-    if (amplitude > before) {
-        return in_first_oscillation(curves, before / settings.critical_strain, amplitude / settings.critical_strain);
-    }
-    return at_load(curves, before / settings.critical_strain).real().cast<Complex>();
+    return strength_curves().response(before / settings.critical_strain, amplitude / settings.critical_strain);
 }
 
 }  // namespace coagula::diagnose

@@ -26,6 +26,14 @@ constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit
 /// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
 constexpr double enough_nodes = 2.5;
 
+Eigen::VectorXd rounded(const std::vector<MechanismParameter>& parameters, Eigen::VectorXd place) {
+    for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
+        double& along = place[static_cast<Eigen::Index>(axis)];
+        along = parameters[axis].rounded(along);
+    }
+    return place;
+}
+
 }  // namespace
 
 std::string name_of(const Hypothesis& hypothesis) {
@@ -233,9 +241,11 @@ Fit Inference::fit(const Hypothesis& hypothesis) const {
     const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
     const PosteriorGrid grid = grid_for(hypothesis);
     const std::size_t best = grid.best();
-    const Node& node = grid.nodes[best];
+    const Eigen::VectorXd place = rounded(parameters, grid.places[best]);
+    const Settings settings = settings_at(parameters, place);
+    const Node node = place == grid.places[best] ? grid.nodes[best] : best_stiffness(settings, grid.nodes[best].log_stiffness);
     Fit fit{.hypothesis = hypothesis,
-            .settings = settings_at(parameters, grid.places[best]),
+            .settings = settings,
             .parameters = {},
             .log_density = node.log_density,
             .log_evidence = grid.log_evidence(),
@@ -243,8 +253,9 @@ Fit Inference::fit(const Hypothesis& hypothesis) const {
     fit.settings.normal_stiffness = std::exp(node.log_stiffness);
     for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
         const auto row = static_cast<Index>(axis);
-        fit.parameters.push_back({fit.settings.*parameters[axis].value, parameters[axis].at(grid.quantile(row, 0.05)),
-                                  parameters[axis].at(grid.quantile(row, 0.95))});
+        const double value = fit.settings.*parameters[axis].value;
+        fit.parameters.push_back({value, std::min(value, parameters[axis].at(grid.quantile(row, 0.05))),
+                                  std::max(value, parameters[axis].at(grid.quantile(row, 0.95)))});
     }
     const double spread = 1.645 * node.deviation;
     fit.stiffness = {fit.settings.normal_stiffness, fit.settings.normal_stiffness * std::exp(-spread),

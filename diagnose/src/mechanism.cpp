@@ -17,6 +17,10 @@ double MechanismParameter::place_of(double given) const {
     return logarithmic ? std::log(given / low) / std::log(high / low) : (given - low) / (high - low);
 }
 
+double MechanismParameter::rounded(double place) const {
+    return step > 0 ? std::round(place / step) * step : place;
+}
+
 std::span<const Mechanism> catalogue() {
     // One line per mechanism.
     // clang-format off

@@ -29,6 +29,9 @@ Mechanism localisation_error();
 Mechanism polydispersity();
 Mechanism surface_potential();
 
+/// Of the places of critical strains in their priors: 1 % of the strain, less than structures can tell.
+constexpr double strength_step = 1.0 / 920;
+
 inline bool any_measurement(const Experiment& experiment, bool (*holds)(const Measurement&)) {
     return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), holds);
 }

@@ -77,6 +77,21 @@ TEST(BreakingBonds, LoseWhatTheNetworkHadStored) {
     }
 }
 
+/// A run at two amplitudes far from each other has the nodes of the strength curve between them.
+TEST(BreakingBonds, RunsBetweenAmplitudesToo) {
+    Settings settings;
+    settings.critical_strain = 1e-4;
+    const YieldCurves run = simulator().exact_yield_curve(settings, {1e-4, 16e-4});
+    const auto settled = [&](double load) { return run.response(load, load)[0].real(); };
+    for (const double load : {2.3, 5.2, 9.0, 16.0}) {
+        const Complex of_curve = simulator().amplitude_response(settings, 1e-4, load * 1e-4)[0];
+        EXPECT_NEAR(settled(load), simulator().amplitude_response(settings, load * 1e-4, 0)[0].real(), 0.02) << load;
+        EXPECT_NEAR(run.response(1, load)[0].imag(), of_curve.imag(), 0.01) << load;
+    }
+    const double between_two = settled(1) + 4.2 / 15 * (settled(16) - settled(1));
+    EXPECT_GT(std::abs(settled(5.2) - between_two), 0.05) << "or two amplitudes would do";
+}
+
 /// A table of which every row was measured in the second oscillation at its strain.
 TEST(BreakingBonds, AreGoneInTheSecondOscillation) {
     Measurement table{

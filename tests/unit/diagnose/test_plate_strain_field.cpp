@@ -107,8 +107,8 @@ TEST(PlateStrainField, TheSmallerStrengthCounts) {
     EXPECT_DOUBLE_EQ(contact_model_of(both, 0.25e-6).normal_strength, 2e-4 * 50 * 0.25e-6);
 }
 
-/// The runs of three rings against those of ten others.
-TEST(PlateStrainField, RunsOfTheRingsAreTheIntegralToo) {
+/// The run at the strains at the rim, from which the rings follow, against runs of ten other rings.
+TEST(PlateStrainField, TheRunAtTheRimServesTheRings) {
     const std::vector<double> strains = logarithmic_steps(1e-4, 1e-3, 8);
     const auto between_plates = response(strains, weak(&Settings::rim_critical_strain), Geometry::plate_plate, true);
     std::vector<Complex> torque(strains.size());
@@ -127,6 +127,19 @@ TEST(PlateStrainField, RunsOfTheRingsAreTheIntegralToo) {
     EXPECT_LT(torque.back().real(), 0.8);
     for (std::size_t k = 0; k < strains.size(); ++k) {
         EXPECT_LT(std::abs(between_plates[k] - torque[k]), 0.02) << strains[k] << between_plates[k] << torque[k];
+    }
+}
+
+/// What was simulated for one fit serves those whose strength is the same to half a hundredth.
+TEST(PlateStrainField, StrengthsEndAtHundredths) {
+    for (const char* name : {"plate-strain-field", "bond-strength"}) {
+        const MechanismParameter& strain = find_mechanism(name)->parameters[0];
+        const auto rounded = [&](double value) { return strain.at(strain.rounded(strain.place_of(value))); };
+        const double middle = rounded(2e-4);
+        EXPECT_NEAR(middle / 2e-4, 1, 0.0051);
+        EXPECT_EQ(rounded(1.0045 * middle), middle);
+        EXPECT_EQ(rounded(0.9955 * middle), middle);
+        EXPECT_NEAR(rounded(1.0055 * middle) / middle, 1.01, 1e-4);
     }
 }
 
@@ -180,6 +193,9 @@ TEST(PlateStrainField, IsTiedWithBreakingAtOnceWhereStructuresAreFew) {
     ASSERT_NE(field, found.causes.end());
     EXPECT_LT(field->parameters[1].low, 2e-4);
     EXPECT_GT(field->parameters[1].high, 2e-4);
+    const MechanismParameter& strain = find_mechanism("plate-strain-field")->parameters[0];
+    const double place = strain.place_of(field->settings.rim_critical_strain);
+    EXPECT_NEAR(place, strain.rounded(place), 1e-9) << "strengths end at hundredths";
 }
 
 }  // namespace

@@ -18,10 +18,14 @@ struct MechanismParameter {
     double high;
     bool logarithmic;
     double Settings::*value;
+    /// The place of a fit is a multiple of this, where it is not 0: runs that take long serve other fits again.
+    double step = 0;
 
     /// The value at a place 0 .. 1 of the prior, and back.
     double at(double place) const;
     double place_of(double value) const;
+    /// The place where a fit ends that is best at this one.
+    double rounded(double place) const;
 };
 
 /// One cause.

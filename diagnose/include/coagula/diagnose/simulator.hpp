@@ -5,6 +5,7 @@
 #include <coagula/common/progress.hpp>
 #include <coagula/diagnose/settings.hpp>
 #include <coagula/diagnose/structure_source.hpp>
+#include <coagula/diagnose/yield_curves.hpp>
 
 #include <Eigen/Core>
 
@@ -14,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +79,9 @@ public:
     double yield_degrees() const;
     /// The mean over the structures alone, by a run at these amplitudes, each larger than the one before.
     std::vector<Yielded> exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes);
+    /// The same run as a curve, for parts of the sample whose strains lie between. Where amplitudes are far from each other, there
+    /// are more nodes.
+    YieldCurves exact_yield_curve(const Settings& settings, const std::vector<double>& amplitudes);
 
     /// G' / G at amplitude gamma_0 of Hertz contacts that are loaded at rest, G that of linear springs: equilibrium under the
     /// strain by secant stiffnesses, which depends on strain over overlap at rest alone. What unloading loses by micro-slip is not
@@ -117,7 +122,7 @@ private:
     std::vector<Yielded> structure_response(std::size_t structure, const Settings& settings, const std::vector<double>& amplitudes);
     std::vector<Yielded> nodes_of_strength_curve(std::size_t structure);
     double unbroken_strain(std::size_t structure, const Settings& settings);
-    const Eigen::MatrixXcd& strength_curves();
+    const YieldCurves& strength_curves();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
     double prestressed_modulus(std::size_t structure, const Settings& settings);
@@ -142,9 +147,9 @@ private:
     OtherStages stages_;
     std::map<StructureChange, std::unique_ptr<Simulator>> remade_;
     std::map<std::size_t, PoreCurve> pore_curves_;
-    std::vector<double> shells_about_places_;  ///< once it has been asked for
-    std::vector<double> secant_curve_;         ///< likewise
-    Eigen::MatrixXcd strength_curves_;         ///< likewise
+    std::vector<double> shells_about_places_;     ///< once it has been asked for
+    std::vector<double> secant_curve_;            ///< likewise
+    std::optional<YieldCurves> strength_curves_;  ///< likewise
 };
 
 }  // namespace coagula::diagnose

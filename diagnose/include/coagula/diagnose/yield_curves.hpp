@@ -1,0 +1,29 @@
+// How a network whose bonds break yields under growing strain, between the loads at which it was run.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Some curves over the same loads, a load being a strain over the critical one: storage modulus over that at rest once nothing
+/// breaks any more, and the energy that was lost up to there.
+class YieldCurves {
+public:
+    /// @param loads growing, the first above 0. @param settled curves x loads: storage modulus over that at rest in the second
+    /// oscillation at a load, and as imaginary part what the first one lost over it.
+    YieldCurves(std::vector<double> loads, const Eigen::MatrixXcd& settled);
+
+    /// G* / G of every curve in the first oscillation at load `to` of a network that had seen load `from`. Where that is larger,
+    /// nothing breaks and nothing is lost any more. Past the last load nothing changes any more.
+    Eigen::VectorXcd response(double from, double to) const;
+
+private:
+    Eigen::VectorXcd at(double load) const;
+
+    std::vector<double> loads_;  ///< from rest on
+    Eigen::MatrixXcd curves_;    ///< curves x loads: settled storage and, imaginary, energy lost so far
+};
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,61 @@
+#include <coagula/diagnose/yield_curves.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace coagula::diagnose {
+
+using Eigen::Index;
+
+namespace {
+
+/// Phases of the first quarter of an oscillation over which its mean is taken.
+constexpr int phases = 4;
+
+}  // namespace
+
+YieldCurves::YieldCurves(std::vector<double> loads, const Eigen::MatrixXcd& settled) : loads_(std::move(loads)) {
+    loads_.insert(loads_.begin(), 0.0);
+    curves_.setOnes(settled.rows(), settled.cols() + 1);
+    curves_.rightCols(settled.cols()) = settled;
+    for (Index node = 1; node < curves_.cols(); ++node) {
+        // In units of an oscillation at the critical strain.
+        const double load = loads_[static_cast<std::size_t>(node)];
+        const Eigen::VectorXd sum = curves_.col(node - 1).imag() + load * load * curves_.col(node).imag();
+        curves_.col(node).imag() = sum;
+    }
+}
+
+/// Between the nodes.
+Eigen::VectorXcd YieldCurves::at(double load) const {
+    const auto above = std::upper_bound(loads_.begin(), loads_.end(), load);
+    if (above == loads_.end()) {
+        return curves_.rightCols(1);
+    }
+    const Index next = above - loads_.begin();
+    const double share = (load - *(above - 1)) / (*above - *(above - 1));
+    return (1 - share) * curves_.col(next - 1) + share * curves_.col(next);
+}
+
+/// Half of the bonds that break do so while the strain grows in its first quarter and half of them, those on the other side, in its
+/// third; until then they carry load. What they lose is the energy between the two loads, however large the step.
+Eigen::VectorXcd YieldCurves::response(double from, double to) const {
+    const Eigen::VectorXcd before = at(from);
+    if (to <= from) {
+        return before.real().cast<std::complex<double>>();
+    }
+    const Eigen::VectorXcd after = at(to);
+    Eigen::VectorXd growing = Eigen::VectorXd::Zero(after.size());
+    for (int k = 0; k < phases; ++k) {
+        const double sine = std::sin((k + 0.5) * std::numbers::pi / (2 * phases));
+        growing += 2 * sine * sine / phases * at(std::max(from, sine * to)).real();
+    }
+    Eigen::VectorXcd response(after.size());
+    response.real() = 0.5 * after.real() + 0.25 * before.real() + 0.25 * growing;
+    response.imag() = (after.imag() - before.imag()) / (to * to);
+    return response;
+}
+
+}  // namespace coagula::diagnose
