@@ -68,7 +68,10 @@ Json measurement_json(const CheckedMeasurement& checked) {
                              {"angular_frequency", harmonics->angular_frequency},
                              {"storage_modulus", harmonics->storage_modulus},
                              {"loss_modulus", harmonics->loss_modulus},
-                             {"third_harmonic", harmonics->third_harmonic}};
+                             {"third_harmonic", harmonics->third_harmonic},
+                             {"third_harmonic_storage", harmonics->third_harmonic_storage},
+                             {"third_harmonic_loss", harmonics->third_harmonic_loss},
+                             {"error", harmonics->error}};
     }
     return json;
 }

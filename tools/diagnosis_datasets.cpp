@@ -76,14 +76,18 @@ void add_predictions(Results& results, const std::vector<PredictedRow>& rows) {
             io::vector(path + name, over(rows, [value](const PredictedRow& row) { return row.*value; }), unit, meaning));
     };
     results.push_back(io::integers(path + "table", counted(rows, [](const auto& row) { return row.measurement + 1; }),
-                                   "number of the table, from 1; one entry per modulus"));
+                                   "number of the table, from 1; one entry per number that was compared"));
     results.push_back(
         io::integers(path + "row", counted(rows, [](const auto& row) { return row.row + 1; }), "row of the table, from 1"));
+    results.push_back(
+        io::text(path + "observable", lines(rows, [](const auto& row) { return row.observable; }),
+                 "what each entry is, one per line: a modulus, or a part of the third harmonic over the first, a number of "
+                 "neighbours or a share of the void space"));
     results.push_back(io::integers(path + "loss", counted(rows, [](const auto& row) { return row.observable == "loss_modulus"; }),
-                                   "1 for a loss modulus, 0 for a storage modulus"));
+                                   "1 for a loss modulus, 0 for all else"));
     results.push_back(io::integers(path + "held_out", counted(rows, [](const auto& row) { return row.held_out; }),
                                    "1 for a row held out for the gain"));
-    numbers("measured", &PredictedRow::measured, "Pa", "modulus as measured");
+    numbers("measured", &PredictedRow::measured, "Pa", "as measured; what is no modulus has no unit");
     numbers("standard_deviation", &PredictedRow::standard_deviation, "Pa", "of the error of the row");
     numbers("base", &PredictedRow::base, "Pa", "prediction of the base model, without the effect of the sample");
     numbers("extended", &PredictedRow::extended, "Pa", "prediction with the best cause, without the effect of the sample");

@@ -118,7 +118,7 @@ std::string not_shown(const Diagnosis& found, std::size_t table) {
     std::size_t measured = 0;
     bool base = false;
     for (const diagnose::PredictedRow& row : found.rows) {
-        measured += row.measurement == table && row.measured <= 0 ? 1 : 0;
+        measured += row.measurement == table && row.observable.ends_with("_modulus") && row.measured <= 0 ? 1 : 0;
         base = base || (row.measurement == table && row.observable == "loss_modulus" && row.base <= 0);
     }
     return (base ? " The base model has no loss: its G'' = 0 is not on a logarithmic axis." : "") +
@@ -143,15 +143,17 @@ std::string data_and_models(const DiagnosisRecord& record, Gnuplot& gnuplot) {
         }
         const auto effect = std::find_if(found.base_effects.begin(), found.base_effects.end(),
                                          [&](const auto& one) { return one.sample == table.sample; });
-        html += figure(draw_table(gnuplot, table, k, found, cause == nullptr ? "" : cause->name),
-                       "Circles G', triangles G'', open: held out for the gain; bars: one standard deviation. Dashed: base model" +
-                           std::string(cause == nullptr ? "" : "; solid: with " + escaped(cause->name)) +
-                           (effect == found.base_effects.end() || effect->effect == 0
-                                ? "."
-                                : ". The models include the effect of the sample, " + signed_percent(effect->effect) +
-                                      " for the base model.") +
-                           " Right: what remains, the effect of the sample taken out; grey: two standard deviations." +
-                           not_shown(found, k));
+        for (const Picture& picture : draw_table(gnuplot, table, k, found, cause == nullptr ? "" : cause->name)) {
+            html += figure(picture.svg,
+                           picture.meaning + "; open: held out for the gain; bars: one standard deviation. Dashed: base model" +
+                               std::string(cause == nullptr ? "" : "; solid: with " + escaped(cause->name)) +
+                               (effect == found.base_effects.end() || effect->effect == 0
+                                    ? "."
+                                    : ". Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +
+                                          " for the base model.") +
+                               " Right: what remains, the effect of the sample taken out; grey: two standard deviations." +
+                               (picture.moduli ? not_shown(found, k) : std::string{}));
+        }
     }
     return html;
 }
@@ -208,7 +210,7 @@ std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
         return html + paragraph("There are too few rows to hold some out.");
     }
     html += paragraph(std::to_string(gain.held_out) +
-                      " moduli were held out before the models were fitted to the rest. Their "
+                      " numbers were held out before the models were fitted to the rest. Their "
                       "prediction misses by " +
                       percent(gain.rmse_base) + " of |G*| (rms) with the base model, by " + percent(gain.rmse_flexible) +
                       " with a smooth correction of it, and by <b>" + percent(gain.rmse_extended) +
@@ -217,8 +219,10 @@ std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
                       printed(gain.elpd_low) + " to " + printed(gain.elpd_high) + ").");
     for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
         const diagnose::Measurement& table = record.experiment.measurements[k];
-        html += figure(draw_gain(gnuplot, table, k, record.diagnosis),
-                       escaped(table.label) + ", rows held out: error of the prediction by models that have not seen them.");
+        for (const Picture& picture : draw_gain(gnuplot, table, k, record.diagnosis)) {
+            html += figure(picture.svg,
+                           escaped(table.label) + ", rows held out: error of the prediction by models that have not seen them.");
+        }
     }
     return html;
 }

@@ -1,5 +1,7 @@
 #include "diagnosis_plots.hpp"
 
+#include "plot_parts.hpp"
+
 #include <coagula/common/checks.hpp>
 
 #include <algorithm>
@@ -17,56 +19,20 @@ using diagnose::Measurement;
 using diagnose::PredictedRow;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double log_from = 8;  ///< ratio of largest to smallest value from which on an axis is logarithmic
-
-/// Colours of Okabe and Ito (2008).
-const std::string palette = R"(
-base = "#d55e00"; extended = "#0072b2"; smooth = "#8a8f94"; ink = "#1d2329"
-set border 3 linecolor rgb "#5b6770" linewidth 0.8
-set tics nomirror out textcolor rgb ink scale 0.6
-set grid linecolor rgb "#e4e8eb" linetype 1 linewidth 0.7
-)";
-
-/// One axis of a picture: what it shows, in which unit, over which range.
-struct PlotAxis {
-    std::string label;
-    double unit = 1;
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-
-    void include(double value) {
-        if (std::isfinite(value)) {
-            low = std::min(low, value / unit);
-            high = std::max(high, value / unit);
-        }
-    }
-    bool logarithmic() const { return low > 0 && high > log_from * low; }
-    /// Commands for axis "x" or "y", a little wider than the values.
-    std::string commands(const std::string& name) const {
-        double from = low;
-        double to = high;
-        if (logarithmic()) {
-            const double margin = std::pow(high / low, 0.04);
-            from = low / margin;
-            to = high * margin;
-        } else {
-            const double margin = high > low ? 0.06 * (high - low) : std::max(0.1 * std::abs(high), 1e-12);
-            from = low - margin;
-            to = high + margin;
-        }
-        return (logarithmic() ? "set logscale " : "unset logscale ") + name + "\nset " + name + "range [" + to_text(from) + ":" +
-               to_text(to) + "]\nset format " + name + " \"%g\"\n";
-    }
-};
 
 PlotAxis axis_named(const std::string& name) {
     static const std::map<std::string, std::pair<std::string, double>> known{
         {"strain", {"strain amplitude {/Symbol g}_0 [%]", 0.01}},
         {"angular_frequency", {"angular frequency ω [rad/s]", 1.0}},
         {"time", {"time t [s]", 1.0}},
-        {"gap", {"gap h [mm]", 1e-3}}};
+        {"gap", {"gap h [mm]", 1e-3}},
+        {"heterogeneity", {"degree of heterogeneity a", 1.0}},
+        {"coordination", {"coordination number C", 1.0}},
+        {"volume_fraction", {"volume fraction {/Symbol f}", 1.0}},
+        {"pore_radius", {"distance from the nearest particle surface [µm]", 1e-6}}};
     const auto found = known.find(name);
-    return found == known.end() ? PlotAxis{.label = "row"} : PlotAxis{.label = found->second.first, .unit = found->second.second};
+    return found == known.end() ? PlotAxis{.label = name.empty() ? "shell of neighbours" : "row"}
+                                : PlotAxis{.label = found->second.first, .unit = found->second.second};
 }
 
 /// The unit that a modulus is shown in.
@@ -85,8 +51,35 @@ double factor_of(const std::vector<diagnose::SampleEffect>& effects, const std::
     return found == effects.end() ? 1.0 : 1 + found->effect;
 }
 
-/// The rows of one table of moduli with the place of each along the axis.
+/// Observables that share a picture: an elastic and a viscous one, or one alone.
+struct Pair {
+    std::array<std::string, 2> observables;
+    std::array<std::string, 2> symbols;
+    std::string label;    ///< of the axis; empty: moduli with their unit
+    std::string size;     ///< what errors of predictions are measured against
+    std::string meaning;  ///< of the points
+    double unit = 1;
+};
+
+const std::array<Pair, 4> pairs{{
+    {{"storage_modulus", "loss_modulus"}, {"G'", "G''"}, "", "|G*|", "Circles G', triangles G''"},
+    {{"third_harmonic_storage", "third_harmonic_loss"},
+     {"G_3'", "G_3''"},
+     "third over first harmonic [%]",
+     "|G*|",
+     "Third harmonic of the stress over the first; circles: elastic part, triangles: viscous part",
+     0.01},
+    {{"neighbours", ""}, {"neighbours", ""}, "neighbours in a shell", "one neighbour", "Circles: neighbours in shells of distance"},
+    {{"exclusion_probability", ""},
+     {"pores", ""},
+     "share of the void space farther away",
+     "the void space",
+     "Circles: share of the void space farther from any surface"},
+}};
+
+/// The rows of one table that belong to a pair, with the place of each along the axis.
 struct Shown {
+    const Pair& pair;
     PlotAxis x;
     std::vector<const PredictedRow*> rows = {};
     std::vector<double> places = {};  ///< in the unit of the axis
@@ -94,14 +87,17 @@ struct Shown {
     double extended_factor = 1;
 };
 
-Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& diagnosis) {
+Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& diagnosis, const Pair& pair) {
     const diagnose::Column* column = diagnose::axis_of(table);
-    Shown shown{.x = axis_named(column == nullptr ? "" : column->name)};
-    shown.base_factor = factor_of(diagnosis.base_effects, table.sample);
-    shown.extended_factor = factor_of(diagnosis.extended_effects, table.sample);
+    Shown shown{.pair = pair, .x = axis_named(column == nullptr ? "" : column->name)};
+    if (pair.label.empty()) {
+        shown.base_factor = factor_of(diagnosis.base_effects, table.sample);
+        shown.extended_factor = factor_of(diagnosis.extended_effects, table.sample);
+    }
     for (const PredictedRow& row : diagnosis.rows) {
-        if (row.measurement == number) {
-            const double place = shown.x.label == "row" ? static_cast<double>(row.row + 1) : column->values[row.row];
+        const bool belongs = std::find(pair.observables.begin(), pair.observables.end(), row.observable) != pair.observables.end();
+        if (row.measurement == number && belongs) {
+            const double place = column == nullptr ? static_cast<double>(row.row + 1) : column->values[row.row];
             shown.x.include(place);
             shown.rows.push_back(&row);
             shown.places.push_back(place / shown.x.unit);
@@ -110,28 +106,18 @@ Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& dia
     return shown;
 }
 
-std::string number_text(double value) {
-    return std::isfinite(value) ? to_text(value) : "NaN";
-}
-
-std::string line_of(const std::vector<double>& values) {
-    std::string line;
-    for (const double value : values) {
-        line += (line.empty() ? "" : " ") + number_text(value);
-    }
-    return line + "\n";
-}
-
 /// Data blocks $storage_0, $storage_1 (held out), $loss_0, $loss_1: place, measured, deviation, base, extended, both residuals.
 std::string blocks_of(const Shown& shown, const PlotAxis& y) {
     std::string text;
-    for (const std::string observable : {"storage", "loss"}) {
+    for (const bool loss : {false, true}) {
+        const std::string observable = loss ? "loss" : "storage";
+        const std::string& name = shown.pair.observables.at(loss);
         for (const bool held : {false, true}) {
             text += "$" + observable + (held ? "_1" : "_0") + " << EOD\n";
             std::size_t lines = 0;
             for (std::size_t k = 0; k < shown.rows.size(); ++k) {
                 const PredictedRow& row = *shown.rows[k];
-                if (row.held_out == held && row.observable == observable + "_modulus") {
+                if (row.held_out == held && row.observable == name) {
                     text += line_of({shown.places[k], row.measured / y.unit, row.standard_deviation / y.unit,
                                      shown.base_factor * row.base / y.unit, shown.extended_factor * row.extended / y.unit,
                                      row.base_residual, row.extended_residual});
@@ -144,7 +130,7 @@ std::string blocks_of(const Shown& shown, const PlotAxis& y) {
         text += "$" + observable + " << EOD\n";
         std::size_t lines = 0;
         for (std::size_t k = 0; k < shown.rows.size(); ++k) {
-            if (shown.rows[k]->observable == observable + "_modulus") {
+            if (shown.rows[k]->observable == name) {
                 text += line_of({shown.places[k], shown.base_factor * shown.rows[k]->base / y.unit,
                                  shown.extended_factor * shown.rows[k]->extended / y.unit});
                 ++lines;
@@ -170,13 +156,13 @@ std::string moduli_plot(const Shown& shown, const std::string& cause) {
     plot += R"(, $loss using 1:2 with lines linecolor rgb base linewidth 2 dashtype (9,5) notitle)";
     for (const bool held : {false, true}) {
         for (const bool loss : {false, true}) {
-            if (has(shown, loss ? "loss_modulus" : "storage_modulus", held)) {
+            if (has(shown, shown.pair.observables.at(loss), held)) {
                 const std::string kind = loss ? (held ? "8" : "9") : (held ? "6" : "7");
                 const std::string block = std::string(", $") + (loss ? "loss" : "storage") + (held ? "_1" : "_0");
                 // Bars by themselves: gnuplot leaves a white gap between a point and its bar.
                 plot += block + " using 1:($2-$3):(0):(2*$3) with vectors nohead linecolor rgb ink linewidth 1 notitle" + block +
                         " using 1:2 with points linecolor rgb ink linewidth 1.1 pointsize 0.55 pointtype " + kind + " title \"" +
-                        (loss ? "G''" : "G'") + (held ? " held out" : "") + "\"";
+                        shown.pair.symbols.at(loss) + (held ? " held out" : "") + "\"";
             }
         }
     }
@@ -215,6 +201,19 @@ std::string residual_panel(const Shown& shown, double PredictedRow::*residual, c
            plot + "unset object 1\n";
 }
 
+/// The axis of a pair that is not of moduli.
+PlotAxis share_axis(const Shown& shown) {
+    PlotAxis y{.label = shown.pair.label, .unit = shown.pair.unit};
+    y.include(0);
+    for (const PredictedRow* row : shown.rows) {
+        for (const double value : {row->measured - row->standard_deviation, row->measured + row->standard_deviation, row->base}) {
+            y.include(value);
+        }
+    }
+    y.high += 0.2 * (y.high - y.low);  // for the key
+    return y;
+}
+
 PlotAxis moduli_axis(const Shown& shown) {
     double largest = 0;
     for (const PredictedRow* row : shown.rows) {
@@ -233,16 +232,19 @@ PlotAxis moduli_axis(const Shown& shown) {
 }  // namespace
 
 std::string symbol_of(const std::string& observable) {
-    return observable == "storage_modulus" ? "G'" : observable == "loss_modulus" ? "G''" : "all moduli";
+    if (observable.ends_with("_modulus")) {
+        return pairs[0].symbols.at(observable == "loss_modulus");
+    }
+    return observable.starts_with("third_harmonic")     ? "the third harmonic"
+           : observable == pairs[2].observables.front() ? "the neighbours"
+           : observable == pairs[3].observables.front() ? "the pores"
+                                                        : "all numbers";
 }
 
-std::string draw_table(Gnuplot& gnuplot, const Measurement& table, std::size_t number, const Diagnosis& diagnosis,
-                       const std::string& cause) {
-    const Shown shown = rows_of(table, number, diagnosis);
-    if (shown.rows.empty()) {
-        return {};
-    }
-    const PlotAxis y = moduli_axis(shown);
+namespace {
+
+std::string draw_pair(Gnuplot& gnuplot, const Measurement& table, const Shown& shown, const std::string& cause) {
+    const PlotAxis y = shown.pair.label.empty() ? moduli_axis(shown) : share_axis(shown);
     const bool both = !cause.empty();
     std::string commands =
         palette + blocks_of(shown, y) + "set multiplot\n" + shown.x.commands("x") + y.commands("y") +
@@ -259,16 +261,16 @@ std::string draw_table(Gnuplot& gnuplot, const Measurement& table, std::size_t n
             residual_panel(shown, &PredictedRow::extended_residual, "set tmargin at screen 0.465; set bmargin at screen 0.16",
                            "with " + cause + " [standard deviations]", shown.x.label, residual_plot("7", "extended"));
     }
-    return gnuplot.draw(commands + "unset multiplot\n", 1080, 440, table.label + ": measured moduli against the models");
+    return gnuplot.draw(commands + "unset multiplot\n", 1080, 440, table.label + ": measured data against the models");
 }
 
-std::string draw_gain(Gnuplot& gnuplot, const Measurement& table, std::size_t number, const Diagnosis& diagnosis) {
-    const Shown shown = rows_of(table, number, diagnosis);
-    std::map<const PredictedRow*, double> level;  // |G*| of the row
+std::string draw_gain_of(Gnuplot& gnuplot, const Measurement& table, const Diagnosis& diagnosis, const Shown& shown) {
+    std::map<const PredictedRow*, double> level;  // |G*| of the row, or 1
     for (const PredictedRow* one : shown.rows) {
         for (const PredictedRow* other : shown.rows) {
             level[one] = other->row == one->row ? std::hypot(level[one], other->measured) : level[one];
         }
+        level[one] = shown.pair.label.empty() ? level[one] : 1.0;
     }
     std::map<bool, std::string> blocks;
     PlotAxis x{.label = shown.x.label, .unit = 1};
@@ -279,7 +281,7 @@ std::string draw_gain(Gnuplot& gnuplot, const Measurement& table, std::size_t nu
             const double place = shown.places[static_cast<std::size_t>(found - shown.rows.begin())];
             x.include(place);
             const auto percent = [&](double predicted) { return 100 * (predicted - row->measured) / level[row]; };
-            blocks[row->observable == "loss_modulus"] +=
+            blocks[row->observable == shown.pair.observables[1]] +=
                 line_of({place, percent(held.base), percent(held.extended), percent(held.flexible)});
         }
     }
@@ -287,14 +289,14 @@ std::string draw_gain(Gnuplot& gnuplot, const Measurement& table, std::size_t nu
         return {};
     }
     std::string commands = palette + x.commands("x") + "set xlabel \"" + x.label +
-                           "\"\nset ylabel \"predicted less measured [% of |G*|]\"\n" +
+                           "\"\nset ylabel \"predicted less measured [% of " + shown.pair.size + "]\"\n" +
                            "set key outside top center horizontal Left reverse samplen 2.2 textcolor rgb ink\n";
     std::string plot = "plot 0 with lines linecolor rgb ink linewidth 0.8 notitle";
     for (const auto& [loss, lines] : blocks) {
         const std::string name = loss ? "$loss" : "$storage";
         commands += name + " << EOD\n" + lines + "EOD\n";
         const std::string kind = loss ? "8" : "6";
-        const std::string symbol = loss ? "G''" : "G'";
+        const std::string& symbol = shown.pair.symbols.at(loss);
         plot += ", " + name + " using 1:2 with linespoints linecolor rgb base dashtype (9,5) pointtype " + kind +
                 " pointsize 0.55 title \"" + symbol + " base model\", " + name +
                 " using 1:4 with linespoints linecolor rgb smooth dashtype (2,3) pointtype " + kind + " pointsize 0.4 title \"" +
@@ -305,34 +307,29 @@ std::string draw_gain(Gnuplot& gnuplot, const Measurement& table, std::size_t nu
     return gnuplot.draw(commands + plot + "\n", 1080, 330, table.label + ": errors of the predictions of held-out rows");
 }
 
-std::string draw_detection(Gnuplot& gnuplot, const Diagnosis& diagnosis) {
-    if (diagnosis.bootstrap.empty() || diagnosis.statistics.empty()) {
-        return {};
+}  // namespace
+
+std::vector<Picture> draw_table(Gnuplot& gnuplot, const Measurement& table, std::size_t number, const Diagnosis& diagnosis,
+                                const std::string& cause) {
+    std::vector<Picture> pictures;
+    for (const Pair& pair : pairs) {
+        const Shown shown = rows_of(table, number, diagnosis, pair);
+        if (!shown.rows.empty()) {
+            pictures.push_back({draw_pair(gnuplot, table, shown, cause), pair.meaning, pair.label.empty()});
+        }
     }
-    const double observed = diagnosis.statistics.front().score;
-    const auto [low, high] = std::minmax_element(diagnosis.bootstrap.begin(), diagnosis.bootstrap.end());
-    constexpr int bins = 40;
-    const double width = std::max((*high - *low) / bins, 1e-9);
-    std::vector<int> counts(bins, 0);
-    for (const double score : diagnosis.bootstrap) {
-        ++counts[static_cast<std::size_t>(std::min(bins - 1, static_cast<int>((score - *low) / width)))];
+    return pictures;
+}
+
+std::vector<Picture> draw_gain(Gnuplot& gnuplot, const Measurement& table, std::size_t number, const Diagnosis& diagnosis) {
+    std::vector<Picture> pictures;
+    for (const Pair& pair : pairs) {
+        const std::string svg = draw_gain_of(gnuplot, table, diagnosis, rows_of(table, number, diagnosis, pair));
+        if (!svg.empty()) {
+            pictures.push_back({svg, pair.meaning, pair.label.empty()});
+        }
     }
-    std::string block = "$drawn << EOD\n";
-    for (int bin = 0; bin < bins; ++bin) {
-        block += line_of({*low + (bin + 0.5) * width, static_cast<double>(counts[static_cast<std::size_t>(bin)])});
-    }
-    const double most = *std::max_element(counts.begin(), counts.end());
-    const std::string place = to_text(observed);
-    const double right = std::max(*high, observed) + 4 * width;
-    const bool at_right = observed > *low + 0.6 * (right - *low);
-    return gnuplot.draw(
-        palette + block + "EOD\nset boxwidth " + to_text(0.92 * width) + "\nset style fill solid 1 noborder\nset yrange [0:" +
-            to_text(1.15 * most) + "]\nset xrange [" + to_text(*low - width) + ":" + to_text(right) +
-            "]\nset xlabel \"largest standardised misfit\"\nset ylabel \"drawn data sets\"\nunset key\nset arrow from " + place +
-            ",0 to " + place + ",graph 0.94 nohead linecolor rgb base linewidth 2.4\nset label \"the data\" at " + place +
-            ",graph 0.96 " + (at_right ? "right offset -0.6,0" : "left offset 0.6,0") +
-            " textcolor rgb base\nplot $drawn using 1:2 with boxes linecolor rgb \"#b9c2c9\"\n",
-        1080, 260, "Misfit of the data beside that of data sets drawn from the base model");
+    return pictures;
 }
 
 }  // namespace coagula::tools

@@ -12,6 +12,7 @@
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/extended_model.hpp>
 #include <coagula/diagnose/stated_errors.hpp>
+#include <coagula/diagnose/waveform.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
 
@@ -60,6 +61,7 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     }
     diagnose::state_errors(file.experiment, noise);
     diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
+    diagnose::reduce_waveforms(file.experiment, file.noise.stated_relative, file.noise.stated_phase);
     ExperimentStructures structures = structures_of(file.experiment, progress);
 
     diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");

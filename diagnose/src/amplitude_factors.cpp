@@ -3,6 +3,8 @@
 
 #include "plate_field.hpp"
 
+#include <coagula/diagnose/waveform.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,13 +17,12 @@ using Complex = std::complex<double>;
 
 constexpr int panels = 3;  ///< of the plates, see plate_rings
 
-/// Bonds as weak as the weaker of the two causes makes them.
+}  // namespace
+
 Settings with_weakest_bonds(Settings settings) {
     settings.critical_strain = std::min(settings.critical_strain, settings.rim_critical_strain);
     return settings;
 }
-
-}  // namespace
 
 /// Whether the strain grows along the radius, gamma(r) = gamma_R r / R.
 bool Forward::strain_varies(const Settings& settings) const {
@@ -124,6 +125,16 @@ std::vector<double> Forward::largest_strains_before() const {
             so_far = std::max(so_far, observation.strain);
         }
     }
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Measurement& table = experiment_.measurements[observations_[k].measurement];
+        const auto same =
+            table.kind == MeasurementKind::harmonics ? same_oscillation(experiment_, table, observations_[k].row) : std::nullopt;
+        for (std::size_t other = 0; same && other < observations_.size(); ++other) {
+            if (observations_[other].measurement == same->measurement && observations_[other].row == same->row) {
+                largest[k] = table.oscillations > 1 ? std::max(largest[other], observations_[k].strain) : largest[other];
+            }
+        }
+    }
     return largest;
 }
 
@@ -137,7 +148,7 @@ Eigen::VectorXcd Forward::exact_amplitude_factors(const Settings& settings) cons
     std::map<std::size_t, Run> runs;  // by table
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
-        if (!std::isfinite(observation.strain)) {
+        if (!std::isfinite(observation.strain) || observation.third_harmonic) {
             continue;
         }
         const auto [found, added] = runs.try_emplace(observation.measurement);
@@ -167,7 +178,7 @@ Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) c
     const Index columns = simulator_.amplitude_response(settings, 0, 0).size();
     Eigen::MatrixXcd factors = Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), columns);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
-        if (const double strain = observations_[k].strain; std::isfinite(strain)) {
+        if (const double strain = observations_[k].strain; std::isfinite(strain) && !observations_[k].third_harmonic) {
             factors.row(static_cast<Index>(k)) = breaking_response(settings, largest_strains_before_[k], strain).transpose();
         }
     }

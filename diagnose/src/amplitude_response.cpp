@@ -236,6 +236,13 @@ double Simulator::yield_degrees() const {
     return degrees_of_structure * (static_cast<double>(structures_.size()) - 1);
 }
 
+double Simulator::storage_while_breaking(const Settings& settings, double before, double amplitude, double phase) {
+    if (!std::isfinite(settings.critical_strain)) {
+        return 1;
+    }
+    return strength_curves().storage(before / settings.critical_strain, amplitude / settings.critical_strain, phase);
+}
+
 Eigen::VectorXcd Simulator::amplitude_response(const Settings& settings, double before, double amplitude) {
     if (!std::isfinite(settings.critical_strain)) {
         return Eigen::VectorXcd::Ones(1);

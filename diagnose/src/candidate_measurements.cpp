@@ -65,6 +65,15 @@ public:
     Plan& frequency(std::vector<double> values) { return frequency_ = std::move(values), *this; }
     Plan& gap(std::vector<double> values) { return gap_ = std::move(values), *this; }
 
+    /// An amplitude sweep with the third harmonics of its waveforms.
+    Measurement with_waveforms() const {
+        Measurement made = table(MeasurementKind::amplitude_sweep);
+        const std::vector<double> zeros(strain_.size(), 0.0);
+        made.columns.push_back({"third_harmonic_storage", "1", zeros});
+        made.columns.push_back({"third_harmonic_loss", "1", zeros});
+        return made;
+    }
+
     Measurement table(MeasurementKind kind) const {
         Measurement made;
         made.kind = kind;
@@ -109,9 +118,9 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
     add("a run at constant small strain and frequency over the same time", plan.table(MeasurementKind::time_sweep));
     add("a frequency sweep over four decades at the smallest strain",
         Plan(plan).frequency(frequencies(100)).table(MeasurementKind::frequency_sweep));
-    add("an amplitude sweep on a fresh sample", Plan(plan)
-                                                    .strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows))
-                                                    .table(MeasurementKind::amplitude_sweep));
+    const Plan sweep = Plan(plan).strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows));
+    add("an amplitude sweep on a fresh sample", sweep.table(MeasurementKind::amplitude_sweep));
+    add("an amplitude sweep on a fresh sample with its waveforms", sweep.with_waveforms());
     add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
     if (std::isfinite(gap)) {
         // A drift in time goes with the gap in one direction and against it in the other.

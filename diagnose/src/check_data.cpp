@@ -94,11 +94,11 @@ void Checker::check_columns() {
         for (const std::string_view name : rule_.axes) {
             names += (names.empty() ? "'" : " or '") + std::string(name) + "'";
         }
-        complain("there is no column " + names + ", which a " + kind + " needs as its axis");
+        complain("there is no column " + names + ", which a table of kind " + kind + " needs as its axis");
     }
     for (const std::string_view name : rule_.required) {
         if (find_column(table(), name) == nullptr) {
-            complain("there is no column '" + std::string(name) + "', which a " + kind + " needs");
+            complain("there is no column '" + std::string(name) + "', which a table of kind " + kind + " needs");
         }
     }
     const bool has_frequency = find_column(table(), "angular_frequency") != nullptr || find_column(table(), "frequency") != nullptr;

@@ -99,20 +99,26 @@ const std::vector<double>& Simulator::secant_curve() {
     return secant_curve_;
 }
 
-double Simulator::contact_response(const Settings& settings, double amplitude) {
+double Simulator::contact_secant(const Settings& settings, double strain) {
     if (settings.contact_preload <= 0) {
         return 1;
     }
     const std::vector<double>& curve = secant_curve();
+    const double load = std::abs(strain) / settings.contact_preload;
+    const double secant =
+        std::exp(interpolate_nodes(load_axis, load, [&](int node) { return std::log(curve[static_cast<std::size_t>(node)]); }));
+    return load > load_axis.high ? secant * std::sqrt(load / load_axis.high) : secant;
+}
+
+double Simulator::contact_response(const Settings& settings, double amplitude) {
+    if (settings.contact_preload <= 0) {
+        return 1;
+    }
     // Fundamental of the stress: 4/pi times the integral of G(gamma_0 sin x) sin^2 x over a quarter.
     double sum = 0;
     for (int k = 0; k < phases; ++k) {
         const double sine = std::sin(0.5 * std::numbers::pi * (k + 0.5) / phases);
-        const double load = amplitude * sine / settings.contact_preload;
-        const double secant =
-            std::exp(interpolate_nodes(load_axis, load, [&](int node) { return std::log(curve[static_cast<std::size_t>(node)]); }));
-        const double beyond = load > load_axis.high ? std::sqrt(load / load_axis.high) : 1.0;
-        sum += 2.0 / phases * sine * sine * secant * beyond;
+        sum += 2.0 / phases * sine * sine * contact_secant(settings, amplitude * sine);
     }
     return sum;
 }

@@ -19,7 +19,7 @@ RowNoise noise_of(const std::vector<Observation>& observations, const Eigen::Vec
     RowNoise noise{deviation, {}, Eigen::VectorXd::Zero(deviation.size())};
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& one = observations[k];
-        const bool follows = k > 0 && observations[k - 1].measurement == one.measurement && observations[k - 1].loss == one.loss;
+        const bool follows = k > 0 && same_column(observations[k - 1], one);
         noise.previous.push_back(follows ? static_cast<Index>(k) - 1 : -1);
         if (follows) {
             const auto distance = static_cast<double>(one.row) - static_cast<double>(observations[k - 1].row);
@@ -115,7 +115,7 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         if (found == data.sample_names.end()) {
             data.sample_names.push_back(name);
         }
-        if (is_pore(one)) {
+        if (is_pore(one) || one.third_harmonic) {
             data.sample.back() = -1;
         }
     }

@@ -31,7 +31,7 @@ struct DataSet {
     std::vector<Observation> observations;
     Eigen::VectorXd values;
     RowNoise noise;
-    std::vector<Index> sample;  ///< of each observation, from 0; -1: no effect, a probability has no scale
+    std::vector<Index> sample;  ///< of each observation, from 0; -1: no effect, what is a share has no scale
     std::vector<std::string> sample_names;
     double effect = 0;                                                ///< standard deviation of b
     double effect_degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which it was estimated

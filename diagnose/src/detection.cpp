@@ -41,17 +41,20 @@ void sort_along(const std::vector<Observation>& observations, std::vector<Index>
 
 /// Each observable along each coordinate over all tables.
 void add_smooth(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
-    for (const bool loss : {false, true}) {
+    std::vector<std::string> observables;
+    for (const Observation& observation : observations) {
+        if (std::find(observables.begin(), observables.end(), observable_of(observation)) == observables.end()) {
+            observables.emplace_back(observable_of(observation));
+        }
+    }
+    for (const std::string& observable : observables) {
         for (const Coordinate coordinate : all_coordinates()) {
-            MisfitStatistic one{.observable = loss ? "loss_modulus" : "storage_modulus", .coordinate = coordinate};
+            MisfitStatistic one{.observable = observable, .coordinate = coordinate};
             for (Index row = 0; row < static_cast<Index>(observations.size()); ++row) {
                 const Observation& observation = observations[static_cast<std::size_t>(row)];
-                if (observation.loss == loss && std::isfinite(coordinate_of(observation, coordinate))) {
+                if (observable == observable_of(observation) && std::isfinite(coordinate_of(observation, coordinate))) {
                     one.rows.push_back(row);
                 }
-            }
-            if (!one.rows.empty()) {
-                one.observable = observable_of(observations[static_cast<std::size_t>(one.rows.front())]);
             }
             if (one.rows.size() >= fewest_rows && varies(observations, one.rows, coordinate)) {
                 sort_along(observations, one.rows, coordinate);
@@ -60,6 +63,19 @@ void add_smooth(const std::vector<Observation>& observations, std::vector<Misfit
                 all.push_back(one);
             }
         }
+    }
+}
+
+/// All third harmonics.
+void add_harmonics(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
+    MisfitStatistic one{.observable = "third_harmonic"};
+    for (Index row = 0; row < static_cast<Index>(observations.size()); ++row) {
+        if (observations[static_cast<std::size_t>(row)].third_harmonic) {
+            one.rows.push_back(row);
+        }
+    }
+    if (!one.rows.empty()) {
+        all.push_back(std::move(one));
     }
 }
 
@@ -129,6 +145,7 @@ std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit
     if (std::isfinite(inference.stiffness_departure(0))) {
         all.push_back({.observable = "normal_stiffness", .rows = {rows - 1}});
     }
+    add_harmonics(data.observations, all);
     add_smooth(data.observations, all);
     add_causes(inference, fit, causes, rows, basis, all);
     return all;

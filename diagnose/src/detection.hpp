@@ -34,7 +34,7 @@ double coordinate_of(const Observation& observation, Coordinate coordinate);
 /// One way to fail: a smooth departure of one observable of some tables along a coordinate, the samples, a step towards a
 /// mechanism, or the whole.
 struct MisfitStatistic {
-    std::string observable;  ///< of observable_of(), "sample_effect", "normal_stiffness" or "all"
+    std::string observable;  ///< of observable_of(), "third_harmonic", "sample_effect", "normal_stiffness" or "all"
     Coordinate coordinate = Coordinate::none;
     bool autocorrelation = false;     ///< of neighbours along the coordinate, else the size of smooth components
     std::vector<Index> rows = {};     ///< observations that take part, sorted along the coordinate

@@ -6,6 +6,7 @@
 #include "table_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -21,13 +22,11 @@ using Complex = std::complex<double>;
 
 constexpr Index fewest_centres = 20;
 
+/// Standard deviation of a third harmonic over the first where the table states none.
+constexpr double unstated_error = 5e-3;
+
 /// How long a row takes where the table has no times [s].
 constexpr double row_duration = 10;
-
-double angular_frequency(const Measurement& table, std::size_t row) {
-    const double given = cell(table, "angular_frequency", row);
-    return std::isnan(given) ? 2 * pi * cell(table, "frequency", row) : given;
-}
 
 /// Time since the first row of its table; rows without a time follow each other.
 double time_in(const Measurement& table, std::size_t row) {
@@ -49,7 +48,9 @@ std::vector<double> starts(const Experiment& experiment) {
     for (std::size_t k = 0; k < start.size(); ++k) {
         for (const Measurement& other : experiment.measurements) {
             const Measurement& table = experiment.measurements[k];
-            start[k] += other.sample == table.sample && other.run_order < table.run_order ? duration(other) : 0.0;
+            const bool before = other.sample == table.sample && other.run_order < table.run_order;
+            // Waveforms were recorded during the sweeps.
+            start[k] += before && other.kind != MeasurementKind::harmonics ? duration(other) : 0.0;
         }
     }
     return start;
@@ -83,24 +84,37 @@ std::size_t group_of(const Measurement& table, std::size_t row) {
     return static_cast<std::size_t>(number);
 }
 
-/// A cell of the moduli with all that the row says about it; time since the start of its table.
-Observation observation_at(const Experiment& experiment, std::size_t number, std::size_t row, bool loss) {
+/// What a table may show of a response to shear.
+struct Shown {
+    const char* column;
+    bool loss;
+    bool third_harmonic;
+};
+constexpr std::array<Shown, 4> shown{{{"storage_modulus", false, false},
+                                      {"loss_modulus", true, false},
+                                      {"third_harmonic_storage", false, true},
+                                      {"third_harmonic_loss", true, true}}};
+
+/// A cell of these columns with all that the row says about it; time since the start of its table.
+Observation observation_at(const Experiment& experiment, std::size_t number, std::size_t row, const Shown& what) {
     const Measurement& table = experiment.measurements[number];
-    const Column& column = *find_column(table, loss ? "loss_modulus" : "storage_modulus");
+    const Column& column = *find_column(table, what.column);
     const bool series = table.kind == MeasurementKind::structure_series;
     const double gap = cell(table, "gap", row);
     const double radius = cell(table, "plate_radius", row);
     return {.measurement = number,
             .row = row,
-            .loss = loss,
+            .loss = what.loss,
             .value = column.values[row],
-            .standard_error = column.standard_errors.empty() ? unset : column.standard_errors[row],
+            .standard_error =
+                column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset) : column.standard_errors[row],
             .strain = cell(table, "strain", row),
             .angular_frequency = angular_frequency(table, row),
             .time = series ? unset : time_in(table, row),
             .gap = std::isnan(gap) ? experiment.instrument.gap : gap,
             .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
             .errors = column.errors,
+            .third_harmonic = what.third_harmonic,
             .rough_plates = table.rough_plates,
             .fluid_viscosity = table.fluid_viscosity,
             .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
@@ -142,7 +156,8 @@ std::vector<Observation> neighbours_in(const Experiment& experiment, std::size_t
 
 bool has_moduli(MeasurementKind kind) {
     return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
-           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series ||
+           kind == MeasurementKind::structure_series || kind == MeasurementKind::harmonics;
 }
 
 const char* observable_of(const Observation& observation) {
@@ -152,18 +167,26 @@ const char* observable_of(const Observation& observation) {
     if (is_pore(observation)) {
         return "exclusion_probability";
     }
-    return observation.loss ? "loss_modulus" : "storage_modulus";
+    return std::find_if(shown.begin(), shown.end(),
+                        [&](const Shown& each) {
+                            return each.loss == observation.loss && each.third_harmonic == observation.third_harmonic;
+                        })
+        ->column;
+}
+
+bool same_column(const Observation& one, const Observation& other) {
+    return one.measurement == other.measurement && one.loss == other.loss && one.third_harmonic == other.third_harmonic;
 }
 
 bool is_modulus(const Observation& observation) {
-    return !std::isfinite(observation.distance) && !is_pore(observation);
+    return !std::isfinite(observation.distance) && !is_pore(observation) && !observation.third_harmonic;
 }
 
 double relative_to(const Observation& observation, double level) {
     if (is_modulus(observation)) {
         return level;
     }
-    return is_pore(observation) ? 1.0 : std::max(level, 1.0);
+    return is_pore(observation) || observation.third_harmonic ? 1.0 : std::max(level, 1.0);
 }
 
 std::vector<Observation> observations_of(const Experiment& experiment) {
@@ -182,14 +205,14 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
         if (!has_moduli(table.kind)) {
             continue;
         }
-        for (const bool loss : {false, true}) {
-            const Column* column = find_column(table, loss ? "loss_modulus" : "storage_modulus");
+        for (const Shown& what : shown) {
+            const Column* column = find_column(table, what.column);
             const bool fluid = std::isfinite(table.fluid_viscosity);  // stores nothing, and loses in proportion to the frequency
-            for (std::size_t row = 0; column != nullptr && (loss || !fluid) && row < table.rows(); ++row) {
+            for (std::size_t row = 0; column != nullptr && (what.loss || !fluid) && row < table.rows(); ++row) {
                 if (!std::isfinite(column->values[row]) || (fluid && std::isnan(angular_frequency(table, row)))) {
                     continue;
                 }
-                all.push_back(observation_at(experiment, k, row, loss));
+                all.push_back(observation_at(experiment, k, row, what));
                 all.back().time += start[k];
             }
         }
@@ -200,11 +223,13 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
 Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli) {
     std::map<std::pair<std::size_t, std::size_t>, double> squares;
     for (std::size_t k = 0; k < observations.size(); ++k) {
-        squares[{observations[k].measurement, observations[k].row}] += std::pow(moduli[static_cast<Index>(k)], 2);
+        const double value = observations[k].third_harmonic ? 0.0 : moduli[static_cast<Index>(k)];
+        squares[{observations[k].measurement, observations[k].row}] += value * value;
     }
     Eigen::ArrayXd sizes(moduli.size());
     for (std::size_t k = 0; k < observations.size(); ++k) {
-        sizes[static_cast<Index>(k)] = std::sqrt(squares[{observations[k].measurement, observations[k].row}]);
+        const double square = squares[{observations[k].measurement, observations[k].row}];
+        sizes[static_cast<Index>(k)] = observations[k].third_harmonic ? 1.0 : std::sqrt(square);
     }
     return sizes;
 }
@@ -265,7 +290,8 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
     return linear;
 }
 
-/// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional.
+/// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional; third harmonics over the
+/// first as they are.
 /// The mean over the structures, then with each error in how they yield.
 Eigen::MatrixXcd Forward::material(const Settings& settings, bool exact) const {
     std::map<std::size_t, double> linear = linear_moduli(settings, exact);
@@ -274,6 +300,10 @@ Eigen::MatrixXcd Forward::material(const Settings& settings, bool exact) const {
     const double exponent = settled ? simulator_.volume_fraction_exponent(settings, exact) : 0.0;
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
+        if (observation.third_harmonic) {
+            moduli[static_cast<Index>(k)] = third_harmonic(settings, observation.strain, largest_strains_before_[k]);
+            continue;
+        }
         Complex modulus = linear[observation.structures];
         if (std::isfinite(observation.strain)) {
             modulus *= simulator_.contact_response(settings, observation.strain);
@@ -319,6 +349,10 @@ Eigen::VectorXd Forward::seen(const Settings& settings, const Eigen::VectorXcd& 
         if (is_pore(observation)) {
             predicted[i] = simulator_.exclusion_probability(
                 settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius);
+            continue;
+        }
+        if (observation.third_harmonic) {
+            predicted[i] = observation.loss ? moduli[i].imag() : moduli[i].real();
             continue;
         }
         const Complex material = std::isfinite(observation.fluid_viscosity)

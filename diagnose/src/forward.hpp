@@ -31,6 +31,7 @@ struct Observation {
     double gap;                ///< [m]
     double plate_radius;       ///< [m]
     ErrorLaw errors = {};
+    bool third_harmonic = false;  ///< of the stress over the first, elastic or viscous part, in place of a modulus
     bool rough_plates = false;
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]
     // Of a structure series.
@@ -47,21 +48,27 @@ struct Observation {
 /// Whether tables of this kind hold G' or G''.
 bool has_moduli(MeasurementKind kind);
 
-/// "storage_modulus", "loss_modulus", "neighbours" or "exclusion_probability".
+/// "storage_modulus", "loss_modulus", "third_harmonic_storage", "third_harmonic_loss", "neighbours" or "exclusion_probability".
 const char* observable_of(const Observation& observation);
+
+/// Whether two numbers stand in one column of a table.
+bool same_column(const Observation& one, const Observation& other);
 
 /// A modulus, and not what was counted of the structure.
 bool is_modulus(const Observation& observation);
 
 /// What a difference in this observation is measured against where the expectation is `level`: that, but neighbours against one
-/// neighbour at least and probabilities as they stand.
+/// neighbour at least and probabilities and third harmonics as they stand.
 double relative_to(const Observation& observation, double level);
 
 /// The moduli of all tables of moduli, row by row, cells that were left out skipped; then what tables show of the structure.
 std::vector<Observation> observations_of(const Experiment& experiment);
 
-/// |G*| at each observation of these moduli [Pa].
+/// |G*| at each observation of these moduli [Pa]; 1 at a third harmonic.
 Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli);
+
+/// Bonds as weak as the weaker of the two causes makes them.
+Settings with_weakest_bonds(Settings settings);
 
 /// Predicts observations. Not for several threads at once.
 class Forward {
@@ -92,6 +99,8 @@ private:
     bool strain_varies(const Settings& settings) const;
     Eigen::VectorXcd breaking_response(const Settings& settings, double before, double strain) const;
     std::vector<Yielded> exact_breaking_response(const Settings& settings, const std::vector<double>& amplitudes) const;
+    std::complex<double> third_harmonic(const Settings& settings, double strain, double before) const;
+    double storage_while_breaking(const Settings& settings, double before, double strain, double phase) const;
     std::vector<double> strains_before(std::size_t table) const;
     std::vector<double> growing_strains(std::size_t table) const;
     Eigen::VectorXcd exact_amplitude_factors(const Settings& settings) const;

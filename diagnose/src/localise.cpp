@@ -43,6 +43,9 @@ std::string spoken(const std::string& observable) {
     if (observable == "exclusion_probability") {
         return "the share of the void space in larger pores";
     }
+    if (observable.starts_with("third_harmonic")) {
+        return observable.ends_with("loss") ? "the viscous part of the third harmonic" : "the elastic part of the third harmonic";
+    }
     return observable == "loss_modulus" ? "G''" : "G'";
 }
 
@@ -93,6 +96,7 @@ std::vector<Failure> localise(const std::vector<Observation>& observations, cons
             continue;
         }
         const bool loss = statistic.observable == "loss_modulus";
+        const bool of_base_zero = statistic.observable.starts_with("third_harmonic");
         const std::size_t place = change_point(statistic.rows, residual);
         const double early = mean_departure(observations, prediction, statistic.rows, 0, place, loss, scale);
         const double late = mean_departure(observations, prediction, statistic.rows, place, statistic.rows.size(), loss, scale);
@@ -104,12 +108,13 @@ std::vector<Failure> localise(const std::vector<Observation>& observations, cons
             std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
         failure.from = coordinate_of(observations[static_cast<std::size_t>(statistic.rows[place])], statistic.coordinate);
         failure.departure = late;
-        failure.sentence = spoken(statistic.observable) + (late < early ? " falls below" : " rises above") +
+        failure.sentence = spoken(statistic.observable) + (late < (of_base_zero ? 0.0 : early) ? " falls below" : " rises above") +
                            " the base model along " +
                            (statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis) +
                            ": mean difference " + three_digits(100 * early) + " % before and " + three_digits(100 * late) +
                            " % from " + value_text(failure.from, statistic.coordinate) + " on" +
                            (loss                                              ? " (of the largest predicted modulus)"
+                            : of_base_zero                                    ? " (of the first)"
                             : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
                                                                               : "");
         failures.push_back(std::move(failure));

@@ -12,11 +12,12 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-constexpr std::array<std::pair<MeasurementKind, std::string_view>, 8> kind_names = {
+constexpr std::array<std::pair<MeasurementKind, std::string_view>, 9> kind_names = {
     {{MeasurementKind::frequency_sweep, "frequency-sweep"},
      {MeasurementKind::amplitude_sweep, "amplitude-sweep"},
      {MeasurementKind::time_sweep, "time-sweep"},
      {MeasurementKind::waveform, "waveform"},
+     {MeasurementKind::harmonics, "harmonics"},
      {MeasurementKind::gap_series, "gap-series"},
      {MeasurementKind::structure_series, "structure-series"},
      {MeasurementKind::coordinates, "coordinates"},
@@ -42,6 +43,10 @@ constexpr std::array quantities = {
     Quantity{"storage_modulus", "Pa", -infinite, false, infinite, "G'"},
     Quantity{"loss_modulus", "Pa", -infinite, false, infinite, "G''"},
     Quantity{"complex_modulus", "Pa", 0, false, infinite, "|G*|"},
+    Quantity{"third_harmonic_storage", "1", -infinite, false, infinite,
+             "third harmonic of the stress over the first, elastic: G3'/|G*|"},
+    Quantity{"third_harmonic_loss", "1", -infinite, false, infinite,
+             "third harmonic of the stress over the first, viscous: G3''/|G*|"},
     Quantity{"loss_tangent", "1", -infinite, false, infinite, "G''/G'"},
     Quantity{"phase", "rad", -std::numbers::pi, false, std::numbers::pi, "of the stress before the strain"},
     Quantity{"angular_frequency", "rad/s", 0, true, infinite, "2 pi times the frequency"},
@@ -184,6 +189,8 @@ TableRule rule_of(MeasurementKind kind) {
             return {{"time"}, {"storage_modulus"}, 5, true};
         case MeasurementKind::waveform:
             return {{"time"}, {"strain", "stress"}, 16, true};
+        case MeasurementKind::harmonics:
+            return {{"strain"}, {"third_harmonic_storage"}, 3, true};
         case MeasurementKind::gap_series:
             return {{"gap"}, {"storage_modulus"}, 4, true};
         case MeasurementKind::structure_series:

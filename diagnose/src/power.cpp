@@ -17,13 +17,15 @@ constexpr double most = 0.95;
 
 /// The tables of moduli with a number in every cell that is to be measured.
 Experiment prepared(Experiment experiment) {
-    std::erase_if(experiment.measurements, [](const Measurement& table) { return !has_moduli(table.kind); });
+    std::erase_if(experiment.measurements,
+                  [](const Measurement& table) { return !has_moduli(table.kind) || table.kind == MeasurementKind::harmonics; });
     for (Measurement& table : experiment.measurements) {
         const bool series = table.kind == MeasurementKind::structure_series;
         const bool storage_only =
             (series || find_column(table, "storage_modulus") != nullptr) && find_column(table, "loss_modulus") == nullptr;
-        std::erase_if(table.columns,
-                      [](const Column& column) { return column.name == "storage_modulus" || column.name == "loss_modulus"; });
+        std::erase_if(table.columns, [](const Column& column) {
+            return column.name == "storage_modulus" || column.name == "loss_modulus" || column.name.starts_with("third_harmonic");
+        });
         if (axis_of(table) == nullptr) {
             throw InputError(table.label + ": a planned " + std::string(name_of(table.kind)) + " needs its axis");
         }

@@ -47,7 +47,10 @@ ExpectedErrors errors_of(const DataSet& data) {
     std::vector<double> relative;
     std::vector<double> phase;
     for (Index k = 0; k < data.size(); ++k) {
-        (data.observations[static_cast<std::size_t>(k)].loss ? phase : relative).push_back(share[k]);
+        const Observation& one = data.observations[static_cast<std::size_t>(k)];
+        if (!one.third_harmonic) {
+            (one.loss ? phase : relative).push_back(share[k]);
+        }
     }
     return {median(relative), median(phase), data.effect};
 }
@@ -58,7 +61,12 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
     const Eigen::ArrayXd sizes = complex_moduli(observations, moduli);
     Eigen::ArrayXd deviation(moduli.size());
     for (Index k = 0; k < moduli.size(); ++k) {
-        const double turned = observations[static_cast<std::size_t>(k)].loss ? errors.phase * sizes[k] : 0.0;
+        const Observation& one = observations[static_cast<std::size_t>(k)];
+        if (one.third_harmonic) {
+            deviation[k] = one.standard_error;
+            continue;
+        }
+        const double turned = one.loss ? errors.phase * sizes[k] : 0.0;
         deviation[k] = std::max(std::hypot(errors.relative * moduli[k], turned), 1e-6 * sizes[k]);
     }
     return deviation;
@@ -69,12 +77,13 @@ struct Planned {
     std::vector<std::size_t> table;  ///< of each row; each table has a sample of its own
     Eigen::ArrayXd deviation;        ///< of each row
     double effect;                   ///< standard deviation of that of a sample
+    Eigen::ArrayXd level;            ///< 1 where it changes the row, 0 for third harmonics
 };
 
 /// Logarithm of the density of data, the effects of the samples integrated out (Woodbury's identity).
 double log_density(const Eigen::VectorXd& data, const Eigen::VectorXd& prediction, const Planned& planned) {
     const Eigen::ArrayXd plain = (data - prediction).array() / planned.deviation;
-    const Eigen::ArrayXd direction = prediction.array() / planned.deviation;
+    const Eigen::ArrayXd direction = planned.level * prediction.array() / planned.deviation;
     const double variance = planned.effect * planned.effect;
     std::vector<double> squares(planned.table.back() + 1, 0);
     std::vector<double> products(squares.size(), 0);
@@ -131,8 +140,10 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
     const std::vector<Observation> observations = observations_of(candidate.experiment);
     const Forward forward(candidate.experiment, observations, simulator);
     const std::vector<Eigen::MatrixXd> predictions = predictions_by(causes, forward, observations.size());
-    Planned planned{{}, deviations(observations, predictions.front().rowwise().mean(), errors), errors.sample};
+    Planned planned{{}, deviations(observations, predictions.front().rowwise().mean(), errors), errors.sample, {}};
+    planned.level.setOnes(planned.deviation.size());
     for (const Observation& one : observations) {
+        planned.level[static_cast<Index>(planned.table.size())] = one.third_harmonic ? 0.0 : 1.0;
         planned.table.push_back(one.measurement);
     }
     Proposal proposal{.what = candidate.what};
@@ -143,10 +154,11 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
             std::uint64_t place = 0;
             const auto normal = [&] { return normal_number(seed, step, place++); };
             std::vector<double> level(planned.table.back() + 1);
-            std::generate(level.begin(), level.end(), [&] { return 1 + planned.effect * normal(); });
+            std::generate(level.begin(), level.end(), [&] { return planned.effect * normal(); });
             Eigen::VectorXd data = predictions[cause].col(draw % draws_per_cause);
             for (Index k = 0; k < data.size(); ++k) {
-                data[k] = level[planned.table[static_cast<std::size_t>(k)]] * data[k] + planned.deviation[k] * normal();
+                const double effect = planned.level[k] * level[planned.table[static_cast<std::size_t>(k)]];
+                data[k] = (1 + effect) * data[k] + planned.deviation[k] * normal();
             }
             ++step;
             const std::vector<double> after = judge(data, predictions, weights, planned);

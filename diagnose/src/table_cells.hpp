@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 namespace coagula::diagnose {
@@ -13,6 +14,12 @@ namespace coagula::diagnose {
 inline double cell(const Measurement& table, std::string_view name, std::size_t row) {
     const Column* column = find_column(table, name);
     return column == nullptr ? unset : column->values[row];
+}
+
+/// [rad/s]; NaN where the table has neither that nor a frequency.
+inline double angular_frequency(const Measurement& table, std::size_t row) {
+    const double given = cell(table, "angular_frequency", row);
+    return std::isnan(given) ? 2 * std::numbers::pi * cell(table, "frequency", row) : given;
 }
 
 /// |G*| of a row; NaN unless both moduli are known.

@@ -19,7 +19,8 @@ using Index = Eigen::Index;
 constexpr int harmonics = 5;
 constexpr Index unknowns = 2 * harmonics + 1;
 constexpr double least_range = 0.9 * 2 * std::numbers::pi;  ///< of angular frequency times time
-constexpr double still = 1e-12;  ///< first harmonic over the largest value below which nothing oscillates
+constexpr double least_error = 2e-3;  ///< of a third harmonic over the first: what instruments add to it themselves
+constexpr double still = 1e-12;       ///< first harmonic over the largest value below which nothing oscillates
 
 /// The amplitude of a harmonic from the coefficients of its sine and cosine: that of exp(i k w t) of which the signal is the
 /// imaginary part.
@@ -68,11 +69,16 @@ std::optional<WaveformHarmonics> harmonics_of(const Measurement& waveform) {
         return std::nullopt;
     }
     const Complex modulus = stress / strain;
+    const Complex third = amplitude(coefficients.col(1), 3) / std::abs(stress) * std::pow(std::abs(strain) / strain, 3);
+    const double even = std::hypot(std::abs(amplitude(coefficients.col(1), 2)), std::abs(amplitude(coefficients.col(1), 4)));
     return WaveformHarmonics{.strain = std::abs(strain),
                              .angular_frequency = frequency,
                              .storage_modulus = modulus.real(),
                              .loss_modulus = modulus.imag(),
-                             .third_harmonic = std::abs(amplitude(coefficients.col(1), 3)) / std::abs(stress)};
+                             .third_harmonic = std::abs(third),
+                             .third_harmonic_storage = third.real(),
+                             .third_harmonic_loss = third.imag(),
+                             .error = std::hypot(0.5 * even / std::abs(stress), least_error)};
 }
 
 }  // namespace coagula::diagnose

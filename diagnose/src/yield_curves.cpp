@@ -1,6 +1,7 @@
 #include <coagula/diagnose/yield_curves.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -13,6 +14,9 @@ namespace {
 
 /// Phases of the first quarter of an oscillation over which its mean is taken.
 constexpr int phases = 4;
+/// Part of what bonds had carried that is missing while the strain has the sign at which they broke: where it turns, many of their
+/// contacts close again and push (eight structures of 200 particles: waveforms in steps of 1.5 critical strains).
+constexpr double missing = 0.8;
 
 }  // namespace
 
@@ -39,6 +43,19 @@ Eigen::VectorXcd YieldCurves::at(double load) const {
     return (1 - share) * curves_.col(next - 1) + share * curves_.col(next);
 }
 
+double YieldCurves::storage(double from, double to, double phase) const {
+    const double before = at(from)[0].real();
+    if (to <= from) {
+        return before;
+    }
+    const double after = at(to)[0].real();
+    const double here = at(std::max(from, std::abs(std::sin(phase)) * to))[0].real();
+    const int quarter = static_cast<int>(std::fmod(phase, 2 * std::numbers::pi) / (0.5 * std::numbers::pi));
+    const std::array lost{missing * (before - here), missing * (before - after),
+                          (1 - missing) * (before - after) + missing * (before - here), before - after};
+    return before - lost.at(static_cast<std::size_t>(quarter));
+}
+
 /// Half of the bonds that break do so while the strain grows in its first quarter and half of them, those on the other side, in its
 /// third; until then they carry load. What they lose is the energy between the two loads, however large the step.
 Eigen::VectorXcd YieldCurves::response(double from, double to) const {
@@ -53,7 +70,7 @@ Eigen::VectorXcd YieldCurves::response(double from, double to) const {
         growing += 2 * sine * sine / phases * at(std::max(from, sine * to)).real();
     }
     Eigen::VectorXcd response(after.size());
-    response.real() = 0.5 * after.real() + 0.25 * before.real() + 0.25 * growing;
+    response.real() = 0.5 * (before.real() + after.real()) - 0.5 * missing * (before.real() - growing);
     response.imag() = (after.imag() - before.imag()) / (to * to);
     return response;
 }

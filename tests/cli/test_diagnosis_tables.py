@@ -272,5 +272,66 @@ class SettledSample(Tables):
                        says="none of the causes asked for can show in this experiment")
 
 
+class Waveforms(Tables):
+    """An amplitude sweep with the waveforms of its rows: moduli that say nothing, harmonics that do."""
+
+    STRAINS = [1e-4 * 1.5**k for k in range(8)]
+    SWEEP = ('[structures]\nfiles = ["k.h5"]\n\n[noise]\nstated_relative = 0.02\nstated_sample = 0.01\n\n'
+             '[[measurement]]\nkind = "amplitude-sweep"\nfile = "sweep.csv"\nsample = "A"\nvalues = { angular_frequency = "6 rad/s" }\n\n')
+    WAVEFORM = '[[measurement]]\nkind = "waveform"\nfile = "{}.csv"\nsample = "A"\nvalues = {{ angular_frequency = "6 rad/s" }}\n\n'
+
+    def setUp(self):
+        super().setUp()
+        self.structure("k.h5", 1)
+        number = random.Random(7)
+        self.table("sweep.csv", ("strain [1]", "storage_modulus [Pa]"), [(strain, 2e5 * (1 + number.gauss(0, 0.02))) for strain in self.STRAINS])
+
+    def waveforms(self, third):
+        """Elastic third harmonics of that part of the first."""
+        number = random.Random(8)
+        for k, strain in enumerate(self.STRAINS):
+            phases = [2 * math.pi * (j + 1) / 256 for j in range(256)]
+            self.table(f"wave{k}.csv", ("time [s]", "strain [1]", "stress [Pa]"),
+                       [(phase / 6, strain * math.sin(phase), 2e5 * strain * (math.sin(phase) + third * math.sin(3 * phase) + number.gauss(0, 0.01)))
+                        for phase in phases])
+        return self.SWEEP + "".join(self.WAVEFORM.format(f"wave{k}") for k in range(len(self.STRAINS)))
+
+    def rows(self, found, observable):
+        return [row for row in found["rows"] if row["observable"] == observable]
+
+    def test_straight_waveforms_say_nothing_more(self):
+        found = self.diagnosis(self.waveforms(0))
+        self.assertEqual(found["verdict"], "no-discrepancy")
+        for observable in ("storage_modulus", "third_harmonic_storage", "third_harmonic_loss"):
+            self.assertEqual(len(self.rows(found, observable)), len(self.STRAINS))  # each oscillation once
+        self.assertEqual({row["base"] for row in self.rows(found, "third_harmonic_storage")}, {0})
+        page = (self.folder / "results" / "report.html").read_text()
+        self.assertIn("harmonics, sample", page)
+        self.assertIn("Third harmonic of the stress over the first", page)
+
+    def test_a_third_harmonic_is_found_and_described(self):
+        found = self.diagnosis(self.waveforms(-0.08))
+        self.assertTrue(found["detected"])
+        self.assertTrue(any("the elastic part of the third harmonic falls below the base model" in one["sentence"] for one in found["where"]))
+        for row in self.rows(found, "third_harmonic_storage"):
+            self.assertAlmostEqual(row["measured"], -0.08, delta=0.005)
+            self.assertAlmostEqual(row["standard_deviation"], math.hypot(0.002, 0.25 * 0.08), delta=0.001)
+
+    def test_a_table_of_harmonics_is_read(self):
+        self.table("harmonics.csv", ("strain [1]", "third_harmonic_storage [1]", "third_harmonic_loss [1]"),
+                   [(strain, 0.001 * (-1)**k, 0.0) for k, strain in enumerate(self.STRAINS)])
+        found = self.diagnosis(self.SWEEP + '[[measurement]]\nkind = "harmonics"\nfile = "harmonics.csv"\nsample = "A"\n')
+        self.assertEqual(found["verdict"], "no-discrepancy")
+        self.assertEqual([row["measured"] for row in self.rows(found, "third_harmonic_storage")], [0.001 * (-1)**k for k in range(8)])
+
+    def test_refusals(self):
+        text = self.waveforms(0)
+        short = (self.folder / "wave3.csv").read_text().splitlines()[:120]
+        self.write("wave3.csv", "\n".join(short) + "\n")
+        self.refuse(text, "wave3.csv", "the waveform has no harmonics", "nine tenths of a period")
+        self.write("experiment.toml", text.replace(', sample = "A"', "").replace('"waveform"', '"harmonics"'))
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says=["wave0.csv", "third_harmonic_storage"])
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -95,7 +95,7 @@ class Report(ProgramTest):
         page = self.page()
         self.assertGreaterEqual(page.elements.count("svg"), 3)  # data, test, gain
         for words in ("Loss & <gel>", "the cause is contact-loss", "sweep.csv", "n/a", "named", "packing.h5", "coagula diagnose experiment.toml -o results",
-                      found["where"][0]["sentence"], f"{found['gain']['held_out']} moduli were held out"):
+                      found["where"][0]["sentence"], f"{found['gain']['held_out']} numbers were held out"):
             self.assertIn(words, page.text)
         best = found["causes"][0]
         self.assertIn("probability " + f"{100 * best['posterior']:.3g} %", page.text)

@@ -41,6 +41,8 @@ constexpr std::array headings = {
     Entry{"complex shear modulus", "complex_modulus"},
     Entry{"komplexer schubmodul", "complex_modulus"},
     Entry{"|g*|", "complex_modulus"},
+    Entry{"third harmonic storage", "third_harmonic_storage"},
+    Entry{"third harmonic loss", "third_harmonic_loss"},
     Entry{"loss factor", "loss_tangent"},
     Entry{"verlustfaktor", "loss_tangent"},
     Entry{"tan(delta)", "loss_tangent"},

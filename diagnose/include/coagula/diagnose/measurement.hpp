@@ -19,6 +19,7 @@ enum class MeasurementKind {
     amplitude_sweep,   ///< moduli against strain amplitude at one frequency
     time_sweep,        ///< moduli against time at one strain amplitude and frequency
     waveform,          ///< strain and stress against time within an oscillation
+    harmonics,         ///< third harmonic of the stress against strain amplitude
     gap_series,        ///< moduli against the gap between the plates
     structure_series,  ///< moduli against what characterises the structure: heterogeneity, coordination, volume fraction
     coordinates,       ///< centres of particles

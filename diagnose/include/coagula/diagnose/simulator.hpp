@@ -88,6 +88,13 @@ public:
     /// in it.
     double contact_response(const Settings& settings, double amplitude);
 
+    /// The same of stress over strain at a momentary strain.
+    double contact_secant(const Settings& settings, double strain);
+
+    /// G' / G of bonds that break while the strain amplitude x sin(phase) [rad] runs for the first time, `before` being the largest
+    /// before.
+    double storage_while_breaking(const Settings& settings, double before, double amplitude, double phase);
+
     /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; springpots beside
     /// the springs are in both.
     std::complex<double> drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);

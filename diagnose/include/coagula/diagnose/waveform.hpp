@@ -3,6 +3,7 @@
 
 #include <coagula/diagnose/measurement.hpp>
 
+#include <cstddef>
 #include <optional>
 
 namespace coagula::diagnose {
@@ -14,6 +15,11 @@ struct WaveformHarmonics {
     double loss_modulus;
     double
         third_harmonic;  ///< I3 / I1: amplitude of the third harmonic of the stress over the first, 0 where the response is linear
+    double third_harmonic_storage;  ///< its elastic and viscous parts G3' / |G*| and G3'' / |G*|, the stress for the strain gamma_0
+    double third_harmonic_loss;     ///< sin(w t) being gamma_0 sum of Gn' sin(n w t) + Gn'' cos(n w t) (Ewoldt, Hosoi and
+                                    ///< McKinley 2008, J. Rheol. 52, 1427)
+    double error;  ///< standard deviation of each of the two: that of the parts of the even harmonics, which are 0 where both
+                   ///< directions of shear are alike
 };
 
 /// Harmonics 0 to 5 of strain and stress against time by least squares (Wilhelm 2002, Macromol. Mater. Eng. 287, 83), so that
@@ -22,5 +28,20 @@ struct WaveformHarmonics {
 /// oscillate.
 /// @param waveform table of kind waveform that has passed check_data.
 std::optional<WaveformHarmonics> harmonics_of(const Measurement& waveform);
+
+/// Puts tables of harmonics in the place of the waveforms of an experiment, one for each sample, run and way to measure, with a row
+/// per waveform: `strain`, `angular_frequency`, `third_harmonic_storage` and `third_harmonic_loss` with standard errors, of which a
+/// quarter of the third harmonic is what the simulation does not know about it. Moduli are
+/// in it only where no sweep on the sample has a row at that strain and frequency, for that row is the same oscillation; else its
+/// time is. Throws InputError for a waveform without harmonics.
+/// @param relative error of a modulus. @param phase error of it [rad].
+void reduce_waveforms(Experiment& experiment, double relative, double phase);
+
+/// The row of a sweep that was measured in the same oscillation as a row of a table of harmonics.
+struct SweepRow {
+    std::size_t measurement;
+    std::size_t row;
+};
+std::optional<SweepRow> same_oscillation(const Experiment& experiment, const Measurement& harmonics, std::size_t row);
 
 }  // namespace coagula::diagnose

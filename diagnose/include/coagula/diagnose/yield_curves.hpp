@@ -19,6 +19,9 @@ public:
     /// nothing breaks and nothing is lost any more. Past the last load nothing changes any more.
     Eigen::VectorXcd response(double from, double to) const;
 
+    /// Storage modulus of the first curve, over that at rest, at a phase [rad] of the strain `to` sin(phase) of that oscillation.
+    double storage(double from, double to, double phase) const;
+
 private:
     Eigen::VectorXcd at(double load) const;
 

@@ -1,0 +1,50 @@
+// Third harmonic of the stress: from what makes the stiffness depend on the momentary strain.
+#include "forward.hpp"
+
+#include "plate_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr int phases = 96;  ///< of an oscillation; a multiple of 4
+
+}  // namespace
+
+/// G' / G at a phase of an oscillation in which bonds break, between plates as the torque shows it.
+double Forward::storage_while_breaking(const Settings& settings, double before, double strain, double phase) const {
+    if (!strain_varies(settings)) {
+        return simulator_.storage_while_breaking(settings, before, strain, phase);
+    }
+    static const std::vector<Ring> rings = plate_rings(1);
+    double mean = 0;
+    for (const Ring& ring : rings) {
+        mean += ring.weight * simulator_.storage_while_breaking(settings, ring.radius * before, ring.radius * strain, phase);
+    }
+    return mean;
+}
+
+/// G3* / |G*| of the material at a strain amplitude after the largest before: Hertz contacts and breaking bonds make the secant
+/// stiffness change within an oscillation; all else is linear and changes both harmonics alike.
+std::complex<double> Forward::third_harmonic(const Settings& given, double strain, double before) const {
+    const Settings settings = with_weakest_bonds(given);
+    if (!std::isfinite(strain) || (settings.contact_preload <= 0 && !std::isfinite(settings.critical_strain))) {
+        return 0;
+    }
+    std::complex<double> first = 0;
+    std::complex<double> third = 0;
+    for (int k = 0; k < phases; ++k) {
+        const double phase = 2 * std::numbers::pi * (k + 0.5) / phases;
+        const double stress = std::sin(phase) * simulator_.contact_secant(settings, strain * std::sin(phase)) *
+                              storage_while_breaking(settings, before, strain, phase);
+        first += stress * std::complex<double>(std::sin(phase), std::cos(phase));
+        third += stress * std::complex<double>(std::sin(3 * phase), std::cos(3 * phase));
+    }
+    return std::abs(first) > 0 ? third / std::abs(first) : 0.0;
+}
+
+}  // namespace coagula::diagnose
