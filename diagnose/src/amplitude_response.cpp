@@ -6,6 +6,7 @@
 #include <coagula/mechanics/rheometer.hpp>
 
 #include "cache_key.hpp"
+#include "population_curve.hpp"
 #include "unit_stiffness.hpp"
 
 #include <Eigen/Core>
@@ -22,8 +23,6 @@ using Complex = std::complex<double>;
 
 /// Nodes of the strength curve: amplitude over critical strain.
 const std::vector<double> loads{1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 16, 32};
-/// Nodes on either side over which the scatter of the curves is pooled.
-constexpr Index pooled_neighbours = 4;
 /// Of freedom, for the scale of the errors, that one more structure adds: what breaks at once is so uneven that a curve counts for
 /// no more (sets of 2, 4 and 8 of 32 structures of 400 particles against the others).
 constexpr double degrees_of_structure = 3;
@@ -37,59 +36,6 @@ ContactModel breaking_model(double ratio, double strength) {
     model.normal_strength = strength;
     model.shear_strength = strength;
     return model;
-}
-
-/// Each number as the mean of itself and its neighbours.
-Eigen::ArrayXd pooled(const Eigen::ArrayXd& values) {
-    Eigen::ArrayXd means(values.size());
-    for (Index k = 0; k < values.size(); ++k) {
-        const Index from = std::max<Index>(0, k - pooled_neighbours);
-        const Index to = std::min<Index>(values.size() - 1, k + pooled_neighbours);
-        means[k] = values.segment(from, to - from + 1).mean();
-    }
-    return means;
-}
-
-/// Standard errors of the means of numbers that belong to the nodes of a curve, a column for each structure, whose variance is in
-/// proportion to what breaks on the way to a node.
-Eigen::ArrayXd standard_errors(const Eigen::MatrixXd& parts, const Eigen::ArrayXd& breaks) {
-    const auto structures = static_cast<double>(parts.cols());
-    const Eigen::ArrayXd scatter = pooled(parts.cwiseAbs2().rowwise().sum().array() / (structures - 1));
-    const Eigen::ArrayXd share = (breaks > 0).select(breaks / pooled(breaks), 0);
-    return (scatter * share / structures).sqrt();
-}
-
-/// The mean of the curves of several structures and, after it, that mean moved by each of its independent standard errors: at every
-/// node one of what breaks there, which goes on in proportion to what is left and loses energy, and one of what else is lost.
-/// @param curves nodes x structures: settled storage and, imaginary, the loss. @return the same, nodes x mean and errors.
-Eigen::MatrixXcd mean_and_errors(const Eigen::MatrixXcd& curves) {
-    const Eigen::VectorXcd mean = curves.rowwise().mean();
-    const Index nodes = mean.size();
-    if (curves.cols() < 2) {
-        return mean;
-    }
-    Eigen::ArrayXd before(nodes);
-    before << 1, mean.head(nodes - 1).array().real();
-    const Eigen::ArrayXd kept = (before > 0).select(mean.array().real() / before, 0);
-    const Eigen::MatrixXcd differences = curves.colwise() - mean;
-    Eigen::MatrixXd broken = differences.real();
-    broken.bottomRows(nodes - 1) -= kept.tail(nodes - 1).matrix().asDiagonal() * differences.real().topRows(nodes - 1);
-    const double squares = broken.squaredNorm();
-    const double cost = squares > 0 ? broken.cwiseProduct(differences.imag()).sum() / squares : 0.0;
-    const Eigen::ArrayXd breaks = (before - mean.array().real()).max(0);
-    const Eigen::ArrayXd breaking = standard_errors(broken, breaks);
-    const Eigen::ArrayXd losing = standard_errors(differences.imag() - cost * broken, breaks);
-    Eigen::MatrixXcd all = mean.replicate(1, 1 + 2 * nodes);
-    for (Index node = 0; node < nodes; ++node) {
-        double carried = breaking[node];
-        all(node, 1 + node) += Complex(carried, cost * carried);
-        for (Index later = node + 1; later < nodes; ++later) {
-            carried *= kept[later];
-            all(later, 1 + node) += carried;
-        }
-        all(node, 1 + nodes + node) += Complex(0, losing[node]);
-    }
-    return all;
 }
 
 /// Amplitudes with those nodes of the strength curve between whose neighbours no amplitude lies, as far as the largest.
@@ -217,7 +163,7 @@ YieldCurves Simulator::exact_yield_curve(const Settings& settings, const std::ve
     return {run_loads, settled};
 }
 
-/// Mean and errors of the structures.
+/// Of a large sample, and errors.
 const YieldCurves& Simulator::strength_curves() {
     if (strength_curves_) {
         return *strength_curves_;
@@ -229,7 +175,7 @@ const YieldCurves& Simulator::strength_curves() {
             curves(static_cast<Index>(node), static_cast<Index>(k)) = Complex(one[node].settled, one[node].first.imag());
         }
     }
-    return strength_curves_.emplace(loads, mean_and_errors(curves).transpose());
+    return strength_curves_.emplace(loads, population_curve(loads, curves).transpose());
 }
 
 double Simulator::yield_degrees() const {

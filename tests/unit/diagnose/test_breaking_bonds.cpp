@@ -83,10 +83,15 @@ TEST(BreakingBonds, RunsBetweenAmplitudesToo) {
     settings.critical_strain = 1e-4;
     const YieldCurves run = simulator().exact_yield_curve(settings, {1e-4, 16e-4});
     const auto settled = [&](double load) { return run.response(load, load)[0].real(); };
-    for (const double load : {2.3, 5.2, 9.0, 16.0}) {
-        const Complex of_curve = simulator().amplitude_response(settings, 1e-4, load * 1e-4)[0];
-        EXPECT_NEAR(settled(load), simulator().amplitude_response(settings, load * 1e-4, 0)[0].real(), 0.02) << load;
-        EXPECT_NEAR(run.response(1, load)[0].imag(), of_curve.imag(), 0.01) << load;
+    const std::vector<double> loads{1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 16};
+    std::vector<double> amplitudes;
+    for (const double load : loads) {
+        amplitudes.push_back(1e-4 * load);
+    }
+    const std::vector<Yielded> nodes = simulator().exact_amplitude_response(settings, amplitudes);
+    for (std::size_t k = 1; k < loads.size(); ++k) {
+        EXPECT_NEAR(settled(loads[k]), nodes[k].settled, 1e-12) << loads[k];
+        EXPECT_NEAR(run.response(loads[k - 1], loads[k])[0].imag(), nodes[k].first.imag(), 1e-12) << loads[k];
     }
     const double between_two = settled(1) + 4.2 / 15 * (settled(16) - settled(1));
     EXPECT_GT(std::abs(settled(5.2) - between_two), 0.05) << "or two amplitudes would do";

@@ -72,8 +72,8 @@ public:
 
     /// G* / G in the first oscillation of this amplitude for finite bond strength, where `before` was the largest before on the
     /// sample (0: none), by the explicit rheometer. A bond breaks once: at an amplitude not above that, nothing is lost any more.
-    /// The mean over the structures comes first, then that mean moved by each of the independent standard errors that so few
-    /// structures leave; these are missing where there is one structure or nothing breaks.
+    /// That of a large sample as the structures tell it comes first (src/population_curve.hpp), then the same moved by each of the
+    /// independent standard errors that so few structures leave; these are missing where there is one structure or nothing breaks.
     Eigen::VectorXcd amplitude_response(const Settings& settings, double before, double amplitude);
     /// Degrees of freedom from which the common scale of these errors is known.
     double yield_degrees() const;
