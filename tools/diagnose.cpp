@@ -231,7 +231,9 @@ Verb diagnose_verb() {
                     count("data-sets", "of --power: simulated at each strength near a threshold", "200", within(20, 100000)),
                     count("diagnoses", "of --power: full diagnoses of simulated data for each cause", "4", within(0, 10000))},
         .run = run,
-        .notes = {"Tables of G' and G'' against frequency, strain, time or gap are diagnosed; see docs/diagnosis.md."}};
+        .notes = {
+            "Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore curves "
+            "are diagnosed; see docs/diagnosis.md."}};
     const std::vector<Option> own = diagnosis_options();
     verb.options.insert(verb.options.end(), own.begin(), own.end());
     return verb;

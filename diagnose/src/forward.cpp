@@ -84,7 +84,7 @@ std::size_t group_of(const Measurement& table, std::size_t row) {
     return static_cast<std::size_t>(number);
 }
 
-/// What a table may show of a response to shear.
+/// What a table may show of a response to shear; in this order.
 struct Shown {
     const char* column;
     bool loss;
@@ -167,11 +167,7 @@ const char* observable_of(const Observation& observation) {
     if (is_pore(observation)) {
         return "exclusion_probability";
     }
-    return std::find_if(shown.begin(), shown.end(),
-                        [&](const Shown& each) {
-                            return each.loss == observation.loss && each.third_harmonic == observation.third_harmonic;
-                        })
-        ->column;
+    return shown.at((observation.third_harmonic ? 2 : 0) + (observation.loss ? 1 : 0)).column;
 }
 
 bool same_column(const Observation& one, const Observation& other) {

@@ -77,8 +77,9 @@ std::optional<SweepRow> same_oscillation(const Experiment& experiment, const Mea
             continue;
         }
         for (std::size_t other = 0; other < sweep.rows(); ++other) {
+            const double frequency = angular_frequency(sweep, other);  // unknown where the table has none
             if (alike(cell(sweep, "strain", other), cell(harmonics, "strain", row)) &&
-                alike(angular_frequency(sweep, other), angular_frequency(harmonics, row)) &&
+                (std::isnan(frequency) || alike(frequency, angular_frequency(harmonics, row))) &&
                 std::isfinite(cell(sweep, "storage_modulus", other))) {
                 return SweepRow{k, other};
             }

@@ -175,6 +175,22 @@ TEST(ThirdHarmonic, AWaveformIsARowOfItsSweepAndCountsOnce) {
     EXPECT_THROW(reduce_waveforms(experiment, 0.03, 0.01), InputError);
 }
 
+TEST(ThirdHarmonic, AFrequencyThatIsNotStatedIsThatOfTheWaveform) {
+    const auto moduli_in_waveform = [](std::vector<Column> more) {
+        Experiment experiment;
+        experiment.measurements = {
+            table_of(MeasurementKind::amplitude_sweep, {{"strain", "1", {1e-4, 2e-4}}, {"storage_modulus", "Pa", {100, 90}}}),
+            linear_waveform(2e-4, 90, 0, 1)};
+        auto& columns = experiment.measurements[0].columns;
+        columns.insert(columns.end(), more.begin(), more.end());
+        reduce_waveforms(experiment, 0.03, 0.01);
+        return find_column(experiment.measurements[1], "storage_modulus") != nullptr;
+    };
+    EXPECT_FALSE(moduli_in_waveform({}));
+    EXPECT_FALSE(moduli_in_waveform({{"frequency", "Hz", {1, 1}}}));
+    EXPECT_TRUE(moduli_in_waveform({{"frequency", "Hz", {2, 2}}}));
+}
+
 /// Bonds that broke at smaller strains of the sweep have no part in the waveform of a later row.
 TEST(ThirdHarmonic, ComesAfterTheRowsBeforeItsOwn) {
     Settings settings;

@@ -31,9 +31,9 @@ std::optional<WaveformHarmonics> harmonics_of(const Measurement& waveform);
 
 /// Puts tables of harmonics in the place of the waveforms of an experiment, one for each sample, run and way to measure, with a row
 /// per waveform: `strain`, `angular_frequency`, `third_harmonic_storage` and `third_harmonic_loss` with standard errors, of which a
-/// quarter of the third harmonic is what the simulation does not know about it. Moduli are
-/// in it only where no sweep on the sample has a row at that strain and frequency, for that row is the same oscillation; else its
-/// time is. Throws InputError for a waveform without harmonics.
+/// quarter of the third harmonic is what the simulation does not know about it. Moduli are in it only where no sweep on the sample
+/// has a row at that strain and frequency, for that row is the same oscillation; else its time is. Throws InputError for a waveform
+/// without harmonics.
 /// @param relative error of a modulus. @param phase error of it [rad].
 void reduce_waveforms(Experiment& experiment, double relative, double phase);
 
