@@ -190,7 +190,7 @@ TableRule rule_of(MeasurementKind kind) {
         case MeasurementKind::waveform:
             return {{"time"}, {"strain", "stress"}, 16, true};
         case MeasurementKind::harmonics:
-            return {{"strain"}, {"third_harmonic_storage"}, 3, true};
+            return {{"strain"}, {"third_harmonic_storage"}, 4, true};
         case MeasurementKind::gap_series:
             return {{"gap"}, {"storage_modulus"}, 4, true};
         case MeasurementKind::structure_series:

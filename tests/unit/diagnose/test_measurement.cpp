@@ -13,7 +13,7 @@ TEST(Measurement, KindsAndGeometriesHaveNamesOfTheirOwn) {
         EXPECT_EQ(measurement_kind(name_of(kind)), kind);
         names.insert(name_of(kind));
     }
-    EXPECT_EQ(names.size(), 8u);
+    EXPECT_EQ(names.size(), 9u);
     EXPECT_FALSE(measurement_kind("sweep"));
     EXPECT_EQ(geometry("cone-plate"), Geometry::cone_plate);
     EXPECT_FALSE(geometry("couette"));
