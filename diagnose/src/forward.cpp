@@ -156,8 +156,7 @@ std::vector<Observation> neighbours_in(const Experiment& experiment, std::size_t
 
 bool has_moduli(MeasurementKind kind) {
     return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
-           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series ||
-           kind == MeasurementKind::structure_series || kind == MeasurementKind::harmonics;
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
 }
 
 const char* observable_of(const Observation& observation) {
@@ -198,13 +197,15 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
             const std::vector<Observation> pores = pores_in(experiment, k);
             all.insert(all.end(), pores.begin(), pores.end());
         }
-        if (!has_moduli(table.kind)) {
+        if (!has_moduli(table.kind) && table.kind != MeasurementKind::harmonics) {
             continue;
         }
         for (const Shown& what : shown) {
             const Column* column = find_column(table, what.column);
-            const bool fluid = std::isfinite(table.fluid_viscosity);  // stores nothing, and loses in proportion to the frequency
-            for (std::size_t row = 0; column != nullptr && (what.loss || !fluid) && row < table.rows(); ++row) {
+            // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
+            const bool fluid = std::isfinite(table.fluid_viscosity);
+            const bool takes_part = column != nullptr && (!fluid || (what.loss && !what.third_harmonic));
+            for (std::size_t row = 0; takes_part && row < table.rows(); ++row) {
                 if (!std::isfinite(column->values[row]) || (fluid && std::isnan(angular_frequency(table, row)))) {
                     continue;
                 }
@@ -287,8 +288,7 @@ std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, b
 }
 
 /// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional; third harmonics over the
-/// first as they are.
-/// The mean over the structures, then with each error in how they yield.
+/// first as they are. The mean over the structures, then with each error in how they yield.
 Eigen::MatrixXcd Forward::material(const Settings& settings, bool exact) const {
     std::map<std::size_t, double> linear = linear_moduli(settings, exact);
     Eigen::VectorXcd moduli(static_cast<Index>(observations_.size()));

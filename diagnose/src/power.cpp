@@ -17,8 +17,7 @@ constexpr double most = 0.95;
 
 /// The tables of moduli with a number in every cell that is to be measured.
 Experiment prepared(Experiment experiment) {
-    std::erase_if(experiment.measurements,
-                  [](const Measurement& table) { return !has_moduli(table.kind) || table.kind == MeasurementKind::harmonics; });
+    std::erase_if(experiment.measurements, [](const Measurement& table) { return !has_moduli(table.kind); });
     for (Measurement& table : experiment.measurements) {
         const bool series = table.kind == MeasurementKind::structure_series;
         const bool storage_only =

@@ -191,6 +191,20 @@ TEST(ThirdHarmonic, AFrequencyThatIsNotStatedIsThatOfTheWaveform) {
     EXPECT_TRUE(moduli_in_waveform({{"frequency", "Hz", {2, 2}}}));
 }
 
+TEST(ThirdHarmonic, OfAnOilIsNotThatOfTheSample) {
+    Experiment experiment;
+    experiment.measurements = {table_of(MeasurementKind::amplitude_sweep, {{"strain", "1", {1e-3}},
+                                                                           {"frequency", "Hz", {1}},
+                                                                           {"loss_modulus", "Pa", {6.3}},
+                                                                           {"third_harmonic_storage", "1", {0}},
+                                                                           {"third_harmonic_loss", "1", {0}}})};
+    EXPECT_EQ(observations_of(experiment).size(), 3u);
+    experiment.measurements[0].fluid_viscosity = 1;
+    const auto rows = observations_of(experiment);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_STREQ(observable_of(rows[0]), "loss_modulus");
+}
+
 /// Bonds that broke at smaller strains of the sweep have no part in the waveform of a later row.
 TEST(ThirdHarmonic, ComesAfterTheRowsBeforeItsOwn) {
     Settings settings;
