@@ -1,11 +1,11 @@
 #include <coagula/characterize/pore_sizes.hpp>
 
+#include <coagula/common/parallel.hpp>
+
 #include "coverage.hpp"
 
-#include <omp.h>
 #include <boost/math/tools/roots.hpp>
 
-#include <exception>
 #include <numeric>
 
 namespace coagula::characterize {
@@ -89,11 +89,11 @@ double largest_pore(const Packing& packing, const PowerDiagram& original, double
 }
 
 /// How many triangulations may be in memory at once.
-int parallel_diagrams(const PowerDiagram& diagram) {
+std::size_t parallel_diagrams(const PowerDiagram& diagram) {
     constexpr double bytes_per_site = 2500;
     constexpr double memory = 2e9;
     const double fit = memory / (bytes_per_site * static_cast<double>(diagram.positions.cols()));
-    return std::clamp(static_cast<int>(std::min(fit, 1000.0)), 1, omp_get_max_threads());
+    return static_cast<std::size_t>(std::clamp(fit, 1.0, 1000.0));
 }
 
 CoverageCurve cover_unequal(const Packing& packing, const PowerDiagram& original, Index intervals, const Progress& progress) {
@@ -101,24 +101,16 @@ CoverageCurve cover_unequal(const Packing& packing, const PowerDiagram& original
     CoverageCurve curve;
     curve.largest = largest_pore(packing, original, margin);
     curve.coverage = {Eigen::VectorXd(intervals + 1), Eigen::VectorXd(intervals + 1)};
-    std::exception_ptr failure;
     constexpr Index batch = 16;
     for (Index first = 0; first <= intervals; first += batch) {
-#pragma omp parallel for schedule(dynamic) num_threads(parallel_diagrams(original))
-        for (Index k = first; k < std::min(first + batch, intervals + 1); ++k) {
-            try {
-                const double growth = curve.largest * static_cast<double>(k) / static_cast<double>(intervals);
-                const auto [covered, cells] = cover_spheres(grown_diagram(packing, original, growth, margin));
-                curve.coverage.covered[k] = covered;
-                curve.coverage.cells[k] = cells;
-            } catch (...) {
-#pragma omp critical(coagula_pore_failure)
-                failure = std::current_exception();
-            }
-        }
-        if (failure) {
-            std::rethrow_exception(failure);
-        }
+        const auto cover = [&](std::size_t place) {
+            const Index k = first + static_cast<Index>(place);
+            const double growth = curve.largest * static_cast<double>(k) / static_cast<double>(intervals);
+            const auto [covered, cells] = cover_spheres(grown_diagram(packing, original, growth, margin));
+            curve.coverage.covered[k] = covered;
+            curve.coverage.cells[k] = cells;
+        };
+        run_together(static_cast<std::size_t>(std::min(batch, intervals + 1 - first)), cover, parallel_diagrams(original));
         progress.update(stage, static_cast<double>(first) / static_cast<double>(intervals));
     }
     return curve;

@@ -3,6 +3,7 @@
 
 #include <coagula/common/contact_law.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/parallel.hpp>
 #include <coagula/mechanics/rheometer.hpp>
 
 #include "cache_key.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -57,7 +59,7 @@ std::vector<double> with_nodes_between(std::vector<double> amplitudes, double cr
 /// Two oscillations at each of some growing amplitudes by the explicit rheometer in a sheared cell, over the modulus at a strain so
 /// small that nothing breaks. What the second one loses is the rate of the run, so that the first has lost the rest in breaking.
 std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& settings, double strength,
-                                      const std::vector<double>& amplitudes) {
+                                      const std::vector<double>& amplitudes, const Progress& progress) const {
     mechanics::RheometerOptions options;
     options.model = breaking_model(settings.stiffness_ratio, strength);
     options.boundary = mechanics::RheometerBoundary::periodic;
@@ -72,7 +74,7 @@ std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& set
     options.oscillations = static_cast<int>(options.course.size());
     const ContactNetwork bonds = find_contacts(structures_[structure], settings.bond_tolerance);
     const mechanics::RheometerRun run =
-        mechanics::run_rheometer(structures_[structure], bonds, options, {mechanics::ShearOrientation{}}, progress_).runs.front();
+        mechanics::run_rheometer(structures_[structure], bonds, options, {mechanics::ShearOrientation{}}, progress).runs.front();
     const double unbroken = run.oscillations[1].fundamental_storage;
     std::vector<Yielded> responses;
     for (std::size_t k = 2; k < run.oscillations.size(); k += 2) {
@@ -84,65 +86,93 @@ std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& set
     return responses;
 }
 
-/// How one structure yields at the amplitudes of a sweep.
-std::vector<Yielded> Simulator::structure_response(std::size_t structure, const Settings& settings,
-                                                   const std::vector<double>& amplitudes) {
+/// Runs those sweeps, of structure k at amplitudes[k], that the cache does not hold, one beside the other: a structure is too small
+/// for several threads. The keys of all in the cache.
+std::vector<std::string> Simulator::run_sweeps(const Settings& settings, const std::vector<std::vector<double>>& amplitudes) {
     // Strain times stiffness over strength is what counts, so that unit stiffness serves all.
     const double strength = settings.critical_strain * stiffness_in_series(unit_stiffness, unit_stiffness) * radius_;
-    std::vector<double> what{settings.stiffness_ratio, settings.bond_tolerance, strength};
-    what.insert(what.end(), amplitudes.begin(), amplitudes.end());
-    const std::string key = key_of("yield " + names_[structure], what);
-    auto found = cache_.find(key);
-    if (found == cache_.end() || found->second.size() != 3 * amplitudes.size()) {
+    std::vector<std::string> keys;
+    std::vector<std::size_t> missing;
+    for (std::size_t k = 0; k < amplitudes.size(); ++k) {
+        std::vector<double> what{settings.stiffness_ratio, settings.bond_tolerance, strength};
+        what.insert(what.end(), amplitudes[k].begin(), amplitudes[k].end());
+        keys.push_back(key_of("yield " + names_[k], what));
+        const auto found = cache_.find(keys[k]);
+        if (!amplitudes[k].empty() && (found == cache_.end() || found->second.size() != 3 * amplitudes[k].size())) {
+            missing.push_back(k);
+            (void)structures_[k];  // made now, where it is made on demand: two threads must not
+        }
+    }
+    if (!missing.empty()) {
         progress_.update("simulating", 0.0, "amplitude sweep with breaking bonds");
+    }
+    std::mutex mutex;
+    const Progress shared([&](std::string_view stage, double fraction, std::string_view remark) {
+        const std::lock_guard lock(mutex);
+        progress_.update(stage, fraction, remark);
+        return true;
+    });
+    run_together(missing.size(), [&](std::size_t place) {
+        const std::size_t k = missing[place];
         std::vector<double> values;
-        for (const Yielded& response : sweep(structure, settings, strength, amplitudes)) {
+        for (const Yielded& response : sweep(k, settings, strength, amplitudes[k], shared)) {
             values.insert(values.end(), {response.first.real(), response.first.imag(), response.settled});
         }
-        found = cache_.insert_or_assign(key, std::move(values)).first;
-    }
-    std::vector<Yielded> responses;
-    for (std::size_t entry = 0; entry < amplitudes.size(); ++entry) {
-        const double* values = found->second.data() + 3 * entry;
-        responses.push_back({Complex(values[0], values[1]), values[2]});
+        const std::lock_guard lock(mutex);
+        cache_.insert_or_assign(keys[k], std::move(values));
+    });
+    return keys;
+}
+
+/// How every structure yields at its amplitudes of a sweep.
+std::vector<std::vector<Yielded>> Simulator::structure_responses(const Settings& settings,
+                                                                 const std::vector<std::vector<double>>& amplitudes) {
+    const std::vector<std::string> keys = run_sweeps(settings, amplitudes);
+    std::vector<std::vector<Yielded>> responses(amplitudes.size());
+    for (std::size_t k = 0; k < amplitudes.size(); ++k) {
+        for (std::size_t entry = 0; entry < amplitudes[k].size(); ++entry) {
+            const double* values = cache_.at(keys[k]).data() + 3 * entry;
+            responses[k].push_back({Complex(values[0], values[1]), values[2]});
+        }
     }
     return responses;
 }
 
-/// How one structure yields at the nodes of the strength curve.
-std::vector<Yielded> Simulator::nodes_of_strength_curve(std::size_t structure) {
+/// How every structure yields at the nodes of the strength curve.
+std::vector<std::vector<Yielded>> Simulator::nodes_of_strength_curves() {
     Settings settings;
     settings.critical_strain = 1e-4;
     std::vector<double> amplitudes;
     for (const double load : loads) {
         amplitudes.push_back(load * settings.critical_strain);
     }
-    return structure_response(structure, settings, amplitudes);
+    return structure_responses(settings, std::vector(structures_.size(), amplitudes));
 }
 
-/// Largest strain up to which no bond of a structure breaks, as far as the strength curve tells.
-double Simulator::unbroken_strain(std::size_t structure, const Settings& settings) {
+/// Largest strain of each structure up to which no bond breaks, as far as the strength curves tell.
+std::vector<double> Simulator::unbroken_strains(const Settings& settings) {
     const Settings base;
-    double load = 0;
+    std::vector<double> strains(structures_.size(), 0);
     if (settings.stiffness_ratio == base.stiffness_ratio && settings.bond_tolerance == base.bond_tolerance) {
-        const std::vector<Yielded> nodes = nodes_of_strength_curve(structure);
-        for (std::size_t node = 0; node < nodes.size() && nodes[node].first.imag() == 0; ++node) {
-            load = loads.at(node);
+        const std::vector<std::vector<Yielded>> nodes = nodes_of_strength_curves();
+        for (std::size_t k = 0; k < strains.size(); ++k) {
+            for (std::size_t node = 0; node < loads.size() && nodes[k][node].first.imag() == 0; ++node) {
+                strains[k] = loads[node] * settings.critical_strain;
+            }
         }
     }
-    return load * settings.critical_strain;
+    return strains;
 }
 
 std::vector<Yielded> Simulator::exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes) {
-    std::vector<Yielded> mean(amplitudes.size());
+    std::vector<std::vector<double>> breaking;
+    for (const double unbroken : unbroken_strains(settings)) {
+        breaking.emplace_back(std::upper_bound(amplitudes.begin(), amplitudes.end(), unbroken), amplitudes.end());
+    }
     const double share = 1 / static_cast<double>(structures_.size());
-    for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const auto breaking = std::upper_bound(amplitudes.begin(), amplitudes.end(), unbroken_strain(k, settings));
-        std::vector<Yielded> one(static_cast<std::size_t>(breaking - amplitudes.begin()), {1, 1});
-        if (breaking != amplitudes.end()) {
-            const std::vector<Yielded> run = structure_response(k, settings, {breaking, amplitudes.end()});
-            one.insert(one.end(), run.begin(), run.end());
-        }
+    std::vector<Yielded> mean(amplitudes.size());
+    for (std::vector<Yielded>& one : structure_responses(settings, breaking)) {
+        one.insert(one.begin(), mean.size() - one.size(), {1, 1});
         for (std::size_t entry = 0; entry < mean.size(); ++entry) {
             mean[entry].first += share * one[entry].first;
             mean[entry].settled += share * one[entry].settled;
@@ -169,10 +199,10 @@ const YieldCurves& Simulator::strength_curves() {
         return *strength_curves_;
     }
     Eigen::MatrixXcd curves(static_cast<Index>(loads.size()), static_cast<Index>(structures_.size()));
+    const std::vector<std::vector<Yielded>> nodes = nodes_of_strength_curves();
     for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const std::vector<Yielded> one = nodes_of_strength_curve(k);
         for (std::size_t node = 0; node < loads.size(); ++node) {
-            curves(static_cast<Index>(node), static_cast<Index>(k)) = Complex(one[node].settled, one[node].first.imag());
+            curves(static_cast<Index>(node), static_cast<Index>(k)) = Complex(nodes[k][node].settled, nodes[k][node].first.imag());
         }
     }
     return strength_curves_.emplace(loads, population_curve(loads, curves).transpose());

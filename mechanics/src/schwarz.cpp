@@ -1,10 +1,11 @@
 #include "schwarz.hpp"
 
+#include <coagula/common/parallel.hpp>
+
 #include "single_precision_factor.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <numeric>
 #include <utility>
 
@@ -208,21 +209,12 @@ void SchwarzPreconditioner::factorise_boxes(const BlockMatrix& upper, const Schw
     for (std::size_t begin = 0; begin < boxes_.size(); begin += batch) {
         progress.update("factorising", static_cast<double>(begin) / static_cast<double>(boxes_.size()));
         const std::size_t end = std::min(begin + batch, boxes_.size());
-        std::exception_ptr failure;  // an exception must not leave a parallel loop
-#pragma omp parallel for schedule(dynamic)
-        for (std::size_t b = begin; b < end; ++b) {
-            try {
-                const BlockMatrix local = restrict_to(upper, boxes_[b]->particles);
-                const EliminationOrder order(local, Ordering::minimum_degree);
-                boxes_[b]->factor = std::make_unique<SinglePrecisionFactor>(local, options.shift, order);
-            } catch (...) {
-#pragma omp critical
-                failure = std::current_exception();
-            }
-        }
-        if (failure) {
-            std::rethrow_exception(failure);
-        }
+        run_together(end - begin, [&](std::size_t place) {
+            const std::size_t b = begin + place;
+            const BlockMatrix local = restrict_to(upper, boxes_[b]->particles);
+            const EliminationOrder order(local, Ordering::minimum_degree);
+            boxes_[b]->factor = std::make_unique<SinglePrecisionFactor>(local, options.shift, order);
+        });
     }
 }
 

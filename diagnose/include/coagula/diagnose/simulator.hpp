@@ -125,10 +125,12 @@ private:
     double scatter_between_structures();
     double exponent_node(double ratio, double bending, double tolerance);
     std::vector<Yielded> sweep(std::size_t structure, const Settings& settings, double strength,
-                               const std::vector<double>& amplitudes);
-    std::vector<Yielded> structure_response(std::size_t structure, const Settings& settings, const std::vector<double>& amplitudes);
-    std::vector<Yielded> nodes_of_strength_curve(std::size_t structure);
-    double unbroken_strain(std::size_t structure, const Settings& settings);
+                               const std::vector<double>& amplitudes, const Progress& progress) const;
+    std::vector<std::string> run_sweeps(const Settings& settings, const std::vector<std::vector<double>>& amplitudes);
+    std::vector<std::vector<Yielded>> structure_responses(const Settings& settings,
+                                                          const std::vector<std::vector<double>>& amplitudes);
+    std::vector<std::vector<Yielded>> nodes_of_strength_curves();
+    std::vector<double> unbroken_strains(const Settings& settings);
     const YieldCurves& strength_curves();
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
