@@ -326,6 +326,7 @@ struct TableSetting {
     std::string sample;
     int run_order;
     bool rough_plates;
+    double cone_angle;
     double fluid_viscosity;
     int oscillations;
 
@@ -333,6 +334,7 @@ struct TableSetting {
         measurement.sample = sample;
         measurement.run_order = run_order;
         measurement.rough_plates = rough_plates;
+        measurement.cone_angle = cone_angle;
         measurement.fluid_viscosity = fluid_viscosity;
         measurement.oscillations = oscillations;
     }
@@ -342,6 +344,7 @@ TableSetting read_setting(TomlKeys& keys, std::size_t number) {
     TableSetting setting{.sample = keys.text("sample").value_or("measurement " + std::to_string(number)),
                          .run_order = small_count(keys, "run_order", 0),
                          .rough_plates = keys.flag("rough_plates"),
+                         .cone_angle = keys.quantity("cone_angle", "rad").value_or(unset),
                          .fluid_viscosity = keys.quantity("fluid_viscosity", "Pa.s").value_or(unset),
                          .oscillations = small_count(keys, "oscillations", 1)};
     if (setting.fluid_viscosity <= 0) {

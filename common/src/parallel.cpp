@@ -12,7 +12,7 @@ void run_together(std::size_t count, const std::function<void(std::size_t)>& wor
     const std::size_t threads = std::min({count, at_once, static_cast<std::size_t>(omp_get_max_threads())});
     std::exception_ptr failure;  // an exception must not leave a parallel loop
     std::atomic<bool> failed = false;
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(threads)) if (threads > 1)
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(threads)) if (threads > 1)
     for (std::size_t k = 0; k < count; ++k) {
         if (failed) {
             continue;

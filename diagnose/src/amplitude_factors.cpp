@@ -25,15 +25,17 @@ Settings with_weakest_bonds(Settings settings) {
 }
 
 /// Whether the strain grows along the radius, gamma(r) = gamma_R r / R.
-bool Forward::strain_varies(const Settings& settings) const {
+bool Forward::strain_varies(const Settings& settings, const Observation& observation) const {
     const std::optional<Geometry>& geometry = experiment_.instrument.geometry;
-    return std::isfinite(settings.rim_critical_strain) && geometry && *geometry == Geometry::plate_plate;
+    const bool plates = geometry && *geometry == Geometry::plate_plate && std::isnan(observation.cone_angle);
+    return plates && std::isfinite(settings.rim_critical_strain);
 }
 
-/// G* / G of an oscillation of this strain at the rim after the largest before. Between plates the torque shows
+/// G* / G of an oscillation with its strain at the rim after the largest before. Between plates the torque shows
 /// 4 / R^4 times the integral of G*(gamma_R r / R) r^3 (Macosko, Rheology, 1994, sec. 5.5).
-Eigen::VectorXcd Forward::breaking_response(const Settings& settings, double before, double strain) const {
-    if (!strain_varies(settings)) {
+Eigen::VectorXcd Forward::breaking_response(const Settings& settings, const Observation& observation, double before) const {
+    const double strain = observation.strain;
+    if (!strain_varies(settings, observation)) {
         return simulator_.amplitude_response(settings, before, strain);
     }
     static const std::vector<Ring> rings = plate_rings(panels);
@@ -48,8 +50,9 @@ Eigen::VectorXcd Forward::breaking_response(const Settings& settings, double bef
 }
 
 /// How the material yields in a run at these amplitudes, each larger than the one before; between plates every ring by its share.
-std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, const std::vector<double>& amplitudes) const {
-    if (!strain_varies(settings)) {
+std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, const Observation& observation,
+                                                      const std::vector<double>& amplitudes) const {
+    if (!strain_varies(settings, observation)) {
         return simulator_.exact_amplitude_response(settings, amplitudes);
     }
     const YieldCurves curve = simulator_.exact_yield_curve(settings, amplitudes);
@@ -155,7 +158,7 @@ Eigen::VectorXcd Forward::exact_amplitude_factors(const Settings& settings) cons
         Run& run = found->second;
         if (added) {
             run.strains = growing_strains(observation.measurement);
-            run.responses = exact_breaking_response(settings, run.strains);
+            run.responses = exact_breaking_response(settings, observation, run.strains);
         }
         const double before = largest_strains_before_[k];
         const auto place = std::lower_bound(run.strains.begin(), run.strains.end(), std::max(before, observation.strain));
@@ -178,8 +181,9 @@ Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) c
     const Index columns = simulator_.amplitude_response(settings, 0, 0).size();
     Eigen::MatrixXcd factors = Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), columns);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
-        if (const double strain = observations_[k].strain; std::isfinite(strain) && !observations_[k].third_harmonic) {
-            factors.row(static_cast<Index>(k)) = breaking_response(settings, largest_strains_before_[k], strain).transpose();
+        const Observation& observation = observations_[k];
+        if (std::isfinite(observation.strain) && !observation.third_harmonic) {
+            factors.row(static_cast<Index>(k)) = breaking_response(settings, observation, largest_strains_before_[k]).transpose();
         }
     }
     return factors;

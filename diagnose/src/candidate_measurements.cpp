@@ -12,6 +12,7 @@ namespace {
 
 constexpr int rows = 20;
 constexpr int gaps = 8;
+constexpr double usual_cone = std::numbers::pi / 180;  ///< [rad]
 
 /// The settings of an experiment.
 struct Habits {
@@ -122,6 +123,13 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
     add("an amplitude sweep on a fresh sample", sweep.table(MeasurementKind::amplitude_sweep));
     add("an amplitude sweep on a fresh sample with its waveforms", sweep.with_waveforms());
     add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
+    if (experiment.instrument.geometry == Geometry::plate_plate) {
+        Measurement cone = Plan(habits, unset, rows)
+                               .strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows))
+                               .table(MeasurementKind::amplitude_sweep);
+        cone.cone_angle = usual_cone;
+        add("an amplitude sweep on a fresh sample under a cone, where the strain is the same everywhere", cone);
+    }
     if (std::isfinite(gap)) {
         // A drift in time goes with the gap in one direction and against it in the other.
         const bool upwards = narrows(experiment);

@@ -14,9 +14,9 @@ struct Candidate {
     Experiment experiment;  ///< its tables, each on a fresh sample, whose moduli are still to be filled in
 };
 
-/// Sweeps with the settings that the experiment has: its smallest strain, its typical frequency, its longest time; and where the
-/// gap is known a smaller plate and series of gaps, from wide to narrow unless the experiment has such, also between rough plates
-/// and with an oil.
+/// Sweeps with the settings that the experiment has: its smallest strain, its typical frequency, its longest time; between plates
+/// one under a cone; and where the gap is known a smaller plate and series of gaps, from wide to narrow unless the experiment has
+/// such, also between rough plates and with an oil.
 std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations);
 
 }  // namespace coagula::diagnose

@@ -211,8 +211,8 @@ const Fit& fit_named(const std::vector<Fit>& fits, const std::string& name) {
 }
 
 /// What to measure next, to tell the causes of the credible set apart.
-std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Fit>& fits, const Experiment& experiment,
-                                    const DataSet& data, Simulator& simulator, std::uint64_t seed) {
+std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Fit>& fits, const Inference& inference,
+                                    Simulator& simulator, std::uint64_t seed) {
     std::vector<Fit> candidates;
     std::vector<double> weights;
     for (const Cause& cause : diagnosis.causes) {
@@ -223,7 +223,7 @@ std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vecto
             weights.push_back(cause.posterior);
         }
     }
-    return propose(experiment, data, simulator, candidates, weights, seed);
+    return propose(inference, simulator, candidates, weights, seed);
 }
 
 Verdict verdict_of(const Diagnosis& diagnosis, double level) {
@@ -282,7 +282,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.gain = measure_gain(data, held_out, experiment, simulator, winner.hypothesis, options.seed);
     predict_rows(data, inference, base.settings, winner.settings, held_out, diagnosis);
     if (diagnosis.verdict == Verdict::tied) {
-        diagnosis.proposals = proposals_for(diagnosis, comparison.fits, experiment, data, simulator, options.seed);
+        diagnosis.proposals = proposals_for(diagnosis, comparison.fits, inference, simulator, options.seed);
     }
     return diagnosis;
 }

@@ -6,6 +6,7 @@
 #include <coagula/diagnose/simulator.hpp>
 
 #include "model_errors.hpp"
+#include "observations.hpp"
 
 #include <Eigen/Core>
 
@@ -16,56 +17,6 @@
 #include <vector>
 
 namespace coagula::diagnose {
-
-/// One number that was measured.
-struct Observation {
-    std::size_t measurement;
-    std::size_t row;
-    bool loss;              ///< G'', else G'
-    double value;           ///< [Pa]
-    double standard_error;  ///< [Pa]; NaN where the table has none
-    // Where and when; NaN where the table does not say.
-    double strain;             ///< amplitude
-    double angular_frequency;  ///< [rad/s]
-    double time;               ///< since the first run on the sample [s]
-    double gap;                ///< [m]
-    double plate_radius;       ///< [m]
-    ErrorLaw errors = {};
-    bool third_harmonic = false;  ///< of the stress over the first, elastic or viscous part, in place of a modulus
-    bool rough_plates = false;
-    double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]
-    // Of a structure series.
-    std::size_t structures = 0;  ///< group that stands for the row; 0: all structures
-    double heterogeneity = unset;
-    double coordination = unset;
-    double volume_fraction = unset;
-    // Of coordinates: the value is the mean number of neighbours in a shell, whose number is the row.
-    double distance = unset;  ///< middle of the shell over the diameter
-    // Of a pore curve: the value is the share of the void space farther from any surface than this.
-    double pore_radius = unset;  ///< [m]
-};
-
-/// Whether tables of this kind hold G' or G''.
-bool has_moduli(MeasurementKind kind);
-
-/// "storage_modulus", "loss_modulus", "third_harmonic_storage", "third_harmonic_loss", "neighbours" or "exclusion_probability".
-const char* observable_of(const Observation& observation);
-
-/// Whether two numbers stand in one column of a table.
-bool same_column(const Observation& one, const Observation& other);
-
-/// A modulus, and not what was counted of the structure.
-bool is_modulus(const Observation& observation);
-
-/// What a difference in this observation is measured against where the expectation is `level`: that, but neighbours against one
-/// neighbour at least and probabilities and third harmonics as they stand.
-double relative_to(const Observation& observation, double level);
-
-/// The moduli of all tables of moduli, row by row, cells that were left out skipped; then what tables show of the structure.
-std::vector<Observation> observations_of(const Experiment& experiment);
-
-/// |G*| at each observation of these moduli [Pa]; 1 at a third harmonic.
-Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli);
 
 /// Bonds as weak as the weaker of the two causes makes them.
 Settings with_weakest_bonds(Settings settings);
@@ -96,11 +47,12 @@ private:
     std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
                                             std::complex<double> modulus) const;
     double gradient_factor(const Settings& settings, const Observation& observation, double exponent) const;
-    bool strain_varies(const Settings& settings) const;
-    Eigen::VectorXcd breaking_response(const Settings& settings, double before, double strain) const;
-    std::vector<Yielded> exact_breaking_response(const Settings& settings, const std::vector<double>& amplitudes) const;
-    std::complex<double> third_harmonic(const Settings& settings, double strain, double before) const;
-    double storage_while_breaking(const Settings& settings, double before, double strain, double phase) const;
+    bool strain_varies(const Settings& settings, const Observation& observation) const;
+    Eigen::VectorXcd breaking_response(const Settings& settings, const Observation& observation, double before) const;
+    std::vector<Yielded> exact_breaking_response(const Settings& settings, const Observation& observation,
+                                                 const std::vector<double>& amplitudes) const;
+    std::complex<double> third_harmonic(const Settings& settings, const Observation& observation, double before) const;
+    double storage_while_breaking(const Settings& settings, const Observation& observation, double before, double phase) const;
     std::vector<double> strains_before(std::size_t table) const;
     std::vector<double> growing_strains(std::size_t table) const;
     Eigen::VectorXcd exact_amplitude_factors(const Settings& settings) const;

@@ -73,13 +73,30 @@ Eigen::VectorXd Likelihood::deviations(double effect, double error, Index direct
     return all;
 }
 
-Eigen::VectorXd Likelihood::effects(const Eigen::VectorXd& prediction, const ModelErrors& model) const {
+/// Effects over their standard deviations before there are data.
+struct Likelihood::Effects {
+    Eigen::VectorXd deviation;
+    Eigen::MatrixXd directions;
+    Eigen::LDLT<Eigen::MatrixXd> precision;
+};
+
+Likelihood::Effects Likelihood::effects_given(const Eigen::VectorXd& prediction, const ModelErrors& model) const {
     const Eigen::MatrixXd plain = effect_directions(prediction, model);
     const Eigen::VectorXd deviation = deviations(std::max(data_.effect, 0.0), 1, plain.cols());
     const Eigen::MatrixXd directions = plain * deviation.asDiagonal();
-    Eigen::MatrixXd normal = directions.transpose() * directions;
-    normal.diagonal().array() += 1;
-    return deviation.cwiseProduct(normal.ldlt().solve(directions.transpose() * (white_ - whiten(prediction))));
+    Eigen::MatrixXd precision = directions.transpose() * directions;
+    precision.diagonal().array() += 1;
+    return {deviation, directions, precision.ldlt()};
+}
+
+Eigen::VectorXd Likelihood::effects(const Eigen::VectorXd& prediction, const ModelErrors& model) const {
+    const Effects given = effects_given(prediction, model);
+    return given.deviation.cwiseProduct(given.precision.solve(given.directions.transpose() * (white_ - whiten(prediction))));
+}
+
+Eigen::MatrixXd Likelihood::effect_covariance(const Eigen::VectorXd& prediction, const ModelErrors& model) const {
+    const Effects given = effects_given(prediction, model);
+    return given.deviation.asDiagonal() * given.precision.solve(Eigen::MatrixXd(given.deviation.asDiagonal()));
 }
 
 double Likelihood::log_density(const Eigen::VectorXd& prediction, const ModelErrors& model) const {

@@ -27,6 +27,8 @@ public:
     Eigen::VectorXd residual(const Eigen::VectorXd& prediction, const ModelErrors& model = {}) const;
     /// Most probable effects b, one per sample, then the errors of the model over their standard error.
     Eigen::VectorXd effects(const Eigen::VectorXd& prediction, const ModelErrors& model = {}) const;
+    /// Covariance of these.
+    Eigen::MatrixXd effect_covariance(const Eigen::VectorXd& prediction, const ModelErrors& model = {}) const;
     /// Logarithm of the density of the data, but for n/2 log(2 pi).
     double log_density(const Eigen::VectorXd& prediction, const ModelErrors& model = {}) const;
     /// Whitened directions in which the sample effects move the prediction, one column per sample, then those of the model's
@@ -35,6 +37,8 @@ public:
     Eigen::VectorXd whiten(const Eigen::VectorXd& values) const;
 
 private:
+    struct Effects;
+    Effects effects_given(const Eigen::VectorXd& prediction, const ModelErrors& model) const;
     Eigen::VectorXd deviations(double effect, double error, Index directions) const;
     double dense_log_density(const Eigen::VectorXd& plain, const Eigen::MatrixXd& directions, double degrees) const;
 

@@ -84,9 +84,9 @@ std::optional<Value> value_in(const std::array<std::pair<Value, std::string_view
 }
 
 /// A parameter that is unset or satisfies the rule.
-void check_parameter(double value, const char* name, bool (*holds)(double), const char* rule) {
+void check_parameter(double value, const std::string& name, bool (*holds)(double), const char* rule) {
     if (!std::isnan(value) && !(std::isfinite(value) && holds(value))) {
-        throw InputError(std::string(name) + " is " + to_text(value) + ", but " + rule);
+        throw InputError(name + " is " + to_text(value) + ", but " + rule);
     }
 }
 
@@ -120,6 +120,26 @@ void refuse_if_set(double value, const char* name, const Instrument& instrument)
     }
 }
 
+void check_cone(double angle, const std::string& name) {
+    check_parameter(
+        angle, name, [](double value) { return value > 0 && value < std::numbers::pi / 4; }, "must lie between 0 and pi/4 rad");
+}
+
+/// A table that was measured under a cone in place of the upper one of two plates.
+void check_exchanged_cone(const Measurement& measurement, const Instrument& instrument) {
+    check_cone(measurement.cone_angle, measurement.label + ": cone_angle");
+    if (std::isnan(measurement.cone_angle)) {
+        return;
+    }
+    if (instrument.geometry != Geometry::plate_plate) {
+        throw InputError(measurement.label + ": cone_angle is that of a cone in place of a plate, but instrument.geometry is not " +
+                         "plate-plate");
+    }
+    if (find_column(measurement, "gap") != nullptr) {
+        throw InputError(measurement.label + ": a gap and a cone_angle are given, but under a cone the gap is not constant");
+    }
+}
+
 void check_instrument(const Instrument& instrument) {
     check_positive(instrument.plate_radius, "instrument.plate_radius", "m");
     check_positive(instrument.gap, "instrument.gap", "m");
@@ -127,9 +147,7 @@ void check_instrument(const Instrument& instrument) {
     check_positive(instrument.outer_radius, "instrument.outer_radius", "m");
     check_positive(instrument.tool_inertia, "instrument.tool_inertia", "kg.m2");
     check_positive(instrument.tool_compliance, "instrument.tool_compliance", "rad/(N.m)");
-    check_parameter(
-        instrument.cone_angle, "instrument.cone_angle", [](double value) { return value > 0 && value < std::numbers::pi / 4; },
-        "must lie between 0 and pi/4 rad");
+    check_cone(instrument.cone_angle, "instrument.cone_angle");
     if (instrument.outer_radius <= instrument.inner_radius) {
         throw InputError("instrument.outer_radius is " + to_text(instrument.outer_radius) + " m, but must exceed inner_radius, " +
                          to_text(instrument.inner_radius) + " m");
@@ -229,6 +247,7 @@ void check(const Experiment& experiment) {
                          " numbers, but structures.files has " + std::to_string(experiment.structures.size()) + " files");
     }
     for (const Measurement& measurement : experiment.measurements) {
+        check_exchanged_cone(measurement, experiment.instrument);
         for (const Column& column : measurement.columns) {
             require(column.values.size() == measurement.rows(), measurement.label + ": the columns have different lengths");
         }

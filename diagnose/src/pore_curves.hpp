@@ -1,7 +1,7 @@
 // Pore curves: what a table of them says, with its errors.
 #pragma once
 
-#include "forward.hpp"
+#include "observations.hpp"
 
 #include <cmath>
 #include <vector>

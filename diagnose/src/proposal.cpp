@@ -1,5 +1,7 @@
 #include "proposal.hpp"
 
+#include <coagula/diagnose/waveform.hpp>
+
 #include "candidate_measurements.hpp"
 #include "weights.hpp"
 
@@ -55,6 +57,30 @@ ExpectedErrors errors_of(const DataSet& data) {
     return {median(relative), median(phase), data.effect};
 }
 
+/// A cause as the data so far leave it.
+struct Belief {
+    std::vector<Settings> draws;  ///< from its posterior
+    Eigen::MatrixXd errors;       ///< of the model over their standard errors: those that each draw makes most probable, in columns
+    Eigen::MatrixXd covariance;   ///< of these
+};
+
+Belief belief_in(const Fit& fit, const Inference& inference) {
+    Belief belief;
+    const Forward& forward = inference.forward();
+    const ModelErrors model = forward.yield_errors(fit.settings);
+    const Index errors = model.changes.cols();
+    belief.covariance =
+        inference.likelihood().effect_covariance(forward.predict(fit.settings), model).bottomRightCorner(errors, errors);
+    belief.errors.resize(errors, draws_per_cause);
+    for (int draw = 0; draw < draws_per_cause; ++draw) {
+        const Settings settings = settings_of(fit, draw * fit.draws.cols() / draws_per_cause);
+        belief.errors.col(draw) =
+            inference.likelihood().effects(forward.predict(settings), forward.yield_errors(settings)).tail(errors);
+        belief.draws.push_back(settings);
+    }
+    return belief;
+}
+
 /// Standard deviations of the rows of a measurement of these moduli.
 Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli,
                           const ExpectedErrors& errors) {
@@ -63,7 +89,7 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
     for (Index k = 0; k < moduli.size(); ++k) {
         const Observation& one = observations[static_cast<std::size_t>(k)];
         if (one.third_harmonic) {
-            deviation[k] = one.standard_error;
+            deviation[k] = std::hypot(one.standard_error, third_harmonic_error * moduli[k]);
             continue;
         }
         const double turned = one.loss ? errors.phase * sizes[k] : 0.0;
@@ -72,44 +98,55 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
     return deviation;
 }
 
-/// A measurement that is judged beforehand.
-struct Planned {
-    std::vector<std::size_t> table;  ///< of each row; each table has a sample of its own
-    Eigen::ArrayXd deviation;        ///< of each row
-    double effect;                   ///< standard deviation of that of a sample
-    Eigen::ArrayXd level;            ///< 1 where it changes the row, 0 for third harmonics
+/// What a cause expects of a measurement: normal errors about one of some predictions.
+struct Expectation {
+    Eigen::MatrixXd predictions;         ///< rows x draws
+    Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the covariance of the errors
+    Eigen::MatrixXd white;               ///< predictions over it
 };
 
-/// Logarithm of the density of data, the effects of the samples integrated out (Woodbury's identity).
-double log_density(const Eigen::VectorXd& data, const Eigen::VectorXd& prediction, const Planned& planned) {
-    const Eigen::ArrayXd plain = (data - prediction).array() / planned.deviation;
-    const Eigen::ArrayXd direction = planned.level * prediction.array() / planned.deviation;
-    const double variance = planned.effect * planned.effect;
-    std::vector<double> squares(planned.table.back() + 1, 0);
-    std::vector<double> products(squares.size(), 0);
-    for (Index row = 0; row < data.size(); ++row) {
-        const std::size_t table = planned.table[static_cast<std::size_t>(row)];
-        squares[table] += direction[row] * direction[row];
-        products[table] += direction[row] * plain[row];
+/// Errors of the rows, of the level of each fresh sample, and of the model, which are the same as in the data so far.
+Expectation expected_by(const Belief& belief, const Forward& forward, const std::vector<Observation>& observations,
+                        const ExpectedErrors& errors) {
+    Expectation expectation;
+    const auto rows = static_cast<Index>(observations.size());
+    expectation.predictions.resize(rows, draws_per_cause);
+    Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(rows, belief.errors.rows());
+    for (int draw = 0; draw < draws_per_cause; ++draw) {
+        const Settings& settings = belief.draws[static_cast<std::size_t>(draw)];
+        const Eigen::MatrixXd moved = forward.yield_errors(settings).changes;
+        expectation.predictions.col(draw) = forward.predict(settings) + moved * belief.errors.col(draw);
+        changes += moved / draws_per_cause;
     }
-    double sum = plain.square().sum();
-    for (std::size_t table = 0; table < squares.size(); ++table) {
-        const double normal = 1 + variance * squares[table];
-        sum += std::log(normal) - variance * products[table] * products[table] / normal;
+    const Eigen::VectorXd mean = expectation.predictions.rowwise().mean();
+    Eigen::MatrixXd covariance = changes * belief.covariance * changes.transpose();
+    covariance.diagonal().array() += deviations(observations, mean, errors).square();
+    for (Index one = 0; one < rows; ++one) {
+        for (Index other = 0; other < rows; ++other) {
+            const Observation& a = observations[static_cast<std::size_t>(one)];
+            const Observation& b = observations[static_cast<std::size_t>(other)];
+            if (a.measurement == b.measurement && !a.third_harmonic && !b.third_harmonic) {
+                covariance(one, other) += errors.sample * errors.sample * mean[one] * mean[other];
+            }
+        }
     }
-    return -0.5 * sum;
+    expectation.factor.compute(covariance);
+    expectation.white = expectation.factor.matrixL().solve(expectation.predictions);
+    return expectation;
 }
 
 /// Probability of each cause given data, each cause being a mixture of its predictions.
-std::vector<double> judge(const Eigen::VectorXd& data, const std::vector<Eigen::MatrixXd>& predictions,
-                          const std::vector<double>& weights, const Planned& planned) {
+std::vector<double> judge(const Eigen::VectorXd& data, const std::vector<Expectation>& causes, const std::vector<double>& weights) {
     std::vector<double> logarithms;
-    for (std::size_t cause = 0; cause < predictions.size(); ++cause) {
+    for (std::size_t cause = 0; cause < causes.size(); ++cause) {
+        const Expectation& expectation = causes[cause];
+        const Eigen::VectorXd white = expectation.factor.matrixL().solve(data);
         std::vector<double> densities;
-        for (const auto& prediction : predictions[cause].colwise()) {
-            densities.push_back(log_density(data, prediction, planned));
+        for (const auto& prediction : expectation.white.colwise()) {
+            densities.push_back(-0.5 * (white - prediction).squaredNorm());
         }
-        logarithms.push_back(log_sum(densities) + std::log(weights[cause]));
+        const double log_determinant = expectation.factor.matrixLLT().diagonal().array().log().sum();
+        logarithms.push_back(log_sum(densities) - log_determinant + std::log(weights[cause]));
     }
     return probabilities_of(std::move(logarithms));
 }
@@ -122,46 +159,27 @@ double entropy(const std::vector<double>& probabilities) {
     return sum;
 }
 
-/// What each cause predicts for a measurement: rows x draws from its posterior.
-std::vector<Eigen::MatrixXd> predictions_by(const std::vector<Fit>& causes, const Forward& forward, std::size_t rows) {
-    std::vector<Eigen::MatrixXd> predictions;
-    for (const Fit& fit : causes) {
-        Eigen::MatrixXd all(static_cast<Index>(rows), draws_per_cause);
-        for (int draw = 0; draw < draws_per_cause; ++draw) {
-            all.col(draw) = forward.predict(settings_of(fit, draw * fit.draws.cols() / draws_per_cause));
-        }
-        predictions.push_back(std::move(all));
-    }
-    return predictions;
-}
-
-Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::vector<Fit>& causes,
+Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::vector<Belief>& beliefs,
                   const std::vector<double>& weights, const ExpectedErrors& errors, std::uint64_t seed, std::uint64_t number) {
     const std::vector<Observation> observations = observations_of(candidate.experiment);
     const Forward forward(candidate.experiment, observations, simulator);
-    const std::vector<Eigen::MatrixXd> predictions = predictions_by(causes, forward, observations.size());
-    Planned planned{{}, deviations(observations, predictions.front().rowwise().mean(), errors), errors.sample, {}};
-    planned.level.setOnes(planned.deviation.size());
-    for (const Observation& one : observations) {
-        planned.level[static_cast<Index>(planned.table.size())] = one.third_harmonic ? 0.0 : 1.0;
-        planned.table.push_back(one.measurement);
+    std::vector<Expectation> causes;
+    for (const Belief& belief : beliefs) {
+        causes.push_back(expected_by(belief, forward, observations, errors));
     }
     Proposal proposal{.what = candidate.what};
     const double before = entropy(weights);
     std::uint64_t step = 2000000 + 1000 * number;
     for (std::size_t cause = 0; cause < causes.size(); ++cause) {
         for (int draw = 0; draw < draws_per_cause * data_per_draw; ++draw) {
-            std::uint64_t place = 0;
-            const auto normal = [&] { return normal_number(seed, step, place++); };
-            std::vector<double> level(planned.table.back() + 1);
-            std::generate(level.begin(), level.end(), [&] { return planned.effect * normal(); });
-            Eigen::VectorXd data = predictions[cause].col(draw % draws_per_cause);
-            for (Index k = 0; k < data.size(); ++k) {
-                const double effect = planned.level[k] * level[planned.table[static_cast<std::size_t>(k)]];
-                data[k] = (1 + effect) * data[k] + planned.deviation[k] * normal();
+            Eigen::VectorXd normal(static_cast<Index>(observations.size()));
+            for (Index row = 0; row < normal.size(); ++row) {
+                normal[row] = normal_number(seed, step, static_cast<std::uint64_t>(row));
             }
             ++step;
-            const std::vector<double> after = judge(data, predictions, weights, planned);
+            const Expectation& truth = causes[cause];
+            const Eigen::VectorXd data = truth.predictions.col(draw % draws_per_cause) + truth.factor.matrixL() * normal;
+            const std::vector<double> after = judge(data, causes, weights);
             const double share = weights[cause] / (draws_per_cause * data_per_draw);
             proposal.information += share * (before - entropy(after));
             proposal.resolution += *std::max_element(after.begin(), after.end()) > certain ? share : 0.0;
@@ -172,8 +190,8 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
 
 }  // namespace
 
-std::vector<Proposal> propose(const Experiment& experiment, const DataSet& data, Simulator& simulator,
-                              const std::vector<Fit>& causes, const std::vector<double>& weights, std::uint64_t seed) {
+std::vector<Proposal> propose(const Inference& inference, Simulator& simulator, const std::vector<Fit>& causes,
+                              const std::vector<double>& weights, std::uint64_t seed) {
     std::vector<Proposal> proposals;
     if (causes.size() < 2) {
         return proposals;
@@ -183,10 +201,15 @@ std::vector<Proposal> propose(const Experiment& experiment, const DataSet& data,
     for (double& weight : normalised) {
         weight /= sum;
     }
+    std::vector<Belief> beliefs;
+    for (const Fit& fit : causes) {
+        beliefs.push_back(belief_in(fit, inference));
+    }
+    const DataSet& data = inference.likelihood().data();
     const ExpectedErrors errors = errors_of(data);
     std::uint64_t number = 0;
-    for (const Candidate& candidate : candidates_for(experiment, data.observations)) {
-        proposals.push_back(evaluate(candidate, simulator, causes, normalised, errors, seed, number++));
+    for (const Candidate& candidate : candidates_for(inference.forward().experiment(), data.observations)) {
+        proposals.push_back(evaluate(candidate, simulator, beliefs, normalised, errors, seed, number++));
     }
     std::stable_sort(proposals.begin(), proposals.end(),
                      [](const auto& a, const auto& b) { return a.information > b.information; });

@@ -56,13 +56,9 @@ bool goes_up(const Measurement& table) {
     return steps >= 0;
 }
 
-bool same_fluid(const Measurement& a, const Measurement& b) {
-    return std::isfinite(a.fluid_viscosity) ? a.fluid_viscosity == b.fluid_viscosity : !std::isfinite(b.fluid_viscosity);
-}
-
 /// What comes later on a sample, or goes the other way, may differ by physics.
 bool are_replicates(const Measurement& a, const Measurement& b) {
-    if (a.rough_plates != b.rough_plates || a.oscillations != b.oscillations || !same_fluid(a, b)) {
+    if (!measured_alike(a, b)) {
         return false;
     }
     if (a.kind != b.kind || axis_of(a)->name != axis_of(b)->name || a.run_order != b.run_order || goes_up(a) != goes_up(b)) {

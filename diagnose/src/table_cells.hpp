@@ -33,4 +33,15 @@ inline bool alike(double a, double b) {
     return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
 }
 
+/// Whether a set value is the same or missing in both.
+inline bool identical(double a, double b) {
+    return std::isnan(a) ? std::isnan(b) : a == b;
+}
+
+/// Whether two tables of the same kind and axis are of the same measurement but for sample and order.
+inline bool measured_alike(const Measurement& a, const Measurement& b) {
+    return a.rough_plates == b.rough_plates && a.oscillations == b.oscillations && identical(a.cone_angle, b.cone_angle) &&
+           identical(a.fluid_viscosity, b.fluid_viscosity);
+}
+
 }  // namespace coagula::diagnose

@@ -12,15 +12,8 @@ namespace coagula::diagnose {
 
 namespace {
 
-/// Part of a third harmonic to which its simulation knows it: explicit runs of two structures scatter by that.
-constexpr double known_to = 0.25;
-
 bool same_run(const Measurement& one, const Measurement& other) {
     return one.sample == other.sample && one.run_order == other.run_order;
-}
-
-bool measured_alike(const Measurement& one, const Measurement& other) {
-    return same_run(one, other) && one.rough_plates == other.rough_plates && one.oscillations == other.oscillations;
 }
 
 /// A table without rows.
@@ -50,7 +43,7 @@ void add_row(const Experiment& experiment, const WaveformHarmonics& found, doubl
     add(1, found.angular_frequency, 0);
     const std::size_t row = table.rows() - 1;
     add(2, unset, 0);
-    const double error = std::hypot(found.error, known_to * found.third_harmonic);
+    const double error = std::hypot(found.error, third_harmonic_error * found.third_harmonic);
     add(3, found.third_harmonic_storage, error);
     add(4, found.third_harmonic_loss, error);
     const auto same = same_oscillation(experiment, table, row);
@@ -100,7 +93,8 @@ void reduce_waveforms(Experiment& experiment, double relative, double phase) {
                              ": the waveform has no harmonics: it needs its angular frequency, at least 11 readable "
                              "samples over nine tenths of a period, and a strain and a stress that oscillate");
         }
-        auto table = std::find_if(reduced.begin(), reduced.end(), [&](const auto& one) { return measured_alike(one, waveform); });
+        auto table = std::find_if(reduced.begin(), reduced.end(),
+                                  [&](const auto& one) { return same_run(one, waveform) && measured_alike(one, waveform); });
         if (table == reduced.end()) {
             table = reduced.insert(reduced.end(), empty_table(waveform));
         }

@@ -1,4 +1,4 @@
-"""coagula diagnose on structure series, coordinates, rough plates and a Newtonian oil: what stands in diagnosis.json, and bad values refused."""
+"""coagula diagnose on structure series, coordinates, rough plates, a Newtonian oil and a cone: what stands in diagnosis.json, and bad values refused."""
 
 import json
 import math
@@ -223,6 +223,14 @@ class GapSeries(Tables):
         for value, says in (("1", "key 'rough_plates': must be true or false"), ('"yes"', "key 'rough_plates': must be true or false")):
             with self.subTest(rough_plates=value):
                 self.refuse(self.experiment(self.ROUGH.replace("true", value)), says)
+        for value, says in (
+            ('"50 degree"', "cone_angle is 0.8726646259971648, but must lie between 0 and pi/4 rad"),
+            ("0", "cone_angle is 0, but must lie"),
+            ('"1 mm"', "key 'cone_angle'"),
+            ('"1 degree"', "rough.csv: a gap and a cone_angle are given, but under a cone the gap is not constant"),
+        ):
+            with self.subTest(cone_angle=value):
+                self.refuse(self.experiment(self.ROUGH + f"cone_angle = {value}\n"), says)
         for value, says in (("0", "key 'oscillations': is 0, but must be a whole number >= 1"), ("1.5", "key 'oscillations'")):
             with self.subTest(oscillations=value):
                 self.refuse(self.experiment(self.ROUGH + f"oscillations = {value}\n"), says)
@@ -270,6 +278,29 @@ class SettledSample(Tables):
         self.write("experiment.toml", self.experiment(["dense.h5"]))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "other", "--causes", "volume-fraction-gradient",
                        says="none of the causes asked for can show in this experiment")
+
+
+class Cone(Tables):
+    """A sweep under a cone in place of the upper plate."""
+
+    SWEEP = '[structures]\nfiles = ["k.h5"]\n\n[[measurement]]\nkind = "amplitude-sweep"\nfile = "sweep.csv"\ncone_angle = "1 degree"\n'
+
+    def setUp(self):
+        super().setUp()
+        self.structure("k.h5", 1)
+        number = random.Random(5)
+        self.table("sweep.csv", ("strain [1]", "storage_modulus [Pa]"), [(1e-4 * k, 2e5 * (1 + number.gauss(0, 0.02))) for k in range(1, 9)])
+
+    def test_has_no_strain_field(self):
+        self.write("experiment.toml", PLATES + self.SWEEP)
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", "--causes", "plate-strain-field",
+                       says=("none of the causes asked for can show in this experiment",))
+        self.assertEqual(self.diagnosis(PLATES + self.SWEEP)["verdict"], "no-discrepancy")
+
+    def test_takes_the_place_of_a_plate(self):
+        for instrument in ("", '[instrument]\ngeometry = "cone-plate"\ncone_angle = "1 degree"\n\n'):
+            with self.subTest(instrument=instrument):
+                self.refuse(instrument + self.SWEEP, "sweep.csv: cone_angle is that of a cone in place of a plate", "not plate-plate")
 
 
 class Waveforms(Tables):

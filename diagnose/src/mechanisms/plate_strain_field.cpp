@@ -6,10 +6,10 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-/// At one strain the field has no other signature than bonds that break at once.
+/// At one strain the field has no other signature than bonds that break at once; under a cone there is none.
 bool varies_strain(const Measurement& table) {
     const Column* strain = find_column(table, "strain");
-    if (strain == nullptr || find_column(table, "storage_modulus") == nullptr) {
+    if (strain == nullptr || find_column(table, "storage_modulus") == nullptr || std::isfinite(table.cone_angle)) {
         return false;
     }
     double low = std::numeric_limits<double>::infinity();

@@ -109,7 +109,7 @@ class Material:
             words += ["--bond-tolerance", value] if cause == "bond-range" else []
             path = self.structure(number, coordination=coordination)
             found = self.explicit(path, "--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude", *words)
-            return float(numpy.mean([each[-1] for each in found["oscillations"]["storage_modulus"]]))
+            return float(numpy.mean([each[-1] for each in found["oscillations"]["fundamental_storage_modulus"]]))
         return self.remembered(f"modulus {number} {cause} {value} {coordination}", compute)
 
     def mean_modulus(self, cause="", value=0.0):
@@ -117,7 +117,8 @@ class Material:
         return float(numpy.mean([self.modulus(number, cause, value) for number in range(STRUCTURES)]))
 
     def breaking(self, number, load, ring=1.0):
-        """G* over G' at strains growing linearly to `load` times the critical strain, or at a radius between plates less, bonds breaking."""
+        """G* over G' of the fundamental, as a rheometer shows it, at strains growing linearly to `load` times the critical strain, or at a radius
+        between plates less, bonds breaking."""
         def compute():
             strength = 1e-4 * CONTACT * RADIUS
             model = self.folder / "strength.toml"
@@ -127,9 +128,9 @@ class Material:
             broken = slowly("--oscillations", SWEEP_ROWS, "--amplitude", ring * load * 1e-4, "--model", model)
             whole = slowly("--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude")
             mean = lambda part, of: numpy.mean(of[part], axis=0)
-            unbroken = mean("storage_modulus", whole)[-1]
-            storage = mean("storage_modulus", broken) / unbroken
-            loss = (mean("loss_modulus", broken) - mean("loss_modulus", whole)[-1]) / unbroken
+            unbroken = mean("fundamental_storage_modulus", whole)[-1]
+            storage = mean("fundamental_storage_modulus", broken) / unbroken
+            loss = (mean("fundamental_loss_modulus", broken) - mean("fundamental_loss_modulus", whole)[-1]) / unbroken
             return [storage.tolist(), loss.tolist()]
         storage, loss = self.remembered(f"breaking {number} {load} {ring:.3f}", compute)
         return numpy.array(storage) + 1j * numpy.array(loss)

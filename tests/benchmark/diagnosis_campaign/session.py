@@ -1,5 +1,5 @@
 """A day at the rheometer: what torque and angle the instrument would read on a material with hidden effects, written as an experiment file and
-tables. Formulas are those of a plate-plate rheometer, from torque and angle, not those of the diagnosis."""
+tables. Formulas are those of a plate-plate or cone-plate rheometer, from torque and angle, not those of the diagnosis."""
 
 from dataclasses import dataclass, field, replace
 
@@ -8,6 +8,7 @@ import numpy
 GAP = 1e-3
 PLATE = 12.5e-3
 SMALL_STRAIN = 1e-5
+CONE = numpy.pi / 180  # angle
 PAUSE = 10.0  # after the last row of a table [s]
 
 
@@ -25,6 +26,7 @@ class Table:
     start: float = 0.0
     rough: bool = False                # plates at which nothing slips
     viscosity: float = float("nan")    # of an oil in place of the sample
+    cone: bool = False                 # in place of the upper plate
 
 
 @dataclass(frozen=True)
@@ -84,13 +86,16 @@ class Session:
             measured = clean * size * numpy.exp(1j * self.noise.phase * errors(generator, self.noise, len(clean)))
             columns = {"strain [1]": table.strain, "frequency [Hz]": table.frequency, "time [s]": table.time, "gap [m]": table.gap,
                        "storage_modulus [Pa]": measured.real, "loss_modulus [Pa]": measured.imag}
+            if table.cone:
+                del columns["gap [m]"]
             if self.storage_only:
                 del columns["loss_modulus [Pa]"]
             rows = [",".join(columns)] + [",".join(f"{value:.9g}" for value in row) for row in zip(*columns.values())]
             (folder / f"table{number}.csv").write_text("\n".join(rows) + "\n")
             lines += ["[[measurement]]", f'kind = "{table.kind}"', f'file = "table{number}.csv"', f'sample = "{table.sample}"',
                       f"run_order = {table.order}", f"values = {{ plate_radius = {table.plate} }}"]
-            lines += ["rough_plates = true"] * table.rough + [f"fluid_viscosity = {table.viscosity:.9g}"] * bool(numpy.isfinite(table.viscosity)) + [""]
+            lines += ["rough_plates = true"] * table.rough + [f"fluid_viscosity = {table.viscosity:.9g}"] * bool(numpy.isfinite(table.viscosity))
+            lines += [f"cone_angle = {CONE:.9g}"] * table.cone + [""]
         path = folder / "experiment.toml"
         path.write_text("\n".join(lines))
         return path
@@ -173,6 +178,8 @@ def follow_up(session, what):
         return [sweep("frequency-sweep", "N", 0, SMALL_STRAIN, numpy.geomspace(0.01, 100, 20), 20)]
     if "constant small strain" in what:
         return [sweep("time-sweep", "N", 0, numpy.full(20, SMALL_STRAIN), 1.0, 60)]
+    if session.hidden.loads:  # the bank has that sweep only, without waveforms
+        return [replace(session.tables[0], sample="N", cone="cone" in what)]
     strains = numpy.geomspace(SMALL_STRAIN, 10 * SMALL_STRAIN, 10)
     down = [sweep("amplitude-sweep", "N", 1, strains[::-1], 1.0, 10)] if "up and down" in what else []
     return [sweep("amplitude-sweep", "N", 0, strains, 1.0, 10), *down]
@@ -188,7 +195,7 @@ def true_modulus(material, session, table):
     if hidden.loss:
         modulus *= material.losses(session.structure, *hidden.loss, table.frequency)
     if hidden.loads and table.kind == "amplitude-sweep":
-        modulus *= material.mean_breaking(*hidden.loads, rim=hidden.rim)
+        modulus *= material.mean_breaking(*hidden.loads, rim=hidden.rim and not table.cone)
     if hidden.ageing:
         modulus *= 1 + hidden.ageing * numpy.log10(1 + table.start + table.time)
     if hidden.warmth:
@@ -201,8 +208,11 @@ def reading(material, session, table):
     """Apparent G* from torque and angle."""
     hidden = session.hidden
     modulus = true_modulus(material, session, table)
-    true_gap = table.gap + hidden.gap_error
     stress = modulus * table.strain
+    if table.cone:
+        torque = 2 * numpy.pi * table.plate**3 / 3 * stress
+        return 3 * torque / (2 * numpy.pi * table.plate**3) / (table.strain + hidden.compliance * torque / CONE)
+    true_gap = table.gap + hidden.gap_error
     torque = numpy.pi * table.plate**3 / 2 * stress
     slip = 0.0 if table.rough or numpy.isfinite(table.viscosity) else hidden.slip
     angle = (true_gap * table.strain + 2 * slip * stress) / table.plate + hidden.compliance * torque

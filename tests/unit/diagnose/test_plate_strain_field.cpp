@@ -39,8 +39,10 @@ Experiment sweep(const std::vector<double>& strains, const std::vector<Complex>&
 }
 
 /// G* over G of the rows of a sweep.
-std::vector<Complex> response(const std::vector<double>& strains, const Settings& settings, Geometry geometry, bool exact = false) {
-    const Experiment experiment = sweep(strains, std::vector<Complex>(strains.size(), 1.0), geometry);
+std::vector<Complex> response(const std::vector<double>& strains, const Settings& settings, Geometry geometry, bool exact = false,
+                              double cone_angle = unset) {
+    Experiment experiment = sweep(strains, std::vector<Complex>(strains.size(), 1.0), geometry);
+    experiment.measurements[0].cone_angle = cone_angle;
     const auto rows = observations_of(experiment);
     const Eigen::VectorXd predicted = Forward(experiment, rows, simulator()).predict(settings, exact);
     const double linear = exact ? simulator().exact_linear_modulus(settings) : simulator().linear_modulus(settings);
@@ -91,10 +93,44 @@ TEST(PlateStrainField, BroadensTheYieldAndPutsItOffAtTheRim) {
     EXPECT_GT(yield(strains, field, 0.6), 1.05 * yield(strains, uniform, 0.6));
     EXPECT_GT(yield(strains, field, 0.6) / yield(strains, field, 0.9),
               1.05 * yield(strains, uniform, 0.6) / yield(strains, uniform, 0.9));
-    const auto cone = response(strains, weak(&Settings::rim_critical_strain), Geometry::cone_plate);
-    for (std::size_t k = 0; k < strains.size(); ++k) {
-        EXPECT_LT(std::abs(cone[k] - uniform[k]), 1e-12) << strains[k];
+}
+
+/// A cone of the instrument, or in place of the upper plate for one table.
+TEST(PlateStrainField, IsNotThereUnderACone) {
+    const std::vector<double> strains = logarithmic_steps(1e-4, 1e-3, 8);
+    for (const bool exact : {false, true}) {
+        const auto uniform = response(strains, weak(&Settings::critical_strain), Geometry::plate_plate, exact);
+        const auto cone = response(strains, weak(&Settings::rim_critical_strain), Geometry::cone_plate, exact);
+        const auto exchanged = response(strains, weak(&Settings::rim_critical_strain), Geometry::plate_plate, exact, 0.02);
+        for (std::size_t k = 0; k < strains.size(); ++k) {
+            EXPECT_LT(std::abs(cone[k] - uniform[k]), 1e-12) << strains[k];
+            EXPECT_LT(std::abs(exchanged[k] - uniform[k]), 1e-12) << strains[k];
+        }
     }
+    Experiment experiment = sweep(strains, std::vector<Complex>(strains.size(), 1.0), Geometry::plate_plate);
+    EXPECT_TRUE(find_mechanism("plate-strain-field")->applies(experiment));
+    experiment.measurements[0].cone_angle = 0.02;
+    EXPECT_FALSE(find_mechanism("plate-strain-field")->applies(experiment));
+}
+
+/// Torque per angle over the modulus is that of the cone, and no gap matters.
+TEST(PlateStrainField, AConeInPlaceOfThePlateTurnsByItsAngle) {
+    constexpr double radius = 0.0125;
+    constexpr double angle = 0.02;
+    Experiment experiment = sweep({1e-5}, {1.0}, Geometry::plate_plate);
+    experiment.instrument.plate_radius = radius;
+    experiment.instrument.gap = 1e-3;
+    experiment.measurements[0].cone_angle = angle;
+    const auto rows = observations_of(experiment);
+    const Forward forward(experiment, rows, simulator());
+    Settings settings;
+    const double modulus = forward.predict(settings)[0];
+    settings.slip = 1e-9;
+    settings.gap_error = 1e-4;
+    EXPECT_DOUBLE_EQ(forward.predict(settings)[0], modulus);
+    settings.tool_compliance = 0.01;
+    const double factor = 2 * std::numbers::pi * std::pow(radius, 3) / (3 * angle);
+    EXPECT_NEAR(forward.predict(settings)[0], modulus / (1 + 0.01 * factor * modulus), 1e-9 * modulus);
 }
 
 /// The weaker of the two strengths breaks the bonds, and the extended model has that one.
@@ -143,9 +179,9 @@ TEST(PlateStrainField, StrengthsEndAtHundredths) {
     }
 }
 
-/// Explicit runs of another structure at ten radii with equal steps, at other orientations, damping and step than the diagnosis
-/// uses.
-std::vector<Complex> torque_of_runs(const std::vector<double>& strains, double critical_strain) {
+/// Explicit runs of another structure, at other orientations, damping and step than the diagnosis uses; between plates at ten radii
+/// with equal steps.
+std::vector<Complex> torque_of_runs(const std::vector<double>& strains, double critical_strain, bool under_cone = false) {
     const Packing sample = structure(250, 77);
     const ContactNetwork bonds = find_contacts(sample, 0.01);
     mechanics::RheometerOptions run;
@@ -160,10 +196,10 @@ std::vector<Complex> torque_of_runs(const std::vector<double>& strains, double c
     for (const double strain : strains) {
         run.course.push_back(strain / strains.back());
     }
-    constexpr int radii = 10;
+    const int radii = under_cone ? 1 : 10;
     std::vector<Complex> moduli(strains.size());
     for (int ring = 0; ring < radii; ++ring) {
-        const double x = (ring + 0.5) / radii;
+        const double x = under_cone ? 1 : (ring + 0.5) / radii;
         const double weight = std::pow((ring + 1.0) / radii, 4) - std::pow(static_cast<double>(ring) / radii, 4);
         run.amplitude = x * strains.back();
         const auto oscillations = mechanics::run_rheometer(sample, bonds, run, {{2, 0}}).runs.front().oscillations;
@@ -196,6 +232,22 @@ TEST(PlateStrainField, IsTiedWithBreakingAtOnceWhereStructuresAreFew) {
     const MechanismParameter& strain = find_mechanism("plate-strain-field")->parameters[0];
     const double place = strain.place_of(field->settings.rim_critical_strain);
     EXPECT_NEAR(place, strain.rounded(place), 1e-9) << "strengths end at hundredths";
+
+    // What is proposed decides.
+    ASSERT_FALSE(found.proposals.empty());
+    EXPECT_NE(found.proposals.front().what.find("under a cone"), std::string::npos) << found.proposals.front().what;
+    const auto same = std::find_if(found.proposals.begin(), found.proposals.end(),
+                                   [](const Proposal& one) { return one.what == "an amplitude sweep on a fresh sample"; });
+    ASSERT_NE(same, found.proposals.end());
+    EXPECT_LT(same->information, 0.1) << "what the structures leave open stays open";
+    Measurement cone = sweep(strains, torque_of_runs(strains, 2e-4, true), Geometry::plate_plate, 0.03, 4).measurements[0];
+    cone.sample = "under the cone";
+    cone.cone_angle = 0.02;
+    Experiment both = measured;
+    both.measurements.push_back(cone);
+    const Diagnosis decided = diagnose(both, simulator(), options);
+    EXPECT_EQ(decided.verdict, Verdict::named);
+    EXPECT_EQ(decided.credible_set, std::vector<std::string>{"plate-strain-field"});
 }
 
 }  // namespace

@@ -84,6 +84,7 @@ struct Measurement {
     std::string sample;              ///< tables of one sample share its random effect
     int run_order = 0;               ///< position in the sequence of runs on this sample
     bool rough_plates = false;       ///< nothing slips there
+    double cone_angle = unset;       ///< of a cone in place of the upper one of two plates [rad]
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]; it does not slip, either
     int oscillations = 1;            ///< at the strain of a row, of which the last is measured; >= 1
     std::vector<Column> columns;

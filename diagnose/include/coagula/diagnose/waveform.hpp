@@ -8,6 +8,9 @@
 
 namespace coagula::diagnose {
 
+/// Part of a third harmonic to which its simulation knows it: explicit runs of two structures scatter by that.
+constexpr double third_harmonic_error = 0.25;
+
 struct WaveformHarmonics {
     double strain;             ///< amplitude of the first harmonic
     double angular_frequency;  ///< [rad/s]

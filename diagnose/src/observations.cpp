@@ -1,0 +1,216 @@
+#include "observations.hpp"
+
+#include "neighbour_shells.hpp"
+#include "pore_curves.hpp"
+#include "table_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr Index fewest_centres = 20;
+
+/// Standard deviation of a third harmonic over the first where the table states none.
+constexpr double unstated_error = 5e-3;
+
+/// How long a row takes where the table has no times [s].
+constexpr double row_duration = 10;
+
+/// Time since the first row of its table; rows without a time follow each other.
+double time_in(const Measurement& table, std::size_t row) {
+    const double given = cell(table, "time", row);
+    return std::isnan(given) ? row_duration * static_cast<double>(row) : given;
+}
+
+double duration(const Measurement& table) {
+    double longest = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        longest = std::max(longest, time_in(table, row));
+    }
+    return longest + row_duration;
+}
+
+/// When each table begins: the runs on one sample follow each other in their order.
+std::vector<double> starts(const Experiment& experiment) {
+    std::vector<double> start(experiment.measurements.size(), 0);
+    for (std::size_t k = 0; k < start.size(); ++k) {
+        for (const Measurement& other : experiment.measurements) {
+            const Measurement& table = experiment.measurements[k];
+            const bool before = other.sample == table.sample && other.run_order < table.run_order;
+            // Waveforms were recorded during the sweeps.
+            start[k] += before && other.kind != MeasurementKind::harmonics ? duration(other) : 0.0;
+        }
+    }
+    return start;
+}
+
+/// The group of structures that stands for a row of a structure series: its number, else its place in the table.
+std::size_t group_of(const Measurement& table, std::size_t row) {
+    const Column* column = find_column(table, "structure");
+    if (column == nullptr) {
+        return row + 1;
+    }
+    const double number = column->values[row];
+    if (!(number == std::floor(number))) {  // nor where the cell was left out
+        throw InputError(table.label + ": column 'structure' must have a whole number in row " + std::to_string(row + 1) +
+                         ", one of structures.groups");
+    }
+    return static_cast<std::size_t>(number);
+}
+
+/// What a table may show of a response to shear; in this order.
+struct Shown {
+    const char* column;
+    bool loss;
+    bool third_harmonic;
+};
+constexpr std::array<Shown, 4> shown{{{"storage_modulus", false, false},
+                                      {"loss_modulus", true, false},
+                                      {"third_harmonic_storage", false, true},
+                                      {"third_harmonic_loss", true, true}}};
+
+/// A cell of these columns with all that the row says about it; time since the start of its table.
+Observation observation_at(const Experiment& experiment, std::size_t number, std::size_t row, const Shown& what) {
+    const Measurement& table = experiment.measurements[number];
+    const Column& column = *find_column(table, what.column);
+    const bool series = table.kind == MeasurementKind::structure_series;
+    const double gap = cell(table, "gap", row);
+    const bool under_cone = std::isfinite(table.cone_angle);
+    const double radius = cell(table, "plate_radius", row);
+    return {.measurement = number,
+            .row = row,
+            .loss = what.loss,
+            .value = column.values[row],
+            .standard_error =
+                column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset) : column.standard_errors[row],
+            .strain = cell(table, "strain", row),
+            .angular_frequency = angular_frequency(table, row),
+            .time = series ? unset : time_in(table, row),
+            .gap = under_cone ? unset : (std::isnan(gap) ? experiment.instrument.gap : gap),
+            .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
+            .errors = column.errors,
+            .third_harmonic = what.third_harmonic,
+            .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
+            .rough_plates = table.rough_plates,
+            .fluid_viscosity = table.fluid_viscosity,
+            .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
+            .heterogeneity = cell(table, "heterogeneity", row),
+            .coordination = cell(table, "coordination", row),
+            .volume_fraction = cell(table, "volume_fraction", row)};
+}
+
+/// Neighbours in shells, where the diameter is known and there are particles far enough from the faces.
+std::vector<Observation> neighbours_in(const Experiment& experiment, std::size_t number) {
+    const Measurement& table = experiment.measurements[number];
+    std::vector<Eigen::Vector3d> centres;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const Eigen::Vector3d centre(cell(table, "x", row), cell(table, "y", row), cell(table, "z", row));
+        if (centre.allFinite()) {
+            centres.push_back(centre);
+        }
+    }
+    const Eigen::Map<const Eigen::Matrix3Xd> positions(centres.data()->data(), 3, static_cast<Index>(centres.size()));
+    const NeighbourShells shells = shells_of_points(positions, 2 * experiment.sample.particle_radius);
+    std::vector<Observation> all;
+    for (std::size_t shell = 0; shell < shells.mean.size() && shells.centres >= fewest_centres; ++shell) {
+        all.push_back({.measurement = number,
+                       .row = shell,
+                       .loss = false,
+                       .value = shells.mean[shell],
+                       .standard_error = shells.standard_errors[shell],
+                       .strain = unset,
+                       .angular_frequency = unset,
+                       .time = unset,
+                       .gap = unset,
+                       .plate_radius = unset,
+                       .distance = first_shell + shell_width * (static_cast<double>(shell) + 0.5)});
+    }
+    return all;
+}
+
+}  // namespace
+
+bool has_moduli(MeasurementKind kind) {
+    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
+}
+
+const char* observable_of(const Observation& observation) {
+    if (std::isfinite(observation.distance)) {
+        return "neighbours";
+    }
+    if (is_pore(observation)) {
+        return "exclusion_probability";
+    }
+    return shown.at((observation.third_harmonic ? 2 : 0) + (observation.loss ? 1 : 0)).column;
+}
+
+bool same_column(const Observation& one, const Observation& other) {
+    return one.measurement == other.measurement && one.loss == other.loss && one.third_harmonic == other.third_harmonic;
+}
+
+bool is_modulus(const Observation& observation) {
+    return !std::isfinite(observation.distance) && !is_pore(observation) && !observation.third_harmonic;
+}
+
+double relative_to(const Observation& observation, double level) {
+    if (is_modulus(observation)) {
+        return level;
+    }
+    return is_pore(observation) || observation.third_harmonic ? 1.0 : std::max(level, 1.0);
+}
+
+std::vector<Observation> observations_of(const Experiment& experiment) {
+    const std::vector<double> start = starts(experiment);
+    std::vector<Observation> all;
+    for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
+        const Measurement& table = experiment.measurements[k];
+        if (table.kind == MeasurementKind::coordinates && std::isfinite(experiment.sample.particle_radius)) {
+            const std::vector<Observation> shells = neighbours_in(experiment, k);
+            all.insert(all.end(), shells.begin(), shells.end());
+        }
+        if (table.kind == MeasurementKind::pore_curve && std::isfinite(experiment.sample.particle_radius)) {
+            const std::vector<Observation> pores = pores_in(experiment, k);
+            all.insert(all.end(), pores.begin(), pores.end());
+        }
+        if (!has_moduli(table.kind) && table.kind != MeasurementKind::harmonics) {
+            continue;
+        }
+        for (const Shown& what : shown) {
+            const Column* column = find_column(table, what.column);
+            // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
+            const bool fluid = std::isfinite(table.fluid_viscosity);
+            const bool takes_part = column != nullptr && (!fluid || (what.loss && !what.third_harmonic));
+            for (std::size_t row = 0; takes_part && row < table.rows(); ++row) {
+                if (!std::isfinite(column->values[row]) || (fluid && std::isnan(angular_frequency(table, row)))) {
+                    continue;
+                }
+                all.push_back(observation_at(experiment, k, row, what));
+                all.back().time += start[k];
+            }
+        }
+    }
+    return all;
+}
+
+Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli) {
+    std::map<std::pair<std::size_t, std::size_t>, double> squares;
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const double value = observations[k].third_harmonic ? 0.0 : moduli[static_cast<Index>(k)];
+        squares[{observations[k].measurement, observations[k].row}] += value * value;
+    }
+    Eigen::ArrayXd sizes(moduli.size());
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const double square = squares[{observations[k].measurement, observations[k].row}];
+        sizes[static_cast<Index>(k)] = observations[k].third_harmonic ? 1.0 : std::sqrt(square);
+    }
+    return sizes;
+}
+
+}  // namespace coagula::diagnose
