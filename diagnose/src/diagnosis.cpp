@@ -268,7 +268,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
         return diagnosis;
     }
     const Eigen::VectorXd base_prediction = forward.predict(base.settings);
-    diagnosis.failures = localise(data.observations, detection, likelihood.residual(base_prediction), base_prediction);
+    diagnosis.failures = localise(inference, base, detection);
 
     const Comparison comparison = compare(base, possible, inference, options, progress);
     const Fit& winner = comparison.fits[comparison.winner];

@@ -84,40 +84,102 @@ double mean_departure(const std::vector<Observation>& observations, const Eigen:
     return sum / static_cast<double>(std::max<std::size_t>(1, to - from));
 }
 
+/// How many standard deviations off, in which direction.
+std::string deviations_text(double score) {
+    return three_digits(std::abs(score)) + " standard deviations " + (score > 0 ? "above" : "below");
+}
+
+/// Of one number that should be standard normal: unit information against none, as for a smooth departure.
+double bayes_factor_of(double score) {
+    return std::exp(std::min(700.0, 0.25 * score * score)) / std::numbers::sqrt2;
+}
+
+/// What differs as a whole: the modulus from that of a known stiffness (where nothing else stands out, however little, for then it
+/// is what the test found), samples from each other.
+void add_departures_of_level(const Inference& inference, const Fit& base, const Eigen::VectorXd& prediction,
+                             std::vector<Failure>& failures) {
+    const double least = failures.empty() ? 0.0 : noticeable;
+    const double stiffness = base.settings.normal_stiffness;
+    const double known = inference.forward().experiment().sample.normal_stiffness;
+    if (const double score = inference.stiffness_departure(std::log(stiffness)); std::abs(score) >= least) {
+        failures.push_back({.observable = "storage_modulus",
+                            .axis = "normal_stiffness",
+                            .bayes_factor = bayes_factor_of(score),
+                            .from = stiffness,
+                            .departure = stiffness / known - 1,
+                            .sentence = "the level of G' asks for a normal stiffness of " + three_digits(stiffness) + " N/m, " +
+                                        deviations_text(score) + " the known " + three_digits(known) + " N/m"});
+    }
+    const DataSet& data = inference.likelihood().data();
+    const Eigen::VectorXd effects = inference.likelihood().effects(prediction);
+    for (Index sample = 0; sample < data.samples() && data.effect > 0; ++sample) {
+        const double score = effects[sample] / data.effect;
+        if (std::abs(score) >= noticeable) {
+            failures.push_back({.observable = "storage_modulus",
+                                .axis = "sample",
+                                .bayes_factor = bayes_factor_of(score),
+                                .from = static_cast<double>(sample + 1),
+                                .departure = effects[sample],
+                                .sentence = "sample '" + data.sample_names[static_cast<std::size_t>(sample)] +
+                                            "' as a whole lies " + three_digits(100 * std::abs(effects[sample])) + " %, " +
+                                            deviations_text(score) + " the others"});
+        }
+    }
+}
+
+/// A smooth departure along an axis.
+Failure departure_along(const MisfitStatistic& statistic, const std::vector<Observation>& observations,
+                        const Eigen::VectorXd& residual, const Eigen::VectorXd& prediction) {
+    const double scale = prediction.cwiseAbs().maxCoeff();
+    const bool loss = statistic.observable == "loss_modulus";
+    const bool of_base_zero = statistic.observable.starts_with("third_harmonic");
+    const std::size_t place = change_point(statistic.rows, residual);
+    const double early = mean_departure(observations, prediction, statistic.rows, 0, place, loss, scale);
+    const double late = mean_departure(observations, prediction, statistic.rows, place, statistic.rows.size(), loss, scale);
+    Failure failure;
+    failure.observable = statistic.observable;
+    failure.axis = name_of(statistic.coordinate);
+    // Three components with a unit-information prior against none (Kass and Wasserman 1995).
+    failure.bayes_factor =
+        std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
+    failure.from = coordinate_of(observations[static_cast<std::size_t>(statistic.rows[place])], statistic.coordinate);
+    failure.departure = late;
+    failure.sentence = spoken(statistic.observable) + (late < (of_base_zero ? 0.0 : early) ? " falls below" : " rises above") +
+                       " the base model along " +
+                       (statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis) + ": mean difference " +
+                       three_digits(100 * early) + " % before and " + three_digits(100 * late) + " % from " +
+                       value_text(failure.from, statistic.coordinate) + " on" +
+                       (loss                                              ? " (of the largest predicted modulus)"
+                        : of_base_zero                                    ? " (of the first)"
+                        : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
+                                                                          : "");
+    return failure;
+}
+
 }  // namespace
 
-std::vector<Failure> localise(const std::vector<Observation>& observations, const Detection& detection,
-                              const Eigen::VectorXd& residual, const Eigen::VectorXd& prediction) {
-    std::vector<Failure> failures;
-    const double scale = prediction.cwiseAbs().maxCoeff();
+std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection) {
+    const std::vector<Observation>& observations = inference.likelihood().data().observations;
+    const Eigen::VectorXd prediction = inference.forward().predict(base.settings);
+    const Eigen::VectorXd residual = inference.likelihood().residual(prediction);
+    std::vector<const MisfitStatistic*> along;
     for (const MisfitStatistic& statistic : detection.statistics) {
-        if (statistic.coordinate == Coordinate::none || !statistic.cause.empty() || statistic.autocorrelation ||
-            (statistic.score < noticeable && !failures.empty())) {
-            continue;
+        if (statistic.coordinate != Coordinate::none && statistic.cause.empty() && !statistic.autocorrelation) {
+            along.push_back(&statistic);
         }
-        const bool loss = statistic.observable == "loss_modulus";
-        const bool of_base_zero = statistic.observable.starts_with("third_harmonic");
-        const std::size_t place = change_point(statistic.rows, residual);
-        const double early = mean_departure(observations, prediction, statistic.rows, 0, place, loss, scale);
-        const double late = mean_departure(observations, prediction, statistic.rows, place, statistic.rows.size(), loss, scale);
-        Failure failure;
-        failure.observable = statistic.observable;
-        failure.axis = name_of(statistic.coordinate);
-        // Smooth departure of three components with a unit-information prior against none (Kass and Wasserman 1995).
-        failure.bayes_factor =
-            std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
-        failure.from = coordinate_of(observations[static_cast<std::size_t>(statistic.rows[place])], statistic.coordinate);
-        failure.departure = late;
-        failure.sentence = spoken(statistic.observable) + (late < (of_base_zero ? 0.0 : early) ? " falls below" : " rises above") +
-                           " the base model along " +
-                           (statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis) +
-                           ": mean difference " + three_digits(100 * early) + " % before and " + three_digits(100 * late) +
-                           " % from " + value_text(failure.from, statistic.coordinate) + " on" +
-                           (loss                                              ? " (of the largest predicted modulus)"
-                            : of_base_zero                                    ? " (of the first)"
-                            : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
-                                                                              : "");
-        failures.push_back(std::move(failure));
+    }
+    std::vector<Failure> failures;
+    const auto add = [&](const MisfitStatistic& one) {
+        failures.push_back(departure_along(one, observations, residual, prediction));
+    };
+    for (const MisfitStatistic* statistic : along) {
+        if (statistic->score >= noticeable) {
+            add(*statistic);
+        }
+    }
+    add_departures_of_level(inference, base, prediction, failures);
+    if (failures.empty() && !along.empty()) {
+        add(*along.front());
     }
     return failures;
 }

@@ -9,9 +9,8 @@
 
 namespace coagula::diagnose {
 
-/// Departures of each observable along each axis whose score is above chance, strongest first.
-/// @param prediction of the base model, not whitened.
-std::vector<Failure> localise(const std::vector<Observation>& observations, const Detection& detection,
-                              const Eigen::VectorXd& residual, const Eigen::VectorXd& prediction);
+/// Departures from the base model of each observable along each axis whose score is above chance, strongest first; then that of the
+/// level from a known stiffness and those of samples, likewise. If none is above chance, the strongest along an axis.
+std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection);
 
 }  // namespace coagula::diagnose

@@ -192,8 +192,28 @@ TEST(HiddenEffects, ShearStiffnessIsInTheSetWhereTheNormalStiffnessIsKnown) {
     const Diagnosis found = diagnose(experiment, simulator(), options);
     EXPECT_TRUE(found.detected);
     EXPECT_TRUE(in_set(found, "shear-stiffness"));
+    ASSERT_FALSE(found.failures.empty());
+    EXPECT_EQ(found.failures.front().axis, "normal_stiffness");
+    EXPECT_GT(found.failures.front().from, 50);
+    EXPECT_NE(found.failures.front().sentence.find("above the known 40 N/m"), std::string::npos) << found.failures.front().sentence;
     experiment.measurements = {frequency_sweep(springs(40), {}, 13)};
     EXPECT_FALSE(diagnose(experiment, simulator(), options).detected);
+}
+
+/// No cause of the catalogue, but no reason to call anything else by its name, either.
+TEST(HiddenEffects, ASampleThatLiesApartIsSaidToDoSo) {
+    std::vector<Measurement> sweeps;
+    for (std::uint64_t k = 0; k < 4; ++k) {
+        sweeps.push_back(frequency_sweep(springs(k == 2 ? 20 : 40), {}, 40 + k));
+        sweeps.back().sample = "sample " + std::to_string(k + 1);
+    }
+    const Diagnosis found = diagnose_tables(sweeps);
+    EXPECT_TRUE(found.detected);
+    ASSERT_FALSE(found.failures.empty());
+    EXPECT_EQ(found.failures.front().axis, "sample");
+    EXPECT_EQ(found.failures.front().from, 3);
+    EXPECT_NE(found.failures.front().sentence.find("sample 'sample 3' as a whole lies"), std::string::npos)
+        << found.failures.front().sentence;
 }
 
 /// Inertia where the frequency is high, age where it is low and the sweep has lasted long.

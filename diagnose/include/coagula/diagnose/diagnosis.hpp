@@ -80,10 +80,10 @@ struct TestedStatistic {
 /// Where the base model fails.
 struct Failure {
     std::string observable;   ///< "storage_modulus", "loss_modulus"
-    std::string axis;         ///< "strain", "angular_frequency", "time", "gap"
+    std::string axis;         ///< "strain", "angular_frequency", "time", "gap" ..., "normal_stiffness", "sample"
     double bayes_factor = 1;  ///< of a smooth departure along the axis against none
-    double from = 0;          ///< value of the axis from which on it departs
-    double departure = 0;     ///< mean relative difference of data and base model there
+    double from = 0;  ///< value of the axis from which on it departs; stiffness that is asked for; number of the sample, from 1
+    double departure = 0;  ///< mean relative difference of data and base model there
     std::string sentence;
 };
 
