@@ -9,7 +9,8 @@
 namespace coagula {
 
 void run_together(std::size_t count, const std::function<void(std::size_t)>& work, std::size_t at_once) {
-    const std::size_t threads = std::min({count, at_once, static_cast<std::size_t>(omp_get_max_threads())});
+    const std::size_t threads =
+        std::max<std::size_t>(1, std::min({count, at_once, static_cast<std::size_t>(omp_get_max_threads())}));
     std::exception_ptr failure;  // an exception must not leave a parallel loop
     std::atomic<bool> failed = false;
 #pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(threads)) if (threads > 1)

@@ -132,8 +132,8 @@ void check_exchanged_cone(const Measurement& measurement, const Instrument& inst
         return;
     }
     if (instrument.geometry != Geometry::plate_plate) {
-        throw InputError(measurement.label + ": cone_angle is that of a cone in place of a plate, but instrument.geometry is not " +
-                         "plate-plate");
+        throw InputError(measurement.label +
+                         ": cone_angle is that of a cone in place of a plate, but instrument.geometry is not plate-plate");
     }
     if (find_column(measurement, "gap") != nullptr) {
         throw InputError(measurement.label + ": a gap and a cone_angle are given, but under a cone the gap is not constant");

@@ -17,6 +17,7 @@ namespace {
 constexpr int draws_per_cause = 16;
 constexpr int data_per_draw = 4;
 constexpr double certain = 0.95;
+constexpr double least_deviation = 1e-9;  ///< of a modulus [Pa], also where it is predicted to be 0
 
 Settings settings_of(const Fit& fit, Index draw) {
     Settings settings = fit.settings;
@@ -54,7 +55,7 @@ ExpectedErrors errors_of(const DataSet& data) {
             (one.loss ? phase : relative).push_back(share[k]);
         }
     }
-    return {median(relative), median(phase), data.effect};
+    return {median(relative), median(phase), std::max(data.effect, 0.0)};
 }
 
 /// A cause as the data so far leave it.
@@ -93,7 +94,7 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
             continue;
         }
         const double turned = one.loss ? errors.phase * sizes[k] : 0.0;
-        deviation[k] = std::max(std::hypot(errors.relative * moduli[k], turned), 1e-6 * sizes[k]);
+        deviation[k] = std::max({std::hypot(errors.relative * moduli[k], turned), 1e-6 * sizes[k], least_deviation});
     }
     return deviation;
 }
