@@ -99,6 +99,22 @@ double averaged(double degrees, const std::function<double(double)>& log_density
     return std::log(sum / nodes) - 100;
 }
 
+/// By conditioning the effects of samples and the errors on the data in full.
+TEST(Likelihood, SaysHowWellEffectsAndErrorsAreKnown) {
+    const DataSet data = correlated();
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(40, 4);
+    parts.block(0, 0, 20, 1) = 0.05 * prediction().head(20);
+    parts.block(20, 1, 20, 1) = 0.05 * prediction().tail(20);
+    parts.rightCols(2) = model_errors();
+    const Eigen::MatrixXd all = data.noise.covariance() + parts * parts.transpose();
+    Eigen::MatrixXd known = Eigen::MatrixXd::Identity(4, 4) - parts.transpose() * all.llt().solve(parts);
+    known.topRows(2) *= 0.05;
+    known.leftCols(2) *= 0.05;
+    const Eigen::MatrixXd found = Likelihood(data).effect_covariance(prediction(), {model_errors()});
+    EXPECT_LT((found - known).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_GT(known.bottomRightCorner(2, 2).diagonal().minCoeff(), 1e-3);
+}
+
 TEST(Likelihood, AveragesOverAnUncertainScaleOfTheModelsErrors) {
     DataSet data = correlated();
     const double exact =
