@@ -41,9 +41,11 @@ inline bool has_moduli(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) { return find_column(table, "storage_modulus") != nullptr; });
 }
 
-/// Torque per angle over the modulus is known: a plate or cone radius, and a gap or angle.
+/// Torque per angle over the modulus is known: a plate or cone radius, a gap, and under a cone its angle.
 inline bool knows_plates(const Experiment& experiment) {
-    return has_moduli(experiment) && std::isfinite(experiment.instrument.plate_radius) && std::isfinite(experiment.instrument.gap);
+    const Instrument& instrument = experiment.instrument;
+    const bool knows_cone = instrument.geometry != Geometry::cone_plate || std::isfinite(instrument.cone_angle);
+    return has_moduli(experiment) && std::isfinite(instrument.plate_radius) && std::isfinite(instrument.gap) && knows_cone;
 }
 
 inline bool knows_gap(const Experiment& experiment) {

@@ -2,8 +2,8 @@
 // structures with several coefficients of friction. More steps show what the rate of the runs costs.
 // Usage: bench_friction [N [structures [steps per oscillation [friction ...]]]]
 #include <coagula/common/contact_network.hpp>
-#include <coagula/generators/void_expansion.hpp>
-#include <coagula/mechanics/rheometer.hpp>
+
+#include "breaking_structures.hpp"
 
 #include <Eigen/Core>
 
@@ -21,32 +21,15 @@ namespace {
 
 using namespace coagula;
 
-constexpr double radius = 0.25e-6;
-constexpr double critical_strain = 1e-4;  ///< strength over normal contact stiffness times radius
 /// Amplitudes over the critical strain.
 const std::vector<double> loads{1.5, 2, 2.5, 3, 3.5, 4, 4.75, 5.5, 6.5, 8, 5.5, 3.5, 2, 1};
 
-Packing structure(Index particles, std::uint64_t seed) {
-    generators::VoidExpansionOptions options;
-    options.particles = particles;
-    options.voids = particles / 2;
-    options.volume_fraction = 0.4;
-    options.radii = Eigen::VectorXd::Constant(particles, radius);
-    options.seed = seed;
-    return generators::expand_voids(options).packing;
-}
-
 /// G* of every amplitude over the storage modulus at vanishing strain, less the loss there.
 Eigen::VectorXcd sweep(const Packing& packing, double friction, int steps) {
-    mechanics::RheometerOptions run;
-    run.model = {.normal_stiffness = 100, .shear_stiffness = 10};
-    run.model.normal_strength = run.model.shear_strength = critical_strain * 50 * radius;
+    mechanics::RheometerOptions run = breaking_sweep(8);
     run.model.friction = friction;
-    run.boundary = mechanics::RheometerBoundary::periodic;
-    run.amplitude = 8 * critical_strain;
     run.oscillations = static_cast<int>(loads.size()) + 2;
     run.steps_per_oscillation = steps;
-    run.compare_with_rest = false;
     run.course.assign(2, 1e-3);
     for (const double load : loads) {
         run.course.push_back(load / 8);

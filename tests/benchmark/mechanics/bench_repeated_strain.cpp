@@ -2,8 +2,8 @@
 // every strain is applied several times.
 // Usage: bench_repeated_strain [N [structures [times]]]
 #include <coagula/common/contact_network.hpp>
-#include <coagula/generators/void_expansion.hpp>
-#include <coagula/mechanics/rheometer.hpp>
+
+#include "breaking_structures.hpp"
 
 #include <Eigen/Core>
 
@@ -18,30 +18,13 @@ namespace {
 
 using namespace coagula;
 
-constexpr double radius = 0.25e-6;
-constexpr double critical_strain = 1e-4;  ///< strength over normal contact stiffness times radius
 /// Amplitudes over the critical strain.
 const std::vector<double> loads{1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 16, 32};
 
-Packing structure(Index particles, std::uint64_t seed) {
-    generators::VoidExpansionOptions options;
-    options.particles = particles;
-    options.voids = particles / 2;
-    options.volume_fraction = 0.4;
-    options.radii = Eigen::VectorXd::Constant(particles, radius);
-    options.seed = seed;
-    return generators::expand_voids(options).packing;
-}
-
 /// Broken bonds and G'' over the storage modulus at vanishing strain, of every oscillation, in rows.
 Eigen::MatrixX2d sweep(const Packing& packing, int times) {
-    mechanics::RheometerOptions run;
-    run.model = {.normal_stiffness = 100, .shear_stiffness = 10};
-    run.model.normal_strength = run.model.shear_strength = critical_strain * 50 * radius;
-    run.boundary = mechanics::RheometerBoundary::periodic;
-    run.amplitude = loads.back() * critical_strain;
+    mechanics::RheometerOptions run = breaking_sweep(loads.back());
     run.damping = 0.7;
-    run.compare_with_rest = false;
     run.course.assign(2, 1e-3);
     for (const double load : loads) {
         run.course.insert(run.course.end(), static_cast<std::size_t>(times), load / loads.back());

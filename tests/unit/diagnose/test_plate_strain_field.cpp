@@ -133,6 +133,16 @@ TEST(PlateStrainField, AConeInPlaceOfThePlateTurnsByItsAngle) {
     EXPECT_NEAR(forward.predict(settings)[0], modulus / (1 + 0.01 * factor * modulus), 1e-9 * modulus);
 }
 
+/// Without its angle nothing is known of what a cone transmits.
+TEST(PlateStrainField, AConeWithoutAnAngleShowsNothingOfTheTool) {
+    Experiment experiment = sweep({1e-5, 1e-4}, {1.0, 1.0}, Geometry::cone_plate);
+    experiment.instrument.plate_radius = 0.0125;
+    experiment.instrument.gap = 5e-5;
+    EXPECT_FALSE(find_mechanism("tool-compliance")->applies(experiment));
+    experiment.instrument.cone_angle = 0.02;
+    EXPECT_TRUE(find_mechanism("tool-compliance")->applies(experiment));
+}
+
 /// The weaker of the two strengths breaks the bonds, and the extended model has that one.
 TEST(PlateStrainField, TheSmallerStrengthCounts) {
     const std::vector<double> strains = logarithmic_steps(2e-5, 1.5e-3, 8);
