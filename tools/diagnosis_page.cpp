@@ -1,6 +1,7 @@
 #include "diagnosis_page.hpp"
 
 #include "diagnosis_plots.hpp"
+#include "diagnosis_tables.hpp"
 #include "html.hpp"
 
 #include <algorithm>
@@ -135,18 +136,19 @@ std::string data_and_models(const DiagnosisRecord& record, Gnuplot& gnuplot) {
         const diagnose::Measurement& table = record.experiment.measurements[k];
         const auto rows =
             std::count_if(found.rows.begin(), found.rows.end(), [&](const auto& row) { return row.measurement == k; });
-        html += "<h3>" + escaped(table.label) + " <span class=\"soft\">· " + std::string(diagnose::name_of(table.kind)) +
-                " · sample " + escaped(table.sample) + "</span></h3>\n";
+        html += "<h3>" + escaped(table.label) + " <span class=\"soft\">· " + escaped(conditions_of(table)) + "</span></h3>\n";
         if (rows == 0) {
             html += paragraph("Tables of this kind are read and checked, but do not take part in the diagnosis.", "soft");
             continue;
         }
         const auto effect = std::find_if(found.base_effects.begin(), found.base_effects.end(),
                                          [&](const auto& one) { return one.sample == table.sample; });
-        for (const Picture& picture : draw_table(gnuplot, table, k, found, cause == nullptr ? "" : cause->name)) {
+        const std::string extended = cause == nullptr ? "" : cause->name;
+        html += image_table(found, k, extended);
+        for (const Picture& picture : draw_table(gnuplot, table, k, found, extended)) {
             html += figure(picture.svg,
                            picture.meaning + "; open: held out for the gain; bars: one standard deviation. Dashed: base model" +
-                               std::string(cause == nullptr ? "" : "; solid: with " + escaped(cause->name)) +
+                               (extended.empty() ? std::string{} : "; solid: with " + escaped(extended)) +
                                (effect == found.base_effects.end() || effect->effect == 0
                                     ? "."
                                     : ". Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +

@@ -67,9 +67,6 @@ private:
     void read_measurement(const toml::table& table, std::size_t number);
     diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const;
     ColumnRules column_rules(TomlKeys& keys) const;
-    std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file,
-                                                     diagnose::MeasurementKind kind) const;
-    const io::PlainTable& chosen_section(TomlKeys& keys, const io::MeasuredFile& file) const;
 
     std::string path_;
     toml::table root_;
@@ -224,8 +221,7 @@ diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::
     diagnose::Column column{std::string(axis.name), std::string(axis.unit), std::vector<double>(rows)};
     for (std::size_t row = 0; row < rows; ++row) {
         const double way = static_cast<double>(row) / (points - 1);
-        const bool even = axis.name == "time" || axis.name == "gap";
-        column.values[row] = even ? from + (to - from) * way : from * std::pow(to / from, way);
+        column.values[row] = axis.name == "time" || axis.name == "gap" ? from + (to - from) * way : from * std::pow(to / from, way);
     }
     table.columns.push_back(std::move(column));
     for (const auto& [name, value] : column_rules(keys).constants) {
@@ -245,14 +241,19 @@ void ExperimentReader::read_measurements() {
     }
 }
 
+const diagnose::Quantity& known_quantity(TomlKeys& keys, const std::string& key, const std::string& name) {
+    const diagnose::Quantity* quantity = diagnose::find_quantity(name);
+    if (quantity == nullptr) {
+        keys.fail(key, "'" + name + "' is no quantity (see docs/experiment-file.md)");
+    }
+    return *quantity;
+}
+
 /// Quantity names on the left.
 std::map<std::string, std::string> headings_by_quantity(TomlKeys& keys, const std::string& key) {
     std::map<std::string, std::string> headings;
     for (const auto& [name, node] : keys.entries(key)) {
-        if (diagnose::find_quantity(name) == nullptr) {
-            keys.fail(key, "'" + name + "' is no quantity (see docs/experiment-file.md)");
-        }
-        headings[name] = keys.text_of(*node, key);
+        headings[std::string(known_quantity(keys, key, name).name)] = keys.text_of(*node, key);
     }
     return headings;
 }
@@ -262,63 +263,15 @@ ColumnRules ExperimentReader::column_rules(TomlKeys& keys) const {
     rules.headings = headings_by_quantity(keys, "columns");
     rules.standard_errors = headings_by_quantity(keys, "standard_errors");
     for (const auto& [name, node] : keys.entries("values")) {
-        const diagnose::Quantity* quantity = diagnose::find_quantity(name);
-        if (quantity == nullptr) {
-            keys.fail("values", "'" + name + "' is no quantity (see docs/experiment-file.md)");
-        }
-        const double value = keys.quantity_of(*node, "values." + name, std::string(quantity->unit));
-        if (value < quantity->low || value > quantity->high || (quantity->low_excluded && value == quantity->low)) {
-            keys.fail("values." + name, "is " + to_text(value) + " " + std::string(quantity->unit) + ", but must be " +
-                                            (quantity->low_excluded ? "> " : ">= ") + to_text(quantity->low));
+        const diagnose::Quantity& quantity = known_quantity(keys, "values", name);
+        const double value = keys.quantity_of(*node, "values." + name, std::string(quantity.unit));
+        if (value < quantity.low || value > quantity.high || (quantity.low_excluded && value == quantity.low)) {
+            keys.fail("values." + name, "is " + to_text(value) + " " + std::string(quantity.unit) + ", but must be " +
+                                            (quantity.low_excluded ? "> " : ">= ") + to_text(quantity.low));
         }
         rules.constants[name] = value;
     }
     return rules;
-}
-
-const io::PlainTable& ExperimentReader::chosen_section(TomlKeys& keys, const io::MeasuredFile& file) const {
-    const auto section = keys.whole("section");
-    const auto result = keys.text("result");
-    std::vector<const io::PlainTable*> fitting;
-    std::string all;
-    for (const io::PlainTable& table : file.tables) {
-        if (table.point != 0) {
-            continue;
-        }
-        all += (all.empty() ? "" : ", ") + std::to_string(table.section) +
-               (table.title.empty() ? "" : " of '" + table.title + "'") + " (" + std::to_string(table.rows()) + " rows)";
-        if ((!section || table.section == *section) && (!result || table.title == *result)) {
-            fitting.push_back(&table);
-        }
-    }
-    if (fitting.size() != 1) {
-        const std::string what = fitting.empty() ? "no section fits" : "several sections fit";
-        throw InputError(file.path + ": " + what + " the keys 'section' and 'result' of the measurement; the sections are " + all);
-    }
-    return *fitting.front();
-}
-
-std::vector<const io::PlainTable*> ExperimentReader::chosen_tables(TomlKeys& keys, const io::MeasuredFile& file,
-                                                                   diagnose::MeasurementKind kind) const {
-    const io::PlainTable& section = chosen_section(keys, file);
-    const std::vector<std::int64_t> points = keys.wholes("points");
-    if (kind != diagnose::MeasurementKind::waveform) {
-        if (!points.empty()) {
-            keys.fail("points", "only a waveform has points");
-        }
-        return {&section};
-    }
-    std::vector<const io::PlainTable*> waveforms;
-    for (const io::PlainTable& table : file.tables) {
-        const bool here = table.point > 0 && table.section == section.section && table.title == section.title;
-        if (here && (points.empty() || std::find(points.begin(), points.end(), table.point) != points.end())) {
-            waveforms.push_back(&table);
-        }
-    }
-    if (!points.empty() && waveforms.size() != points.size()) {
-        keys.fail("points", file.path + " has no waveform for some of these points");
-    }
-    return waveforms.empty() ? std::vector{&section} : waveforms;
 }
 
 /// What all tables of one [[measurement]] share.

@@ -86,7 +86,7 @@ private:
     std::vector<double> in_si(const io::PlainColumn& column, const diagnose::Quantity& quantity) const {
         const std::string name = "column '" + column.heading + "'";
         const bool may_lack_unit = quantity.name == "loss_tangent" || quantity.name == "coordination" ||
-                                   quantity.name == "heterogeneity" || quantity.name == "structure" ||
+                                   quantity.name == "heterogeneity" || quantity.name == "structure" || quantity.name == "frame" ||
                                    quantity.name == "exclusion_probability";
         if (column.unit.empty() && !may_lack_unit) {
             fail(name + " names no unit; it must be one that converts into " + std::string(quantity.unit) + ", such as '" +

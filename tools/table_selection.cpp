@@ -9,6 +9,28 @@ namespace coagula::tools {
 
 namespace {
 
+const io::PlainTable& chosen_section(TomlKeys& keys, const io::MeasuredFile& file) {
+    const auto section = keys.whole("section");
+    const auto result = keys.text("result");
+    std::vector<const io::PlainTable*> fitting;
+    std::string all;
+    for (const io::PlainTable& table : file.tables) {
+        if (table.point != 0) {
+            continue;
+        }
+        all += (all.empty() ? "" : ", ") + std::to_string(table.section) +
+               (table.title.empty() ? "" : " of '" + table.title + "'") + " (" + std::to_string(table.rows()) + " rows)";
+        if ((!section || table.section == *section) && (!result || table.title == *result)) {
+            fitting.push_back(&table);
+        }
+    }
+    if (fitting.size() != 1) {
+        const std::string what = fitting.empty() ? "no section fits" : "several sections fit";
+        throw InputError(file.path + ": " + what + " the keys 'section' and 'result' of the measurement; the sections are " + all);
+    }
+    return *fitting.front();
+}
+
 void set_clock(diagnose::Measurement& table, const TableSelection& selection) {
     const auto time = std::find_if(table.columns.begin(), table.columns.end(), [](const auto& one) { return one.name == "time"; });
     const bool there = time != table.columns.end();
@@ -48,6 +70,28 @@ void keep(std::vector<double>& values, const std::vector<std::size_t>& rows) {
 }
 
 }  // namespace
+
+std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file, diagnose::MeasurementKind kind) {
+    const io::PlainTable& section = chosen_section(keys, file);
+    const std::vector<std::int64_t> points = keys.wholes("points");
+    if (kind != diagnose::MeasurementKind::waveform) {
+        if (!points.empty()) {
+            keys.fail("points", "only a waveform has points");
+        }
+        return {&section};
+    }
+    std::vector<const io::PlainTable*> waveforms;
+    for (const io::PlainTable& table : file.tables) {
+        const bool here = table.point > 0 && table.section == section.section && table.title == section.title;
+        if (here && (points.empty() || std::find(points.begin(), points.end(), table.point) != points.end())) {
+            waveforms.push_back(&table);
+        }
+    }
+    if (!points.empty() && waveforms.size() != points.size()) {
+        keys.fail("points", file.path + " has no waveform for some of these points");
+    }
+    return waveforms.empty() ? std::vector{&section} : waveforms;
+}
 
 TableSelection read_selection(TomlKeys& keys) {
     TableSelection selection;

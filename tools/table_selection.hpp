@@ -5,6 +5,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/measurement.hpp>
+#include <coagula/io/measured_file.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -12,6 +13,9 @@
 #include <vector>
 
 namespace coagula::tools {
+
+/// The section of a file, or the waveforms of it, that the keys section, result and points name. Throws InputError.
+std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file, diagnose::MeasurementKind kind);
 
 struct TableSelection {
     std::int64_t first = 1;  ///< row

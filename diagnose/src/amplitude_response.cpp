@@ -57,7 +57,8 @@ std::vector<double> with_nodes_between(std::vector<double> amplitudes, double cr
 }  // namespace
 
 /// Two oscillations at each of some growing amplitudes by the explicit rheometer in a sheared cell, over the modulus at a strain so
-/// small that nothing breaks. What the second one loses is the rate of the run, so that the first has lost the rest in breaking.
+/// small that nothing breaks. In the second one bonds hold: what it loses is the rate of the run, and the first has lost the rest
+/// in breaking.
 std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& settings, double strength,
                                       const std::vector<double>& amplitudes, const Progress& progress) const {
     mechanics::RheometerOptions options;
@@ -67,9 +68,10 @@ std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& set
     options.steps_per_oscillation = steps_per_oscillation;
     options.damping = damping;
     options.compare_with_rest = false;
-    options.course.assign(2, std::min(1e-3, 0.1 * settings.critical_strain / amplitudes.back()));
+    options.course.assign(2, {std::min(1e-3, 0.1 * settings.critical_strain / amplitudes.back())});
     for (const double amplitude : amplitudes) {
-        options.course.insert(options.course.end(), 2, amplitude / amplitudes.back());
+        options.course.push_back({amplitude / amplitudes.back()});
+        options.course.push_back({amplitude / amplitudes.back(), false});
     }
     options.oscillations = static_cast<int>(options.course.size());
     const ContactNetwork bonds = find_contacts(structures_[structure], settings.bond_tolerance);
@@ -96,7 +98,7 @@ std::vector<std::string> Simulator::run_sweeps(const Settings& settings, const s
     for (std::size_t k = 0; k < amplitudes.size(); ++k) {
         std::vector<double> what{settings.stiffness_ratio, settings.bond_tolerance, strength};
         what.insert(what.end(), amplitudes[k].begin(), amplitudes[k].end());
-        keys.push_back(key_of("yield " + names_[k], what));
+        keys.push_back(key_of("breaking " + names_[k], what));
         const auto found = cache_.find(keys[k]);
         if (!amplitudes[k].empty() && (found == cache_.end() || found->second.size() != 3 * amplitudes[k].size())) {
             missing.push_back(k);

@@ -99,9 +99,7 @@ private:
     std::vector<double> time_;
 };
 
-}  // namespace
-
-std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations) {
+std::vector<Candidate> shear_candidates(const Experiment& experiment, const std::vector<Observation>& observations) {
     const Habits habits = habits_of(observations);
     const double gap = experiment.instrument.gap;
     const Plan plan(habits, gap, rows);
@@ -113,7 +111,7 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
 
     std::vector<Candidate> candidates;
     const auto add = [&](const std::string& what, const auto&... measurement) {
-        candidates.push_back({what, experiment});
+        candidates.push_back({what, experiment, {}});
         candidates.back().experiment.measurements = {measurement...};
     };
     add("a run at constant small strain and frequency over the same time", plan.table(MeasurementKind::time_sweep));
@@ -149,6 +147,36 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
         add("the same with a plate of half the radius",
             Plan(plan).frequency(frequencies(10)).table(MeasurementKind::frequency_sweep));
         candidates.back().experiment.instrument.plate_radius *= 0.5;
+    }
+    for (Candidate& candidate : candidates) {
+        candidate.observations = observations_of(candidate.experiment);
+    }
+    return candidates;
+}
+
+/// As many particles as were seen so far.
+Candidate images_again(const Experiment& experiment, const Measurement& table) {
+    Candidate candidate{"the same particles imaged twice, one image after the other", experiment, {}};
+    Measurement images;
+    images.kind = MeasurementKind::coordinates;
+    images.label = images.sample = "proposed";
+    candidate.experiment.measurements = {images};
+    candidate.observations = planned_images(0, static_cast<double>(table.rows()));
+    return candidate;
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations) {
+    std::vector<Candidate> candidates;
+    if (std::any_of(observations.begin(), observations.end(), is_modulus)) {
+        candidates = shear_candidates(experiment, observations);
+    }
+    for (const Measurement& table : experiment.measurements) {
+        if (table.kind == MeasurementKind::coordinates) {
+            candidates.push_back(images_again(experiment, table));
+            break;
+        }
     }
     return candidates;
 }

@@ -89,7 +89,7 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         const bool centres = std::any_of(tables.begin(), tables.end(),
                                          [](const Measurement& table) { return table.kind == MeasurementKind::coordinates; });
         throw InputError("the experiment has " + std::to_string(data.observations.size()) +
-                         " usable moduli: at least five are needed to say anything" +
+                         " usable numbers: at least five are needed to say anything" +
                          (centres
                               ? "; coordinates take part where sample.particle_radius is stated and 20 particles lie deep enough"
                                 " inside"
@@ -115,7 +115,7 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         if (found == data.sample_names.end()) {
             data.sample_names.push_back(name);
         }
-        if (is_pore(one) || one.third_harmonic) {
+        if (is_pore(one) || one.difference || one.third_harmonic) {
             data.sample.back() = -1;
         }
     }

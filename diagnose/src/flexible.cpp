@@ -70,7 +70,8 @@ Eigen::MatrixXd products(const std::vector<Observation>& observations, Corrected
         for (Index j = 0; j < product.cols(); ++j) {
             const Observation& one = observations[static_cast<std::size_t>(i)];
             const Observation& other = observations[static_cast<std::size_t>(j)];
-            const bool alike = one.loss == other.loss && one.third_harmonic == other.third_harmonic;
+            const bool alike =
+                one.loss == other.loss && one.third_harmonic == other.third_harmonic && !one.difference && !other.difference;
             product(i, j) *= alike && takes_part(one, corrected) ? 1.0 : 0.0;
         }
     }

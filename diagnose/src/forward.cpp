@@ -145,6 +145,10 @@ Eigen::VectorXd Forward::seen(const Settings& settings, const Eigen::VectorXcd& 
             predicted[i] = simulator_.neighbours(settings, observation.row, exact);
             continue;
         }
+        if (observation.difference) {
+            predicted[i] = simulator_.repeated_images(settings, exact)[static_cast<std::size_t>(*observation.difference)];
+            continue;
+        }
         if (is_pore(observation)) {
             predicted[i] = simulator_.exclusion_probability(
                 settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius);

@@ -205,9 +205,11 @@ PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
     };
     PosteriorGrid grid = grid_along_axes(axes, evaluate);
     if (axes > 1 && grid.effective_nodes() < std::pow(enough_nodes, axes)) {
-        // A narrow ridge between the axes: the grid along these misses it.
+        // A narrow ridge between the axes: the grid along these misses it. At the edge of the prior that about the mode may see
+        // less.
         auto about = grid_about_mode(hypothesis, grid.places[grid.best()], evaluate);
-        if (about && !about->nodes.empty() && about->nodes[about->best()].log_weight > grid.nodes[grid.best()].log_weight - 1) {
+        if (about && !about->nodes.empty() && about->nodes[about->best()].log_weight > grid.nodes[grid.best()].log_weight - 1 &&
+            about->effective_nodes() > grid.effective_nodes()) {
             return *about;
         }
     }

@@ -4,6 +4,7 @@
 #include "cache_key.hpp"
 #include "interpolation.hpp"
 #include "neighbour_shells.hpp"
+#include "repeated_images.hpp"
 
 namespace coagula::diagnose {
 
@@ -18,7 +19,7 @@ constexpr Axis error_axis{0.02, 0.9, 9};
 std::vector<double> Simulator::shells(double plane, double axis) {
     std::vector<double> mean(shell_count, 0.0);
     for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const std::string key = key_of("shells " + names_[k], {plane, axis});
+        const std::string key = key_of("neighbours " + names_[k], {plane, axis});
         auto found = cache_.find(key);
         if (found == cache_.end()) {
             found = cache_.emplace(key, shells_of_structure(structures_[k], 2 * radius_ * plane, 2 * radius_ * axis)).first;
@@ -55,6 +56,56 @@ const std::vector<double>& Simulator::shells_about_places() {
         }
     }
     return shells_about_places_;
+}
+
+/// Mean over the structures: standard deviations as they are seen over the true ones, and the share of centres that are not found
+/// again although they are in both images.
+std::array<double, 3> Simulator::matched_images(double plane, double axis) {
+    std::array<double, 3> mean{};
+    for (std::size_t k = 0; k < structures_.size(); ++k) {
+        const std::string key = key_of("images " + names_[k], {plane, axis});
+        auto found = cache_.find(key);
+        if (found == cache_.end()) {
+            const auto seen = images_of_structure(structures_[k], 2 * radius_ * plane, 2 * radius_ * axis).values;
+            found = cache_.emplace(key, std::vector<double>{seen[0] / plane, seen[1] / axis, seen[2]}).first;
+        }
+        for (std::size_t entry = 0; entry < mean.size(); ++entry) {
+            mean[entry] += found->second[entry] / static_cast<double>(structures_.size());
+        }
+    }
+    return mean;
+}
+
+double Simulator::image_node(int plane, int axis, std::size_t entry) {
+    const auto [node, added] = image_nodes_.try_emplace({plane, axis});
+    if (added) {
+        node->second = matched_images(error_axis.node(plane), error_axis.node(axis));
+    }
+    return node->second[entry];
+}
+
+std::array<double, 3> Simulator::repeated_images(const Settings& settings, bool exact) {
+    const double plane = settings.localisation_plane / (2 * radius_);
+    const double axis = settings.localisation_axis / (2 * radius_);
+    std::array<double, 3> seen{1, 1, 0};
+    if (exact && plane > 0 && axis > 0) {
+        seen = matched_images(plane, axis);
+    } else if (plane > 0 || axis > 0) {
+        for (std::size_t entry = 0; entry < seen.size(); ++entry) {
+            seen[entry] = interpolate_nodes(error_axis, plane, [&](int i) {
+                return interpolate_nodes(error_axis, axis, [&](int j) { return image_node(i, j, entry); });
+            });
+        }
+    }
+    // A centre is a particle that the next image has, too, or a false one where that image happens to have something.
+    const double found = 1 - settings.missed_share;
+    const double false_per_particle = settings.false_share / (1 - settings.false_share);
+    double matched = (1 - settings.false_share) * found * (1 - seen[2]);
+    if (settings.false_share > 0) {
+        const double density = shells_about_places().back() * found * (settings.missed_share + false_per_particle);
+        matched += settings.false_share * within_match(density);
+    }
+    return {plane * seen[0], axis * seen[1], 1 - matched};
 }
 
 double Simulator::neighbours(const Settings& settings, std::size_t shell, bool exact) {

@@ -112,7 +112,7 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
     }
     const DataSet& data = inference.likelihood().data();
     const Eigen::VectorXd effects = inference.likelihood().effects(prediction);
-    for (Index sample = 0; sample < data.samples() && data.effect > 0; ++sample) {
+    for (Index sample = 0; data.samples() > 1 && sample < data.samples() && data.effect > 0; ++sample) {
         const double score = effects[sample] / data.effect;
         if (std::abs(score) >= noticeable) {
             failures.push_back({.observable = "storage_modulus",
@@ -124,6 +124,30 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
                                             "' as a whole lies " + three_digits(100 * std::abs(effects[sample])) + " %, " +
                                             deviations_text(score) + " the others"});
         }
+    }
+}
+
+/// What images of the same particles differ by, which the base model knows nothing of.
+void add_departures_of_images(const std::vector<Observation>& observations, const Eigen::VectorXd& prediction,
+                              std::vector<Failure>& failures) {
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const Observation& one = observations[k];
+        const double departure = one.value - prediction[static_cast<Index>(k)];
+        const double score = departure / one.standard_error;
+        if (!one.difference || score < noticeable) {
+            continue;
+        }
+        const bool unmatched = *one.difference == ImageDifference::unmatched;
+        failures.push_back(
+            {.observable = observable_of(one),
+             .axis = "frame",
+             .bayes_factor = bayes_factor_of(score),
+             .from = unset,
+             .departure = departure,
+             .sentence = unmatched ? three_digits(100 * one.value) + " % of the centres of an image are not in the next one"
+                                   : "images of the same particles scatter: a centre by " + three_digits(one.value) +
+                                         " diameters " + (*one.difference == ImageDifference::plane ? "in the plane" : "along z")});
+        failures.back().sentence += ", " + deviations_text(score) + " exact centres";
     }
 }
 
@@ -178,6 +202,7 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
         }
     }
     add_departures_of_level(inference, base, prediction, failures);
+    add_departures_of_images(observations, prediction, failures);
     if (failures.empty() && !along.empty()) {
         add(*along.front());
     }

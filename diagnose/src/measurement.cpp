@@ -66,6 +66,7 @@ constexpr std::array quantities = {
     Quantity{"x", "m", -infinite, false, infinite, "centre"},
     Quantity{"y", "m", -infinite, false, infinite, "centre"},
     Quantity{"z", "m", -infinite, false, infinite, "centre"},
+    Quantity{"frame", "1", -infinite, false, infinite, "number of one of several images of the same particles"},
     Quantity{"particle_radius", "m", 0, true, infinite, ""},
     Quantity{"pore_radius", "m", 0, false, infinite, "distance from the nearest particle surface"},
     Quantity{"exclusion_probability", "1", 0, false, 1, "part of the void space farther from any surface than that"},

@@ -1,6 +1,6 @@
 #include "neighbour_shells.hpp"
 
-#include "weights.hpp"
+#include "repeated_images.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/contact_network.hpp>
@@ -15,6 +15,7 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr std::uint64_t error_seed = 20120;
+constexpr Index least_particles_drawn = 4000;  ///< so that the errors that are drawn do not count beside those of an image
 
 /// The shell of a distance over the diameter; -1 beyond them.
 int shell_at(double distance) {
@@ -53,19 +54,18 @@ NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diame
 
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis) {
     const double diameter = 2 * mean_radius(packing);
+    const bool sharp = sigma_plane == 0 && sigma_axis == 0;
+    const Index draws = sharp ? 1 : 1 + least_particles_drawn / packing.size();
     Packing seen = packing;
     seen.radii.setConstant(diameter / 2);  // the shells are distances of centres, whatever the sizes
-    for (Index particle = 0; particle < seen.size(); ++particle) {
-        const auto number = 3 * static_cast<std::uint64_t>(particle);
-        seen.positions.col(particle) += Eigen::Vector3d(sigma_plane * normal_number(error_seed, 0, number),
-                                                        sigma_plane * normal_number(error_seed, 0, number + 1),
-                                                        sigma_axis * normal_number(error_seed, 0, number + 2));
-    }
-    const ContactNetwork pairs = find_contacts(seen, shell_reach - 1);
     std::vector<double> mean(shell_count, 0);
-    for (Index pair = 0; pair < pairs.size(); ++pair) {
-        if (const int shell = shell_at(pairs.branch.col(pair).norm() / diameter); shell >= 0) {
-            mean[static_cast<std::size_t>(shell)] += 2.0 / static_cast<double>(packing.size());
+    for (Index draw = 0; draw < draws; ++draw) {
+        seen.positions = with_errors(packing.positions, sigma_plane, sigma_axis, error_seed, static_cast<std::uint64_t>(draw));
+        const ContactNetwork pairs = find_contacts(seen, shell_reach - 1);
+        for (Index pair = 0; pair < pairs.size(); ++pair) {
+            if (const int shell = shell_at(pairs.branch.col(pair).norm() / diameter); shell >= 0) {
+                mean[static_cast<std::size_t>(shell)] += 2.0 / static_cast<double>(draws * packing.size());
+            }
         }
     }
     return mean;

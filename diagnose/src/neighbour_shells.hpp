@@ -26,7 +26,8 @@ struct NeighbourShells {
 NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diameter);
 
 /// Of a periodic structure whose particles are found with errors: independent normal ones with these standard deviations in the
-/// plane and along z [m], drawn from a fixed seed. Packings too small for the reach are refused by std::invalid_argument.
+/// plane and along z [m], drawn from a fixed seed, several times where the structure is small. Packings too small for the reach are
+/// refused by std::invalid_argument.
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis);
 
 /// Mean number of particles of a periodic structure in the shells about random places that are not nearer than half a diameter to a

@@ -105,31 +105,79 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
             .volume_fraction = cell(table, "volume_fraction", row)};
 }
 
-/// Neighbours in shells, where the diameter is known and there are particles far enough from the faces.
-std::vector<Observation> neighbours_in(const Experiment& experiment, std::size_t number) {
-    const Measurement& table = experiment.measurements[number];
-    std::vector<Eigen::Vector3d> centres;
+/// The images of a table of centres: one, or those that its column "frame" numbers.
+std::vector<Eigen::Matrix3Xd> images_in(const Measurement& table) {
+    const bool several = find_column(table, "frame") != nullptr;
+    std::map<double, std::vector<Eigen::Vector3d>> centres;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const Eigen::Vector3d centre(cell(table, "x", row), cell(table, "y", row), cell(table, "z", row));
-        if (centre.allFinite()) {
-            centres.push_back(centre);
+        const double frame = several ? cell(table, "frame", row) : 0;
+        if (centre.allFinite() && std::isfinite(frame)) {
+            centres[frame].push_back(centre);
         }
     }
-    const Eigen::Map<const Eigen::Matrix3Xd> positions(centres.data()->data(), 3, static_cast<Index>(centres.size()));
-    const NeighbourShells shells = shells_of_points(positions, 2 * experiment.sample.particle_radius);
+    std::vector<Eigen::Matrix3Xd> images;
+    for (const auto& [frame, list] : centres) {
+        images.emplace_back(Eigen::Map<const Eigen::Matrix3Xd>(list.front().data(), 3, static_cast<Index>(list.size())));
+    }
+    return images;
+}
+
+Observation counted(std::size_t number, std::size_t row, double value, double error) {
+    return {.measurement = number,
+            .row = row,
+            .loss = false,
+            .value = value,
+            .standard_error = error,
+            .strain = unset,
+            .angular_frequency = unset,
+            .time = unset,
+            .gap = unset,
+            .plate_radius = unset};
+}
+
+/// Neighbours in shells, mean over the images, with the errors of one, because they are of the same particles; none where no
+/// image has enough particles far enough from the faces.
+std::vector<Observation> neighbours_in(const std::vector<Eigen::Matrix3Xd>& images, std::size_t number, double diameter) {
+    std::vector<NeighbourShells> shells;
+    for (const Eigen::Matrix3Xd& image : images) {
+        shells.push_back(shells_of_points(image, diameter));
+        if (shells.back().centres < fewest_centres) {
+            shells.pop_back();
+        }
+    }
     std::vector<Observation> all;
-    for (std::size_t shell = 0; shell < shells.mean.size() && shells.centres >= fewest_centres; ++shell) {
-        all.push_back({.measurement = number,
-                       .row = shell,
-                       .loss = false,
-                       .value = shells.mean[shell],
-                       .standard_error = shells.standard_errors[shell],
-                       .strain = unset,
-                       .angular_frequency = unset,
-                       .time = unset,
-                       .gap = unset,
-                       .plate_radius = unset,
-                       .distance = first_shell + shell_width * (static_cast<double>(shell) + 0.5)});
+    for (std::size_t shell = 0; shell < shell_count && !shells.empty(); ++shell) {
+        all.push_back(counted(number, shell, 0, 0));
+        all.back().distance = first_shell + shell_width * (static_cast<double>(shell) + 0.5);
+        for (const NeighbourShells& one : shells) {
+            all.back().value += one.mean[shell] / static_cast<double>(shells.size());
+            all.back().standard_error += one.standard_errors[shell] / static_cast<double>(shells.size());
+        }
+    }
+    return all;
+}
+
+/// Compared as it stands.
+bool is_share(const Observation& observation) {
+    return observation.third_harmonic || observation.difference;
+}
+
+/// What a table of centres shows, where the diameter is known.
+std::vector<Observation> seen_in_images(const Experiment& experiment, std::size_t number) {
+    const Measurement& table = experiment.measurements[number];
+    const double diameter = 2 * experiment.sample.particle_radius;
+    const std::vector<Eigen::Matrix3Xd> images = images_in(table);
+    std::vector<Observation> all = neighbours_in(images, number, diameter);
+    if (images.size() >= 2) {
+        const RepeatedImages seen = compare_images(images, diameter, table.label);
+        if (seen.centres >= fewest_centres) {
+            for (Observation& one : planned_images(number, seen.centres)) {
+                one.value = seen.values[static_cast<std::size_t>(*one.difference)];
+                one.standard_error = error_of(*one.difference, one.value, one.centres);
+                all.push_back(one);
+            }
+        }
     }
     return all;
 }
@@ -148,6 +196,10 @@ const char* observable_of(const Observation& observation) {
     if (is_pore(observation)) {
         return "exclusion_probability";
     }
+    if (observation.difference) {
+        constexpr std::array names{"localisation_plane", "localisation_axis", "unmatched_share"};
+        return names.at(static_cast<std::size_t>(*observation.difference));
+    }
     return shown.at((observation.third_harmonic ? 2 : 0) + (observation.loss ? 1 : 0)).column;
 }
 
@@ -156,14 +208,24 @@ bool same_column(const Observation& one, const Observation& other) {
 }
 
 bool is_modulus(const Observation& observation) {
-    return !std::isfinite(observation.distance) && !is_pore(observation) && !observation.third_harmonic;
+    return !std::isfinite(observation.distance) && !is_pore(observation) && !observation.difference && !observation.third_harmonic;
 }
 
 double relative_to(const Observation& observation, double level) {
     if (is_modulus(observation)) {
         return level;
     }
-    return is_pore(observation) || observation.third_harmonic ? 1.0 : std::max(level, 1.0);
+    return std::isfinite(observation.distance) ? std::max(level, 1.0) : 1.0;
+}
+
+std::vector<Observation> planned_images(std::size_t measurement, double centres) {
+    std::vector<Observation> all;
+    for (const ImageDifference difference : {ImageDifference::plane, ImageDifference::axis, ImageDifference::unmatched}) {
+        all.push_back(counted(measurement, shell_count + all.size(), 0, unset));
+        all.back().difference = difference;
+        all.back().centres = centres;
+    }
+    return all;
 }
 
 std::vector<Observation> observations_of(const Experiment& experiment) {
@@ -172,8 +234,8 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
     for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
         const Measurement& table = experiment.measurements[k];
         if (table.kind == MeasurementKind::coordinates && std::isfinite(experiment.sample.particle_radius)) {
-            const std::vector<Observation> shells = neighbours_in(experiment, k);
-            all.insert(all.end(), shells.begin(), shells.end());
+            const std::vector<Observation> seen = seen_in_images(experiment, k);
+            all.insert(all.end(), seen.begin(), seen.end());
         }
         if (table.kind == MeasurementKind::pore_curve && std::isfinite(experiment.sample.particle_radius)) {
             const std::vector<Observation> pores = pores_in(experiment, k);
@@ -202,13 +264,13 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
 Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli) {
     std::map<std::pair<std::size_t, std::size_t>, double> squares;
     for (std::size_t k = 0; k < observations.size(); ++k) {
-        const double value = observations[k].third_harmonic ? 0.0 : moduli[static_cast<Index>(k)];
+        const double value = is_share(observations[k]) ? 0.0 : moduli[static_cast<Index>(k)];
         squares[{observations[k].measurement, observations[k].row}] += value * value;
     }
     Eigen::ArrayXd sizes(moduli.size());
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const double square = squares[{observations[k].measurement, observations[k].row}];
-        sizes[static_cast<Index>(k)] = observations[k].third_harmonic ? 1.0 : std::sqrt(square);
+        sizes[static_cast<Index>(k)] = is_share(observations[k]) ? 1.0 : std::sqrt(square);
     }
     return sizes;
 }

@@ -3,9 +3,12 @@
 
 #include <coagula/diagnose/measurement.hpp>
 
+#include "repeated_images.hpp"
+
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -33,8 +36,11 @@ struct Observation {
     double heterogeneity = unset;
     double coordination = unset;
     double volume_fraction = unset;
-    // Of coordinates: the value is the mean number of neighbours in a shell, whose number is the row.
+    // Of coordinates: the value is the mean number of neighbours in a shell, whose number is the row ...
     double distance = unset;  ///< middle of the shell over the diameter
+    // ... or what differs between images of the same particles; rows after those of the shells.
+    std::optional<ImageDifference> difference = {};
+    double centres = 0;  ///< that are compared in these
     // Of a pore curve: the value is the share of the void space farther from any surface than this.
     double pore_radius = unset;  ///< [m]
 };
@@ -42,7 +48,8 @@ struct Observation {
 /// Whether tables of this kind hold G' or G''.
 bool has_moduli(MeasurementKind kind);
 
-/// "storage_modulus", "loss_modulus", "third_harmonic_storage", "third_harmonic_loss", "neighbours" or "exclusion_probability".
+/// "storage_modulus", "loss_modulus", "third_harmonic_storage", "third_harmonic_loss", "neighbours", "exclusion_probability",
+/// "localisation_plane", "localisation_axis" or "unmatched_share".
 const char* observable_of(const Observation& observation);
 
 /// Whether two numbers stand in one column of a table.
@@ -52,13 +59,16 @@ bool same_column(const Observation& one, const Observation& other);
 bool is_modulus(const Observation& observation);
 
 /// What a difference in this observation is measured against where the expectation is `level`: that, but neighbours against one
-/// neighbour at least and probabilities and third harmonics as they stand.
+/// neighbour at least and everything else as it stands.
 double relative_to(const Observation& observation, double level);
+
+/// What images of the same particles, so many centres each, would show: the values are still to be measured.
+std::vector<Observation> planned_images(std::size_t measurement, double centres);
 
 /// The moduli of all tables of moduli, row by row, cells that were left out skipped; then what tables show of the structure.
 std::vector<Observation> observations_of(const Experiment& experiment);
 
-/// |G*| at each observation of these moduli [Pa]; 1 at a third harmonic.
+/// |G*| at each observation of these moduli [Pa]; 1 at a third harmonic and between images.
 Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli);
 
 }  // namespace coagula::diagnose

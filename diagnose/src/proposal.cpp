@@ -51,7 +51,7 @@ ExpectedErrors errors_of(const DataSet& data) {
     std::vector<double> phase;
     for (Index k = 0; k < data.size(); ++k) {
         const Observation& one = data.observations[static_cast<std::size_t>(k)];
-        if (!one.third_harmonic) {
+        if (is_modulus(one)) {
             (one.loss ? phase : relative).push_back(share[k]);
         }
     }
@@ -82,7 +82,7 @@ Belief belief_in(const Fit& fit, const Inference& inference) {
     return belief;
 }
 
-/// Standard deviations of the rows of a measurement of these moduli.
+/// Standard deviations of the rows of a measurement with these expectations.
 Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli,
                           const ExpectedErrors& errors) {
     const Eigen::ArrayXd sizes = complex_moduli(observations, moduli);
@@ -91,6 +91,10 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
         const Observation& one = observations[static_cast<std::size_t>(k)];
         if (one.third_harmonic) {
             deviation[k] = std::hypot(one.standard_error, third_harmonic_error * moduli[k]);
+            continue;
+        }
+        if (one.difference) {
+            deviation[k] = error_of(*one.difference, moduli[k], one.centres);
             continue;
         }
         const double turned = one.loss ? errors.phase * sizes[k] : 0.0;
@@ -126,7 +130,7 @@ Expectation expected_by(const Belief& belief, const Forward& forward, const std:
         for (Index other = 0; other < rows; ++other) {
             const Observation& a = observations[static_cast<std::size_t>(one)];
             const Observation& b = observations[static_cast<std::size_t>(other)];
-            if (a.measurement == b.measurement && !a.third_harmonic && !b.third_harmonic) {
+            if (a.measurement == b.measurement && is_modulus(a) && is_modulus(b)) {
                 covariance(one, other) += errors.sample * errors.sample * mean[one] * mean[other];
             }
         }
@@ -162,7 +166,7 @@ double entropy(const std::vector<double>& probabilities) {
 
 Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::vector<Belief>& beliefs,
                   const std::vector<double>& weights, const ExpectedErrors& errors, std::uint64_t seed, std::uint64_t number) {
-    const std::vector<Observation> observations = observations_of(candidate.experiment);
+    const std::vector<Observation>& observations = candidate.observations;
     const Forward forward(candidate.experiment, observations, simulator);
     std::vector<Expectation> causes;
     for (const Belief& belief : beliefs) {

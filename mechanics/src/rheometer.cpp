@@ -30,7 +30,7 @@ void check(const Packing& packing, const ContactNetwork& bonds, const RheometerO
     require_positive(options.plate_layers, "the number of layers of a plate");
     require_between(options.measurement_radius, 0, 0.5, "the radius of a measurement sphere over the height");
     require(options.oscillations > 0, "the rheometer needs at least one oscillation");
-    const auto is_part = [](double part) { return part > 0 && part <= 1; };
+    const auto is_part = [](const CourseOscillation& one) { return one.part > 0 && one.part <= 1; };
     require(options.course.empty() || (options.course.size() == static_cast<std::size_t>(options.oscillations) &&
                                        std::all_of(options.course.begin(), options.course.end(), is_part)),
             "the course of the amplitudes must have one part above 0 and up to 1 for every oscillation");

@@ -188,7 +188,7 @@ private:
 
     double part_of_amplitude(int oscillation) const {
         if (!options_.course.empty()) {
-            return options_.course[static_cast<std::size_t>(oscillation)];
+            return options_.course[static_cast<std::size_t>(oscillation)].part;
         }
         return options_.growing ? (oscillation + 1.0) / options_.oscillations : 1.0;
     }
@@ -202,6 +202,8 @@ private:
         const int interval = options_.steps_per_oscillation / options_.samples_per_oscillation;
         const int normal = run_.orientation.normal;
         const int direction = run_.orientation.direction;
+        const auto place = static_cast<std::size_t>(oscillation);
+        const bool breaks = place >= options_.course.size() || options_.course[place].breaks;
         for (int step = from; step < to; ++step) {
             const double strain = strain_at(amplitude, step);
             const double increment = strain_at(amplitude, step + 1) - strain;
@@ -212,7 +214,9 @@ private:
             }
             set_shear_rate(laws_, increment / time_step_);
             dem::step(system_, laws_, stepping);
-            note_broken(strain, oscillation);
+            if (breaks) {
+                note_broken(strain, oscillation);
+            }
             if (step % interval == 0) {
                 note_stress(strain);
                 progress_.update(name_, (oscillation + static_cast<double>(step) / to) / options_.oscillations);

@@ -102,9 +102,9 @@ class Coordinates(Tables):
     def experiment(self, sample='[sample]\nparticle_radius = "0.25 um"\n', file="centres.csv"):
         return sample + f'\n[structures]\nfiles = ["packing.h5"]\n\n[[measurement]]\nkind = "coordinates"\nfile = "{file}"\n'
 
-    def centres(self, sigma_plane, sigma_axis):
+    def centres(self, sigma_plane, sigma_axis, seed=3):
         """The particles of a structure that the diagnosis does not know, as a microscope would find them."""
-        number = random.Random(3)
+        number = random.Random(seed)
         rows = []
         for line in (self.folder / "other.csv").read_text().splitlines()[1:]:
             x, y, z, _ = map(float, line.split(","))
@@ -131,9 +131,38 @@ class Coordinates(Tables):
         for row in found["rows"][4:5]:
             self.assertLess(abs(row["extended"] - row["measured"]), 0.3 * abs(row["base"] - row["measured"]))
 
+    def images(self, *errors):
+        """Images of the same particles as one table; errors in the plane and along z of each."""
+        rows = []
+        for frame, (plane, axis) in enumerate(errors):
+            self.centres(plane, axis, seed=3 + frame)
+            lines = (self.folder / "centres.csv").read_text().splitlines()[1:]
+            rows += [(*map(float, line.split(",")), frame) for line in lines]
+        self.table("centres.csv", ("x [m]", "y [m]", "z [m]", "frame"), rows)
+
+    def test_images_of_the_same_particles_show_errors_alone(self):
+        self.images((5e-8, 1.2e-7), (5e-8, 1.2e-7))
+        found = self.diagnosis(self.experiment())
+        self.assertEqual((found["verdict"], found["credible_set"], found["observations"]), ("named", ["localisation-error"], 19))
+        for name, true in (("sigma_plane", 5e-8), ("sigma_axis", 1.2e-7)):
+            sigma = found["causes"][0]["parameters"][name]
+            self.assertTrue(0.9 * sigma["low"] < true < 1.1 * sigma["high"] and sigma["high"] < 1.5 * sigma["low"], sigma)
+        where = [failure for failure in found["where"] if failure["axis"] == "frame"]
+        self.assertEqual([failure["observable"] for failure in where][:2], ["localisation_plane", "localisation_axis"])
+        self.assertIn("images of the same particles scatter", where[0]["sentence"])
+        page = (self.folder / "results" / "report.html").read_text()
+        self.assertIn("scatter of a centre in the plane", page)
+
+    def test_the_same_image_twice_is_refused(self):
+        self.centres(0, 0)
+        header, *lines = (self.folder / "centres.csv").read_text().splitlines()
+        twice = [line + f",{frame}" for frame in (1, 2) for line in lines]
+        self.write("twice.csv", "\n".join([header + ",image", *twice]) + "\n")
+        self.refuse(self.experiment(file="twice.csv"), "twice.csv", "have the same coordinates")
+
     def test_refusals(self):
         self.centres(0, 0)
-        self.refuse(self.experiment(sample=""), "0 usable moduli", "sample.particle_radius")
+        self.refuse(self.experiment(sample=""), "0 usable numbers", "sample.particle_radius")
         self.refuse(self.experiment('[sample]\nparticle_radius = "0 um"\n'), "particle_radius")
         lines = (self.folder / "centres.csv").read_text().splitlines()
         self.write("flat.csv", "\n".join(",".join(line.split(",")[:2]) for line in lines) + "\n")

@@ -85,6 +85,8 @@ constexpr std::array headings = {
     Entry{"x", "x"},
     Entry{"y", "y"},
     Entry{"z", "z"},
+    Entry{"frame", "frame"},
+    Entry{"image", "frame"},
     Entry{"particle radius", "particle_radius"},
     Entry{"pore radius", "pore_radius"},
     Entry{"exclusion probability", "exclusion_probability"},

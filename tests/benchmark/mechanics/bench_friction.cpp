@@ -30,9 +30,9 @@ Eigen::VectorXcd sweep(const Packing& packing, double friction, int steps) {
     run.model.friction = friction;
     run.oscillations = static_cast<int>(loads.size()) + 2;
     run.steps_per_oscillation = steps;
-    run.course.assign(2, 1e-3);
+    run.course.assign(2, {1e-3});
     for (const double load : loads) {
-        run.course.push_back(load / 8);
+        run.course.push_back({load / 8});
     }
     const ContactNetwork bonds = find_contacts(packing, 0.01);
     const auto oscillations =

@@ -62,6 +62,24 @@ inline Measurement seen_by_microscope(const Packing& hidden, double sigma_plane,
     return table;
 }
 
+/// Images of the same particles as one table.
+inline Measurement repeated(const std::vector<Measurement>& images) {
+    Measurement all = images.front();
+    Column frame{"frame", "1", {}};
+    for (Column& column : all.columns) {
+        column.values.clear();
+    }
+    for (std::size_t image = 0; image < images.size(); ++image) {
+        for (std::size_t axis = 0; axis < all.columns.size(); ++axis) {
+            const std::vector<double>& values = images[image].columns[axis].values;
+            all.columns[axis].values.insert(all.columns[axis].values.end(), values.begin(), values.end());
+        }
+        frame.values.resize(all.rows(), static_cast<double>(image));
+    }
+    all.columns.push_back(frame);
+    return all;
+}
+
 /// Adds centres where no particle is, none nearer than half a diameter to another, until they are this share of all.
 inline void add_false_centres(Measurement& table, double share, double diameter, std::uint64_t seed) {
     const std::size_t particles = table.rows();

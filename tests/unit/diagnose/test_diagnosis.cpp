@@ -134,9 +134,9 @@ std::vector<std::complex<double>> explicit_sweep(const std::vector<double>& stra
     run.steps_per_oscillation = 5000;
     run.damping = 0.75;
     run.compare_with_rest = false;
-    run.course.assign(2, 1e-3);  // until the start is forgotten
+    run.course.assign(2, {1e-3});  // until the start is forgotten
     for (const double strain : strains) {
-        run.course.push_back(strain / strains.back());
+        run.course.push_back({strain / strains.back()});
     }
     std::vector<std::complex<double>> moduli(strains.size());
     for (const std::uint64_t seed : {77, 78, 79}) {

@@ -202,9 +202,9 @@ std::vector<Complex> torque_of_runs(const std::vector<double>& strains, double c
     run.steps_per_oscillation = 4000;
     run.damping = 0.7;
     run.compare_with_rest = false;
-    run.course.assign(2, 1e-3);
+    run.course.assign(2, {1e-3});
     for (const double strain : strains) {
-        run.course.push_back(strain / strains.back());
+        run.course.push_back({strain / strains.back()});
     }
     const int radii = under_cone ? 1 : 10;
     std::vector<Complex> moduli(strains.size());

@@ -106,9 +106,11 @@ TEST(Polydispersity, HiddenInCoordinatesIsNamed) {
     EXPECT_GT(deviation.high, 0.11);
 }
 
-/// Equal errors in all directions, no particle missed: sizes and errors of localisation look alike.
-TEST(Polydispersity, TiesWithErrorsOfLocalisation) {
-    const Diagnosis found = diagnose_by_recipe({seen_by_microscope(structure(700, 35), 2.5e-8, 2.5e-8, 0, 35)});
+/// Equal errors in all directions, no particle missed: sizes and errors of localisation look alike in one image. A second one of
+/// the same particles is proposed, and decides, whichever it is.
+TEST(Polydispersity, TiesWithErrorsOfLocalisationUntilImagedTwice) {
+    const Measurement once = seen_by_microscope(structure(700, 35), 2.5e-8, 2.5e-8, 0, 35);
+    const Diagnosis found = diagnose_by_recipe({once});
     EXPECT_EQ(found.verdict, Verdict::tied);
     EXPECT_TRUE(in_set(found, "polydispersity"));
     EXPECT_TRUE(in_set(found, "localisation-error"));
@@ -116,6 +118,23 @@ TEST(Polydispersity, TiesWithErrorsOfLocalisation) {
         EXPECT_TRUE(std::isfinite(failure.departure));
         EXPECT_EQ(failure.sentence.find("nan"), std::string::npos) << failure.sentence;
     }
+    ASSERT_EQ(found.proposals.size(), 1U);
+    EXPECT_NE(found.proposals.front().what.find("imaged twice"), std::string::npos);
+    EXPECT_GT(found.proposals.front().resolution, 0.95);
+
+    const Diagnosis errors = diagnose_by_recipe({repeated({once, seen_by_microscope(structure(700, 35), 2.5e-8, 2.5e-8, 0, 36)})});
+    EXPECT_EQ(errors.verdict, Verdict::named);
+    EXPECT_EQ(errors.credible_set, std::vector<std::string>{"localisation-error"});
+    const EstimatedParameter& plane = errors.causes.front().parameters[1];
+    EXPECT_EQ(plane.name, "sigma_plane");
+    EXPECT_NEAR(plane.value, 2.5e-8, 3 * (plane.high - plane.low) / 3.29);  // three standard deviations
+    EXPECT_LT(plane.high / plane.low, 1.3);
+
+    const Packing unequal = structure_with_sizes(700, 31, SizeKind::normal, 0.12);
+    const Diagnosis sizes = diagnose_by_recipe(
+        {repeated({seen_by_microscope(unequal, 0, 0, 0, 37), seen_by_microscope(unequal, 1e-10, 1e-10, 0, 38)})});
+    EXPECT_EQ(sizes.verdict, Verdict::named);
+    EXPECT_EQ(sizes.credible_set, std::vector<std::string>{"polydispersity"});
 }
 
 TEST(Polydispersity, EqualSpheresShowNone) {

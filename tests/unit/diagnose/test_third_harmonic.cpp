@@ -75,7 +75,7 @@ mechanics::RheometerOptions options_of(const ContactModel& model, const std::vec
     run.boundary = mechanics::RheometerBoundary::periodic;
     run.amplitude = strains.back();
     for (const double strain : strains) {
-        run.course.push_back(strain / strains.back());
+        run.course.push_back({strain / strains.back()});
     }
     run.oscillations = static_cast<int>(strains.size());
     run.steps_per_oscillation = 6000;

@@ -237,6 +237,23 @@ TEST(Rheometer, BreaksBondsAboveTheirStrengthAndLosesStiffness) {
     EXPECT_EQ(counted, static_cast<Index>(weak.broken.size()));
 }
 
+TEST(Rheometer, BreaksNothingInAnOscillationThatHolds) {
+    RheometerOptions options = gentle();
+    options.amplitude = 2e-3;
+    options.model.normal_strength = options.model.shear_strength = 2e-9;
+    options.course = {{0.01}, {1, false}, {1}};
+    options.oscillations = 3;
+    const auto weak = run(options).runs[0];
+    options.model.normal_strength = options.model.shear_strength = unset;
+    const auto strong = run(options).runs[0];
+    ASSERT_EQ(weak.oscillations[0].broken_bonds, 0);
+    EXPECT_EQ(weak.oscillations[1].broken_bonds, 0);
+    EXPECT_EQ(weak.oscillations[1].fundamental_storage, strong.oscillations[1].fundamental_storage);
+    EXPECT_EQ(weak.oscillations[1].fundamental_loss, strong.oscillations[1].fundamental_loss);
+    EXPECT_GT(weak.oscillations[2].broken_bonds, 10);
+    EXPECT_EQ(weak.broken.front().oscillation, 2);
+}
+
 /// The fast way and the general one break the same bonds, until rounding tells their avalanches apart.
 TEST(Rheometer, BreaksTheSameBondsEitherWay) {
     RheometerOptions options = gentle();
@@ -327,6 +344,8 @@ TEST(Rheometer, RejectsImpossibleOptions) {
     refused([](RheometerOptions& o) { o.damping = 1; });
     refused([](RheometerOptions& o) { o.steps_per_oscillation = 150; });
     refused([](RheometerOptions& o) { o.samples_per_oscillation = 7; });
+    refused([](RheometerOptions& o) { o.course = {{1}, {1}}; });
+    refused([](RheometerOptions& o) { o.course = {{0, false}}; });
     refused([](RheometerOptions& o) { o.model.normal_stiffness = -1; });
     refused([](RheometerOptions& o) {
         o.model.normal_springpot_stiffness = 1;

@@ -151,7 +151,7 @@ struct Diagnosis {
 };
 
 /// Diagnoses an experiment whose tables have passed check_data.
-/// Throws InputError when there are fewer than five usable moduli: too little to say anything.
+/// Throws InputError when there are fewer than five usable numbers: too little to say anything.
 Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options = {},
                    const Progress& progress = {});
 

@@ -108,6 +108,11 @@ public:
     /// it, mean over the structures.
     double neighbours(const Settings& settings, std::size_t shell, bool exact = false);
 
+    /// What images of the same particles differ by, which no structure enters but through wrong matches: standard deviations of a
+    /// centre in the plane and along z over the diameter, and the share of the centres that the next image does not have
+    /// (src/repeated_images.hpp).
+    std::array<double, 3> repeated_images(const Settings& settings, bool exact = false);
+
     /// Probability that a point of the void space is farther than this [m] from the nearest particle surface, mean over the
     /// structures.
     double exclusion_probability(const Settings& settings, double pore_radius);
@@ -140,6 +145,8 @@ private:
     std::vector<double> shells(double plane, double axis);
     const std::vector<double>& shell_node(int plane, int axis);
     const std::vector<double>& shells_about_places();
+    std::array<double, 3> matched_images(double plane, double axis);
+    double image_node(int plane, int axis, std::size_t entry);
 
     Structures structures_;
     std::vector<std::string> names_;
@@ -148,6 +155,7 @@ private:
     std::map<std::array<double, 4>, double> nodes_;      ///< by ratio, bending, tolerance and group
     std::map<std::array<double, 3>, double> exponents_;  ///< of the volume fraction, by ratio, bending and tolerance
     std::map<std::pair<int, int>, std::vector<double>> shell_nodes_;
+    std::map<std::pair<int, int>, std::array<double, 3>> image_nodes_;
     std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;  ///< by group
     double scatter_ = -1;                                                   ///< between structures, once it has been asked for
     SimulationCache& cache_;

@@ -23,24 +23,30 @@ enum class RheometerBoundary {
     periodic  ///< no plates: the periodic cell is sheared
 };
 
+/// One oscillation of a course.
+struct CourseOscillation {
+    double part;         ///< of the amplitude, above 0 and up to 1
+    bool breaks = true;  ///< else its bonds hold whatever they carry: what it loses is the rate of the run
+};
+
 struct RheometerOptions {
     ContactModel model;
     RheometerBoundary boundary = RheometerBoundary::plates;
-    double amplitude = 1e-3;            ///< largest strain of an oscillation, > 0
-    bool growing = true;                ///< the k-th of n oscillations has k / n of the amplitude; else all have it
-    std::vector<double> course = {};    ///< part of the amplitude (0 .. 1] of every oscillation instead; or empty
-    int oscillations = 10;              ///< > 0
-    double frequency = 1;               ///< [Hz], > 0; with scaled masses, see RheometerResult::mass_scaling
-    int steps_per_oscillation = 6000;   ///< >= 100
-    int samples_per_oscillation = 100;  ///< of the stress; >= 8, a multiple of 4 and a divisor of steps_per_oscillation
-    double damping = 0.9;               ///< alpha of the local damping, 0 <= alpha < 1
-    double density = 3690;              ///< of the particles [kg/m^3], > 0: what the scaled masses are compared with
-    bool unstressed_as_found = true;    ///< bonds have no force where they are found; else at distance r_i + r_j
-    double plate_layers = 3;            ///< thickness of a plate in mean diameters
-    int measurement_spheres = 5;        ///< between the plates, from a fifth to four fifths of the height
-    double measurement_radius = 0.2;    ///< of a measurement sphere over the height
-    double rest_tolerance = 1e-9;       ///< relaxation ends at this rms force over (normal contact stiffness x mean radius) ...
-    double rest_change = 1e-3;          ///< ... or when the rms force changes by less than this share within 100 steps
+    double amplitude = 1e-3;                     ///< largest strain of an oscillation, > 0
+    bool growing = true;                         ///< the k-th of n oscillations has k / n of the amplitude; else all have it
+    std::vector<CourseOscillation> course = {};  ///< every oscillation instead; or empty
+    int oscillations = 10;                       ///< > 0
+    double frequency = 1;                        ///< [Hz], > 0; with scaled masses, see RheometerResult::mass_scaling
+    int steps_per_oscillation = 6000;            ///< >= 100
+    int samples_per_oscillation = 100;           ///< of the stress; >= 8, a multiple of 4 and a divisor of steps_per_oscillation
+    double damping = 0.9;                        ///< alpha of the local damping, 0 <= alpha < 1
+    double density = 3690;                       ///< of the particles [kg/m^3], > 0: what the scaled masses are compared with
+    bool unstressed_as_found = true;             ///< bonds have no force where they are found; else at distance r_i + r_j
+    double plate_layers = 3;                     ///< thickness of a plate in mean diameters
+    int measurement_spheres = 5;                 ///< between the plates, from a fifth to four fifths of the height
+    double measurement_radius = 0.2;             ///< of a measurement sphere over the height
+    double rest_tolerance = 1e-9;  ///< relaxation ends at this rms force over (normal contact stiffness x mean radius) ...
+    double rest_change = 1e-3;     ///< ... or when the rms force changes by less than this share within 100 steps
     Index most_rest_steps = 200000;
     bool compare_with_rest = true;  ///< measure RheometerRun::rate_error
 };
