@@ -76,7 +76,7 @@ std::string header(const DiagnosisRecord& record) {
     };
     fact("verdict", diagnose::name_of(found.verdict));
     fact("chance that the base model fails so", chance_text(found));
-    fact("moduli", std::to_string(found.observations));
+    fact("measured numbers", std::to_string(found.observations));
     if (found.detected && found.gain.held_out > 0) {
         fact("error on held-out rows", percent(found.gain.rmse_base) + " → " + percent(found.gain.rmse_extended));
     }

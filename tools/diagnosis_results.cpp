@@ -112,7 +112,7 @@ Json to_json(const Diagnosis& diagnosis, const std::string& model) {
 }
 
 Table table_of(const Diagnosis& diagnosis) {
-    Table lines{{"moduli", std::to_string(diagnosis.observations)},
+    Table lines{{"measured numbers", std::to_string(diagnosis.observations)},
                 {"verdict", std::string(diagnose::name_of(diagnosis.verdict)) + "   (p = " + with_unit(diagnosis.p_value, "1") +
                                 " that the base model fails so by chance)"}};
     if (!diagnosis.detected) {

@@ -178,8 +178,4 @@ double error_of(ImageDifference difference, double value, double centres) {
     return std::max(error_of_median * value / std::sqrt(components * centres), least_error);
 }
 
-double within_match(double density) {
-    return std::min(1.0, density * 4 * std::numbers::pi / 3 * std::pow(match_reach, 3));
-}
-
 }  // namespace coagula::diagnose

@@ -40,7 +40,4 @@ RepeatedImages images_of_structure(const Packing& packing, double sigma_plane, d
 /// Standard error of a difference of this value in so many centres.
 double error_of(ImageDifference difference, double value, double centres);
 
-/// Particles and false centres (`density` per cube of the diameter) within the reach of a match.
-double within_match(double density);
-
 }  // namespace coagula::diagnose

@@ -125,6 +125,28 @@ TEST(RepeatedImages, OfARealGel) {
     EXPECT_NEAR(seen.centres, 312 * 6.0 / 8, 1e-9);
 }
 
+/// Beside every particle of the first image stands a centre that only it has: each of both is nearest to the one of the next image,
+/// but that is nearest to the particle alone.
+TEST(RepeatedImages, MatchOneCentreWithOne) {
+    std::vector<Eigen::Matrix3Xd> images(2, Eigen::Matrix3Xd(3, 0));
+    const auto add = [&](int image, double x, double y, double z) {
+        images[static_cast<std::size_t>(image)].conservativeResize(3, images[static_cast<std::size_t>(image)].cols() + 1);
+        images[static_cast<std::size_t>(image)].rightCols<1>() << x, y, z;
+    };
+    for (int x = 0; x < 5; ++x) {
+        for (int y = 0; y < 5; ++y) {
+            for (int z = 0; z < 5; ++z) {
+                add(0, 3 * x, 3 * y, 3 * z);
+                add(0, 3 * x, 3 * y + 0.4, 3 * z);
+                add(1, 3 * x, 3 * y + (x % 2 == 0 ? 0.1 : -0.1), 3 * z);
+            }
+        }
+    }
+    const RepeatedImages seen = compare_images(images, 1, "lattice");
+    EXPECT_EQ(seen.centres, 54);  // of the lattice those not in the faces, and their companions
+    EXPECT_DOUBLE_EQ(seen.values[2], 0.5);
+}
+
 TEST(RepeatedImages, ThatAreTheSameAreRefused) {
     Experiment experiment = imaged({}, 2, 500);
     EXPECT_THROW(observations_of(experiment), InputError);
