@@ -123,19 +123,6 @@ std::vector<Eigen::Matrix3Xd> images_in(const Measurement& table) {
     return images;
 }
 
-Observation counted(std::size_t number, std::size_t row, double value, double error) {
-    return {.measurement = number,
-            .row = row,
-            .loss = false,
-            .value = value,
-            .standard_error = error,
-            .strain = unset,
-            .angular_frequency = unset,
-            .time = unset,
-            .gap = unset,
-            .plate_radius = unset};
-}
-
 /// Neighbours in shells, mean over the images, with the errors of one, because they are of the same particles; none where no
 /// image has enough particles far enough from the faces.
 std::vector<Observation> neighbours_in(const std::vector<Eigen::Matrix3Xd>& images, std::size_t number, double diameter) {
@@ -148,8 +135,10 @@ std::vector<Observation> neighbours_in(const std::vector<Eigen::Matrix3Xd>& imag
     }
     std::vector<Observation> all;
     for (std::size_t shell = 0; shell < shell_count && !shells.empty(); ++shell) {
-        all.push_back(counted(number, shell, 0, 0));
-        all.back().distance = first_shell + shell_width * (static_cast<double>(shell) + 0.5);
+        all.push_back({.measurement = number,
+                       .row = shell,
+                       .standard_error = 0,
+                       .distance = first_shell + shell_width * (static_cast<double>(shell) + 0.5)});
         for (const NeighbourShells& one : shells) {
             all.back().value += one.mean[shell] / static_cast<double>(shells.size());
             all.back().standard_error += one.standard_errors[shell] / static_cast<double>(shells.size());
@@ -221,9 +210,7 @@ double relative_to(const Observation& observation, double level) {
 std::vector<Observation> planned_images(std::size_t measurement, double centres) {
     std::vector<Observation> all;
     for (const ImageDifference difference : {ImageDifference::plane, ImageDifference::axis, ImageDifference::unmatched}) {
-        all.push_back(counted(measurement, shell_count + all.size(), 0, unset));
-        all.back().difference = difference;
-        all.back().centres = centres;
+        all.push_back({.measurement = measurement, .row = shell_count + all.size(), .difference = difference, .centres = centres});
     }
     return all;
 }

@@ -17,15 +17,15 @@ namespace coagula::diagnose {
 struct Observation {
     std::size_t measurement;
     std::size_t row;
-    bool loss;              ///< G'', else G'
-    double value;           ///< [Pa]
-    double standard_error;  ///< [Pa]; NaN where the table has none
+    bool loss = false;              ///< G'', else G'
+    double value = 0;               ///< [Pa]
+    double standard_error = unset;  ///< [Pa]; NaN where the table has none
     // Where and when; NaN where the table does not say.
-    double strain;             ///< amplitude
-    double angular_frequency;  ///< [rad/s]
-    double time;               ///< since the first run on the sample [s]
-    double gap;                ///< [m]
-    double plate_radius;       ///< [m]
+    double strain = unset;             ///< amplitude
+    double angular_frequency = unset;  ///< [rad/s]
+    double time = unset;               ///< since the first run on the sample [s]
+    double gap = unset;                ///< [m]
+    double plate_radius = unset;       ///< [m]
     ErrorLaw errors = {};
     bool third_harmonic = false;  ///< of the stress over the first, elastic or viscous part, in place of a modulus
     double cone_angle = unset;    ///< [rad]; NaN where there is no cone

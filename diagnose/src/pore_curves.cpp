@@ -67,14 +67,8 @@ std::vector<Observation> pores_in(const Experiment& experiment, std::size_t numb
         before = error;
         all.push_back({.measurement = number,
                        .row = row,
-                       .loss = false,
                        .value = value,
                        .standard_error = error.all,
-                       .strain = unset,
-                       .angular_frequency = unset,
-                       .time = unset,
-                       .gap = unset,
-                       .plate_radius = unset,
                        .errors = errors,
                        .pore_radius = radius});
     }

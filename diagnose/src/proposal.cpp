@@ -3,6 +3,7 @@
 #include <coagula/diagnose/waveform.hpp>
 
 #include "candidate_measurements.hpp"
+#include "median.hpp"
 #include "weights.hpp"
 
 #include <algorithm>
@@ -35,15 +36,6 @@ struct ExpectedErrors {
     double phase = 0;     ///< of G'' over |G*| [rad]
     double sample = 0;    ///< of the level of a fresh sample
 };
-
-double median(std::vector<double> values) {
-    if (values.empty()) {
-        return 0;
-    }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 ExpectedErrors errors_of(const DataSet& data) {
     const Eigen::ArrayXd share = data.noise.deviation.array() / complex_moduli(data.observations, data.values);

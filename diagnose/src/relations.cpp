@@ -1,5 +1,7 @@
 #include "relations.hpp"
 
+#include "median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,12 +9,6 @@
 namespace coagula::diagnose {
 
 namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 using Cells = Relation::Cells;
 

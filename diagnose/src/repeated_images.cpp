@@ -1,5 +1,6 @@
 #include "repeated_images.hpp"
 
+#include "median.hpp"
 #include "weights.hpp"
 
 #include <coagula/common/checks.hpp>
@@ -57,22 +58,13 @@ Matches match(const Cell& cell, const Eigen::Matrix3Xd& first, const Eigen::Matr
     return found;
 }
 
-double median_of(std::vector<double>& values) {
-    if (values.empty()) {
-        return 0;
-    }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Of every component.
 Eigen::Vector3d median_displacement(const Matches& matches) {
     Eigen::Vector3d middle;
     for (int axis = 0; axis < 3; ++axis) {
         const Eigen::VectorXd row = matches.displacement.row(axis);
         std::vector<double> values(row.begin(), row.end());
-        middle[axis] = median_of(values);
+        middle[axis] = median(values);
     }
     return middle;
 }
@@ -106,7 +98,7 @@ public:
 
     RepeatedImages result() {
         const double scale = 1 / (std::numbers::sqrt2 * median_of_normal * diameter_);
-        return {{scale * median_of(plane_), scale * median_of(axis_), centres_ > 0 ? 1 - matched_ / centres_ : 0.0}, centres_};
+        return {{scale * median(plane_), scale * median(axis_), centres_ > 0 ? 1 - matched_ / centres_ : 0.0}, centres_};
     }
 
 private:
