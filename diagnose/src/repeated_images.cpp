@@ -69,6 +69,10 @@ Eigen::Vector3d median_displacement(const Matches& matches) {
     return middle;
 }
 
+Eigen::Matrix3Xd without_drift(const Cell& cell, const Eigen::Matrix3Xd& first, const Eigen::Matrix3Xd& second, double reach) {
+    return second.colwise() - median_displacement(match(cell, first, second, reach));
+}
+
 /// Collects what pairs of images show.
 class Differences {
 public:
@@ -78,8 +82,7 @@ public:
     template <class Counts>
     void add(const Cell& cell, const Eigen::Matrix3Xd& first, const Eigen::Matrix3Xd& second, const Counts& counts) {
         const double reach = match_reach * diameter_;
-        const Eigen::Vector3d drift = median_displacement(match(cell, first, second, reach));
-        const Matches matches = match(cell, first, cell.is_periodic() ? second : second.colwise() - drift, reach);
+        const Matches matches = match(cell, first, cell.is_periodic() ? second : without_drift(cell, first, second, reach), reach);
         for (Index centre = 0; centre < first.cols(); ++centre) {
             centres_ += counts(first.col(centre)) ? 1 : 0;
         }
