@@ -41,13 +41,13 @@ ArrayXd pooled(const ArrayXd& values) {
     return means;
 }
 
-/// Derivative, by the values on either side.
-ArrayXd gradient(const ArrayXd& places, const ArrayXd& values) {
+/// Derivative, as the mean of the slopes on either side, of values whose places are so far from the last.
+ArrayXd gradient(const ArrayXd& steps, const ArrayXd& values) {
     ArrayXd slopes(values.size());
     for (Index k = 0; k < values.size(); ++k) {
         const Index from = std::max<Index>(0, k - 1);
         const Index to = std::min<Index>(values.size() - 1, k + 1);
-        slopes[k] = (values[to] - values[from]) / (places[to] - places[from]);
+        slopes[k] = (values[to] - values[from]) / steps.segment(from + 1, to - from).sum();
     }
     return slopes;
 }
@@ -165,7 +165,7 @@ Smooth Sample::ratios() const {
 /// breaks otherwise from node to node by chance.
 double Sample::strength_error() const {
     const ArrayXd left = mean_.array().real();
-    const ArrayXd slope = (left < 1 && left > least_left).select(gradient(places_ + 0.5 * widths_, left), 0);
+    const ArrayXd slope = (left < 1 && left > least_left).select(gradient(widths_, left), 0);
     const double squares = slope.square().sum();
     if (squares == 0) {
         return 0;
@@ -205,7 +205,7 @@ Eigen::MatrixXcd Sample::curve_and_errors() const {
         }
     };
     const double shift = step * strength_error();
-    add(rate.mean + shift * gradient(places_, rate.mean), ratio.mean + shift * gradient(places_, ratio.mean));
+    add(rate.mean + shift * gradient(widths_, rate.mean), ratio.mean + shift * gradient(widths_, ratio.mean));
     for (const auto& error : rate.errors.colwise()) {
         add(rate.mean + step * error.array(), ratio.mean);
     }
