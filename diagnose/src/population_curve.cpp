@@ -27,7 +27,6 @@ constexpr double least_rate = 0.01;    ///< for the errors of nodes up to which 
 constexpr double least_noise = 0.05;   ///< of an energy ratio
 constexpr double unknown = 10;         ///< noise of one where nothing breaks
 constexpr double still_intact = 1e-6;  ///< least modulus left
-constexpr double least_left = 0.2;     ///< of the modulus, below which a structure's strength does not show
 constexpr double visible = 1e-4;       ///< error of a node
 
 /// Each number as the mean of itself and its neighbours.
@@ -39,17 +38,6 @@ ArrayXd pooled(const ArrayXd& values) {
         means[k] = values.segment(from, to - from + 1).mean();
     }
     return means;
-}
-
-/// Derivative, as the mean of the slopes on either side, of values whose places are so far from the last.
-ArrayXd gradient(const ArrayXd& steps, const ArrayXd& values) {
-    ArrayXd slopes(values.size());
-    for (Index k = 0; k < values.size(); ++k) {
-        const Index from = std::max<Index>(0, k - 1);
-        const Index to = std::min<Index>(values.size() - 1, k + 1);
-        slopes[k] = (values[to] - values[from]) / steps.segment(from + 1, to - from).sum();
-    }
-    return slopes;
 }
 
 /// Standard errors of means over structures whose variance is in proportion to what breaks on the way to a node.
@@ -101,18 +89,16 @@ public:
 private:
     Smooth rates() const;
     Smooth ratios() const;
-    double strength_error() const;
     Eigen::VectorXcd curve(const ArrayXd& rates, const ArrayXd& ratios) const;
 
     Eigen::VectorXcd mean_;
-    Eigen::MatrixXd differences_;  ///< of the structures' moduli from it
-    ArrayXd widths_;               ///< of the steps in the logarithm of the load
-    ArrayXd places_;               ///< middles of the steps
-    ArrayXd mean_square_;          ///< of the load within a step over its last square, over 2 pi: energy stored per modulus
-    ArrayXd before_;               ///< modulus before a step
-    ArrayXd breaks_;               ///< what is lost of it
-    Eigen::MatrixXd broken_;       ///< nodes x structures: what each breaks otherwise than in proportion to what it has left
-    Eigen::MatrixXd other_loss_;   ///< what each loses otherwise than by that
+    ArrayXd widths_;              ///< of the steps in the logarithm of the load
+    ArrayXd places_;              ///< middles of the steps
+    ArrayXd mean_square_;         ///< of the load within a step over its last square, over 2 pi: energy stored per modulus
+    ArrayXd before_;              ///< modulus before a step
+    ArrayXd breaks_;              ///< what is lost of it
+    Eigen::MatrixXd broken_;      ///< nodes x structures: what each breaks otherwise than in proportion to what it has left
+    Eigen::MatrixXd other_loss_;  ///< what each loses otherwise than by that
 };
 
 Sample::Sample(const std::vector<double>& loads, const Eigen::MatrixXcd& structures) : mean_(structures.rowwise().mean()) {
@@ -129,9 +115,8 @@ Sample::Sample(const std::vector<double>& loads, const Eigen::MatrixXcd& structu
     before_ = before_.max(still_intact);
     const ArrayXd kept = mean_.array().real() / before_;
     const Eigen::MatrixXcd differences = structures.colwise() - mean_;
-    differences_ = differences.real();
-    broken_ = differences_;
-    broken_.bottomRows(nodes - 1) -= kept.tail(nodes - 1).matrix().asDiagonal() * differences_.topRows(nodes - 1);
+    broken_ = differences.real();
+    broken_.bottomRows(nodes - 1) -= kept.tail(nodes - 1).matrix().asDiagonal() * differences.real().topRows(nodes - 1);
     const double squares = broken_.squaredNorm();
     const double cost = squares > 0 ? broken_.cwiseProduct(differences.imag()).sum() / squares : 0.0;
     other_loss_ = differences.imag() - cost * broken_;
@@ -160,27 +145,6 @@ Smooth Sample::ratios() const {
     return smooth(places_, values, noise, level_of(places_, values, noise, ratio_amplitude), ratio_amplitude);
 }
 
-/// Standard error of the logarithm of the load that all nodes have in common: structures are stronger or weaker as a whole, besides
-/// breaking more or less from node to node. By the shifts along the load with which the mean meets the structures best, less what
-/// breaks otherwise from node to node by chance.
-double Sample::strength_error() const {
-    const ArrayXd left = mean_.array().real();
-    const ArrayXd slope = (left < 1 && left > least_left).select(gradient(widths_, left), 0);
-    const double squares = slope.square().sum();
-    if (squares == 0) {
-        return 0;
-    }
-    const Eigen::VectorXd shifts = differences_.transpose() * slope.matrix() / squares;
-    const auto structures = static_cast<double>(shifts.size());
-    // What a node breaks otherwise is missing at the next ones, too, in proportion to what they keep.
-    ArrayXd weights = slope;
-    for (Index node = weights.size() - 2; node >= 0; --node) {
-        weights[node] += weights[node + 1] * std::max(left[node + 1], 0.0) / before_[node + 1];
-    }
-    const double by_chance = (weights * standard_errors(broken_, breaks_)).square().sum() / (squares * squares);
-    return std::sqrt(std::max(0.0, shifts.squaredNorm() / (structures - 1) / structures - by_chance));
-}
-
 Eigen::VectorXcd Sample::curve(const ArrayXd& rates, const ArrayXd& ratios) const {
     Eigen::VectorXcd found(rates.size());
     double left = 1;
@@ -204,8 +168,6 @@ Eigen::MatrixXcd Sample::curve_and_errors() const {
             all.emplace_back(middle + change);
         }
     };
-    const double shift = step * strength_error();
-    add(rate.mean + shift * gradient(widths_, rate.mean), ratio.mean + shift * gradient(widths_, ratio.mean));
     for (const auto& error : rate.errors.colwise()) {
         add(rate.mean + step * error.array(), ratio.mean);
     }
