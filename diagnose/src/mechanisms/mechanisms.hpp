@@ -41,11 +41,12 @@ inline bool has_moduli(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) { return find_column(table, "storage_modulus") != nullptr; });
 }
 
-/// Torque per angle over the modulus is known: a plate or cone radius, a gap, and under a cone its angle.
+/// Torque per angle over the modulus is known: a radius, and the gap between plates or the angle of a cone.
 inline bool knows_plates(const Experiment& experiment) {
     const Instrument& instrument = experiment.instrument;
-    const bool knows_cone = instrument.geometry != Geometry::cone_plate || std::isfinite(instrument.cone_angle);
-    return has_moduli(experiment) && std::isfinite(instrument.plate_radius) && std::isfinite(instrument.gap) && knows_cone;
+    const bool cone = instrument.geometry == Geometry::cone_plate;
+    return has_moduli(experiment) && std::isfinite(instrument.plate_radius) &&
+           std::isfinite(cone ? instrument.cone_angle : instrument.gap);
 }
 
 inline bool knows_gap(const Experiment& experiment) {

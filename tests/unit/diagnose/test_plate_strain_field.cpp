@@ -140,7 +140,17 @@ TEST(PlateStrainField, AConeWithoutAnAngleShowsNothingOfTheTool) {
     experiment.instrument.gap = 5e-5;
     EXPECT_FALSE(find_mechanism("tool-compliance")->applies(experiment));
     experiment.instrument.cone_angle = 0.02;
+    experiment.instrument.gap = unset;  // which matters between plates only
     EXPECT_TRUE(find_mechanism("tool-compliance")->applies(experiment));
+    const std::vector<Observation> observations = observations_of(experiment);
+    const Forward forward(experiment, observations, simulator());
+    Settings yielding;
+    yielding.tool_compliance = 5e-3;
+    const double modulus = forward.predict({})[0];
+    const double torque = 2 * std::numbers::pi * std::pow(0.0125, 3) / (3 * 0.02) * modulus;
+    EXPECT_NEAR(forward.predict(yielding)[0] / modulus, 1 / (1 + 5e-3 * torque), 1e-12);
+    experiment.instrument.geometry = Geometry::plate_plate;
+    EXPECT_FALSE(find_mechanism("tool-compliance")->applies(experiment));
 }
 
 /// The weaker of the two strengths breaks the bonds, and the extended model has that one.
