@@ -116,6 +116,9 @@ std::vector<Eigen::Matrix3Xd> images_in(const Measurement& table) {
             centres[frame].push_back(centre);
         }
     }
+    if (several && centres.empty()) {
+        throw InputError(table.label + ": column 'frame' has no number in any row with a centre");
+    }
     std::vector<Eigen::Matrix3Xd> images;
     for (const auto& [frame, list] : centres) {
         images.emplace_back(Eigen::Map<const Eigen::Matrix3Xd>(list.front().data(), 3, static_cast<Index>(list.size())));

@@ -159,6 +159,8 @@ class Coordinates(Tables):
         twice = [line + f",{frame}" for frame in (1, 2) for line in lines]
         self.write("twice.csv", "\n".join([header + ",image", *twice]) + "\n")
         self.refuse(self.experiment(file="twice.csv"), "twice.csv", "have the same coordinates")
+        self.write("words.csv", "\n".join([header + ",image", *(line + ",first" for line in lines)]) + "\n")
+        self.refuse(self.experiment(file="words.csv"), "words.csv", "column 'frame' has no number")
 
     def test_refusals(self):
         self.centres(0, 0)
