@@ -14,8 +14,8 @@ struct LoadBearing {
     std::vector<Index> bond;      ///< original index of each load-bearing bond
 };
 
-/// Removes, again and again, what cannot carry load in linear elasticity: a particle with fewer than two bonds, and, where bonds carry
-/// no moment, a pair of bonded particles that have one more bond each and do not lie on one line (a chain of two links, whose
+/// Removes, again and again, what cannot carry load in linear elasticity: a particle with fewer than two bonds, and, where bonds
+/// carry no moment, a pair of bonded particles that have one more bond each and do not lie on one line (a chain of two links, whose
 /// joints would have to pass a force along two different lines).
 /// @param moments whether bonds resist bending or twisting.
 /// @param held N flags, or empty: particles fixed to the boundary, which are never removed and get no number.
