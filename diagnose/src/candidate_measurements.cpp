@@ -172,11 +172,13 @@ std::vector<Candidate> candidates_for(const Experiment& experiment, const std::v
     if (std::any_of(observations.begin(), observations.end(), is_modulus)) {
         candidates = shear_candidates(experiment, observations);
     }
-    for (const Measurement& table : experiment.measurements) {
-        if (table.kind == MeasurementKind::coordinates) {
-            candidates.push_back(images_again(experiment, table));
-            break;
-        }
+    const auto& tables = experiment.measurements;
+    const auto image = std::find_if(tables.begin(), tables.end(),
+                                    [](const Measurement& table) { return table.kind == MeasurementKind::coordinates; });
+    const bool again =
+        std::any_of(observations.begin(), observations.end(), [](const Observation& one) { return one.difference.has_value(); });
+    if (image != tables.end() && !again) {
+        candidates.push_back(images_again(experiment, *image));
     }
     return candidates;
 }

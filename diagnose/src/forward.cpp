@@ -1,5 +1,6 @@
 #include "forward.hpp"
 
+#include "median.hpp"
 #include "pore_curves.hpp"
 #include "springpot.hpp"
 
@@ -9,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -196,9 +198,7 @@ Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) cons
         }
     }
     if (!ratios.empty()) {
-        const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-        std::nth_element(ratios.begin(), middle, ratios.end());
-        deviation *= *middle;
+        deviation *= median(std::move(ratios));
     }
     return deviation;
 }

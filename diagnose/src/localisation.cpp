@@ -13,22 +13,38 @@ namespace {
 /// Standard deviation over the diameter; below, no shell notices it.
 constexpr Axis error_axis{0.02, 0.9, 9};
 
+/// From the nodes of both errors.
+template <class At>
+double between_errors(double plane, double axis, const At& at) {
+    return interpolate_nodes(error_axis, plane,
+                             [&](int i) { return interpolate_nodes(error_axis, axis, [&](int j) { return at(i, j); }); });
+}
+
 }  // namespace
 
-/// Neighbours in every shell, mean over the structures, for errors in the plane and along z over the diameter.
-std::vector<double> Simulator::shells(double plane, double axis) {
-    std::vector<double> mean(shell_count, 0.0);
+/// Numbers that are measured of every structure at a place, from the cache where they are known: mean over the structures.
+std::vector<double> Simulator::mean_over_structures(const std::string& what, const std::vector<double>& place,
+                                                    const std::function<std::vector<double>(const Packing&)>& measure) {
+    std::vector<double> mean;
     for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const std::string key = key_of("neighbours " + names_[k], {plane, axis});
+        const std::string key = key_of(what + " " + names_[k], place);
         auto found = cache_.find(key);
         if (found == cache_.end()) {
-            found = cache_.emplace(key, shells_of_structure(structures_[k], 2 * radius_ * plane, 2 * radius_ * axis)).first;
+            found = cache_.emplace(key, measure(structures_[k])).first;
         }
-        for (std::size_t shell = 0; shell < mean.size(); ++shell) {
-            mean[shell] += found->second[shell] / static_cast<double>(structures_.size());
+        mean.resize(found->second.size());
+        for (std::size_t entry = 0; entry < mean.size(); ++entry) {
+            mean[entry] += found->second[entry] / static_cast<double>(structures_.size());
         }
     }
     return mean;
+}
+
+/// Neighbours in every shell for errors in the plane and along z over the diameter.
+std::vector<double> Simulator::shells(double plane, double axis) {
+    return mean_over_structures("neighbours", {plane, axis}, [&](const Packing& structure) {
+        return shells_of_structure(structure, 2 * radius_ * plane, 2 * radius_ * axis);
+    });
 }
 
 const std::vector<double>& Simulator::shell_node(int plane, int axis) {
@@ -39,62 +55,40 @@ const std::vector<double>& Simulator::shell_node(int plane, int axis) {
     return node;
 }
 
-/// As of the function, mean over the structures.
+/// As of the function.
 const std::vector<double>& Simulator::shells_about_places() {
-    if (!shells_about_places_.empty()) {
-        return shells_about_places_;
-    }
-    shells_about_places_.assign(shell_count + 1, 0.0);
-    for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const std::string key = "places " + names_[k];
-        auto found = cache_.find(key);
-        if (found == cache_.end()) {
-            found = cache_.emplace(key, shells_about_free_places(structures_[k])).first;
-        }
-        for (std::size_t entry = 0; entry < shells_about_places_.size(); ++entry) {
-            shells_about_places_[entry] += found->second[entry] / static_cast<double>(structures_.size());
-        }
+    if (shells_about_places_.empty()) {
+        shells_about_places_ = mean_over_structures("places", {}, shells_about_free_places);
     }
     return shells_about_places_;
 }
 
-/// Mean over the structures: standard deviations as they are seen over the true ones, and the share of centres that are not found
-/// again although they are in both images.
-std::array<double, 3> Simulator::matched_images(double plane, double axis) {
-    std::array<double, 3> mean{};
-    for (std::size_t k = 0; k < structures_.size(); ++k) {
-        const std::string key = key_of("images " + names_[k], {plane, axis});
-        auto found = cache_.find(key);
-        if (found == cache_.end()) {
-            const auto seen = images_of_structure(structures_[k], 2 * radius_ * plane, 2 * radius_ * axis).values;
-            found = cache_.emplace(key, std::vector<double>{seen[0] / plane, seen[1] / axis, seen[2]}).first;
-        }
-        for (std::size_t entry = 0; entry < mean.size(); ++entry) {
-            mean[entry] += found->second[entry] / static_cast<double>(structures_.size());
-        }
-    }
-    return mean;
+/// Standard deviations as they are seen over the true ones, and the share of centres that are not found again although they are in
+/// both images.
+std::vector<double> Simulator::matched_images(double plane, double axis) {
+    return mean_over_structures("images", {plane, axis}, [&](const Packing& structure) -> std::vector<double> {
+        const auto seen = images_of_structure(structure, 2 * radius_ * plane, 2 * radius_ * axis).values;
+        return {seen[0] / plane, seen[1] / axis, seen[2]};
+    });
 }
 
-double Simulator::image_node(int plane, int axis, std::size_t entry) {
-    const auto [node, added] = image_nodes_.try_emplace({plane, axis});
-    if (added) {
-        node->second = matched_images(error_axis.node(plane), error_axis.node(axis));
+const std::vector<double>& Simulator::image_node(int plane, int axis) {
+    std::vector<double>& node = image_nodes_[{plane, axis}];
+    if (node.empty()) {
+        node = matched_images(error_axis.node(plane), error_axis.node(axis));
     }
-    return node->second[entry];
+    return node;
 }
 
 std::array<double, 3> Simulator::repeated_images(const Settings& settings, bool exact) {
     const double plane = settings.localisation_plane / (2 * radius_);
     const double axis = settings.localisation_axis / (2 * radius_);
-    std::array<double, 3> seen{1, 1, 0};
+    std::vector<double> seen{1, 1, 0};
     if (exact && plane > 0 && axis > 0) {
         seen = matched_images(plane, axis);
     } else if (plane > 0 || axis > 0) {
         for (std::size_t entry = 0; entry < seen.size(); ++entry) {
-            seen[entry] = interpolate_nodes(error_axis, plane, [&](int i) {
-                return interpolate_nodes(error_axis, axis, [&](int j) { return image_node(i, j, entry); });
-            });
+            seen[entry] = between_errors(plane, axis, [&](int i, int j) { return image_node(i, j)[entry]; });
         }
     }
     // A centre is a particle that the next image has, too. (In less than a hundredth of the centres it is a false one, and that
@@ -108,10 +102,9 @@ double Simulator::neighbours(const Settings& settings, std::size_t shell, bool e
     }
     const double plane = settings.localisation_plane / (2 * radius_);
     const double axis = settings.localisation_axis / (2 * radius_);
-    const double pairs =
-        exact || (plane == 0 && axis == 0) ? shells(plane, axis)[shell] : interpolate_nodes(error_axis, plane, [&](int i) {
-            return interpolate_nodes(error_axis, axis, [&](int j) { return shell_node(i, j)[shell]; });
-        });
+    const double pairs = exact || (plane == 0 && axis == 0)
+                             ? shells(plane, axis)[shell]
+                             : between_errors(plane, axis, [&](int i, int j) { return shell_node(i, j)[shell]; });
     const double found = 1 - settings.missed_share;
     if (settings.false_share == 0) {
         return found * pairs;

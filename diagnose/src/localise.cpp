@@ -111,8 +111,11 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
                                         deviations_text(score) + " the known " + three_digits(known) + " N/m"});
     }
     const DataSet& data = inference.likelihood().data();
+    if (data.samples() < 2 || data.effect <= 0) {
+        return;
+    }
     const Eigen::VectorXd effects = inference.likelihood().effects(prediction);
-    for (Index sample = 0; data.samples() > 1 && sample < data.samples() && data.effect > 0; ++sample) {
+    for (Index sample = 0; sample < data.samples(); ++sample) {
         const double score = effects[sample] / data.effect;
         if (std::abs(score) >= noticeable) {
             failures.push_back({.observable = "storage_modulus",

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "candidate_measurements.hpp"
 #include "hidden_effects.hpp"
 #include "support/reference_data.hpp"
 
@@ -145,6 +146,14 @@ TEST(RepeatedImages, MatchOneCentreWithOne) {
     const RepeatedImages seen = compare_images(images, 1, "lattice");
     EXPECT_EQ(seen.centres, 54);  // of the lattice those not in the faces, and their companions
     EXPECT_DOUBLE_EQ(seen.values[2], 0.5);
+}
+
+TEST(RepeatedImages, AreProposedWhereThereIsOneImage) {
+    const auto proposed = [](const Experiment& experiment) { return candidates_for(experiment, observations_of(experiment)); };
+    const Experiment once = imaged(errors(2e-8, 4e-8, 0, 0), 1, 600);
+    ASSERT_EQ(proposed(once).size(), 1U);
+    EXPECT_EQ(proposed(once).front().observations.front().centres, 800);
+    EXPECT_TRUE(proposed(imaged(errors(2e-8, 4e-8, 0, 0), 2, 600)).empty());
 }
 
 TEST(RepeatedImages, ThatAreTheSameAreRefused) {

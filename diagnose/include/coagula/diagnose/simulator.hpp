@@ -145,8 +145,10 @@ private:
     std::vector<double> shells(double plane, double axis);
     const std::vector<double>& shell_node(int plane, int axis);
     const std::vector<double>& shells_about_places();
-    std::array<double, 3> matched_images(double plane, double axis);
-    double image_node(int plane, int axis, std::size_t entry);
+    std::vector<double> matched_images(double plane, double axis);
+    const std::vector<double>& image_node(int plane, int axis);
+    std::vector<double> mean_over_structures(const std::string& what, const std::vector<double>& place,
+                                             const std::function<std::vector<double>(const Packing&)>& measure);
 
     Structures structures_;
     std::vector<std::string> names_;
@@ -155,7 +157,7 @@ private:
     std::map<std::array<double, 4>, double> nodes_;      ///< by ratio, bending, tolerance and group
     std::map<std::array<double, 3>, double> exponents_;  ///< of the volume fraction, by ratio, bending and tolerance
     std::map<std::pair<int, int>, std::vector<double>> shell_nodes_;
-    std::map<std::pair<int, int>, std::array<double, 3>> image_nodes_;
+    std::map<std::pair<int, int>, std::vector<double>> image_nodes_;
     std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;  ///< by group
     double scatter_ = -1;                                                   ///< between structures, once it has been asked for
     SimulationCache& cache_;
