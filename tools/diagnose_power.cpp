@@ -67,6 +67,7 @@ Json to_json(const CausePower& cause) {
 Json to_json(const Power& power, const diagnose::PowerOptions& options) {
     Json json = {{"level", options.diagnosis.level},
                  {"moduli", power.moduli},
+                 {"third_harmonics", power.third_harmonics},
                  {"storage_modulus", power.storage_modulus},
                  {"normal_stiffness", power.normal_stiffness},
                  {"by_chance", to_json(power.by_chance)},
@@ -121,8 +122,11 @@ std::string describe(const NamingRuns& naming) {
 }
 
 Table table_of(const Power& power, const diagnose::PowerOptions& options) {
-    Table table{{"planned", std::to_string(power.moduli) + " moduli, G' about " + with_unit(power.storage_modulus, "Pa")},
-                {"found by chance", describe(power.by_chance) + " at the level of " + percent(options.diagnosis.level)}};
+    const std::string waveforms =
+        power.third_harmonics > 0 ? ", " + std::to_string(power.third_harmonics) + " parts of third harmonics" : "";
+    Table table{
+        {"planned", std::to_string(power.moduli) + " moduli, G' about " + with_unit(power.storage_modulus, "Pa") + waveforms},
+        {"found by chance", describe(power.by_chance) + " at the level of " + percent(options.diagnosis.level)}};
     for (const CausePower& cause : power.causes) {
         if (!std::isfinite(cause.half.value)) {
             table.emplace_back(cause.name, "cannot be found: " + describe(cause.curve.back().found) + " at its strongest, " +

@@ -195,6 +195,9 @@ diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::
     if (rule.axes.empty()) {
         keys.fail("planned", std::string(diagnose::name_of(kind)) + " has no axis that could be planned");
     }
+    if (kind == diagnose::MeasurementKind::waveform) {
+        keys.fail("planned", "waveforms are planned as a table of kind harmonics, with the strains of their oscillations");
+    }
     const diagnose::Quantity& axis = *diagnose::find_quantity(rule.axes.front());
     double from = unset;
     double to = unset;

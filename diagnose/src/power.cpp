@@ -1,4 +1,5 @@
 #include <coagula/diagnose/power.hpp>
+#include <coagula/diagnose/waveform.hpp>
 
 #include "forward.hpp"
 #include "weights.hpp"
@@ -15,26 +16,39 @@ constexpr int fine_points = 8;    ///< across it
 constexpr double half = 0.5;
 constexpr double most = 0.95;
 
-/// The tables of moduli with a number in every cell that is to be measured.
+bool is_planned(const Column& column) {
+    return column.name == "storage_modulus" || column.name == "loss_modulus" || column.name.starts_with("third_harmonic");
+}
+
+/// The columns that are to be measured.
+std::vector<std::string> planned_columns(const Measurement& table) {
+    if (table.kind == MeasurementKind::harmonics) {
+        return {"third_harmonic_storage", "third_harmonic_loss"};
+    }
+    const bool series = table.kind == MeasurementKind::structure_series;
+    const bool storage = series || find_column(table, "storage_modulus") != nullptr;
+    return storage && find_column(table, "loss_modulus") == nullptr ? std::vector<std::string>{"storage_modulus"}
+                                                                    : std::vector<std::string>{"storage_modulus", "loss_modulus"};
+}
+
+/// The tables of moduli and of third harmonics with a number in every cell that is to be measured.
 Experiment prepared(Experiment experiment) {
-    std::erase_if(experiment.measurements, [](const Measurement& table) { return !has_moduli(table.kind); });
-    for (Measurement& table : experiment.measurements) {
-        const bool series = table.kind == MeasurementKind::structure_series;
-        const bool storage_only =
-            (series || find_column(table, "storage_modulus") != nullptr) && find_column(table, "loss_modulus") == nullptr;
-        std::erase_if(table.columns, [](const Column& column) {
-            return column.name == "storage_modulus" || column.name == "loss_modulus" || column.name.starts_with("third_harmonic");
-        });
+    reduce_waveforms(experiment, 0, 0);
+    auto& tables = experiment.measurements;
+    std::erase_if(tables,
+                  [](const Measurement& table) { return !has_moduli(table.kind) && table.kind != MeasurementKind::harmonics; });
+    for (Measurement& table : tables) {
+        const std::vector<std::string> names = planned_columns(table);
+        std::erase_if(table.columns, is_planned);
         if (axis_of(table) == nullptr) {
             throw InputError(table.label + ": a planned " + std::string(name_of(table.kind)) + " needs its axis");
         }
         const std::vector<double> ones(table.rows(), 1.0);
-        table.columns.push_back({"storage_modulus", "Pa", ones});
-        if (!storage_only) {
-            table.columns.push_back({"loss_modulus", "Pa", ones});
+        for (const std::string& name : names) {
+            table.columns.push_back({name, std::string(find_quantity(name)->unit), ones});
         }
     }
-    if (experiment.measurements.empty()) {
+    if (std::none_of(tables.begin(), tables.end(), [](const Measurement& table) { return has_moduli(table.kind); })) {
         throw InputError(
             "the experiment plans no table of moduli: a frequency, amplitude or time sweep, a gap series or a structure series");
     }
@@ -51,7 +65,7 @@ public:
           options_(options) {}
 
     const Experiment& experiment() const { return experiment_; }
-    std::size_t moduli() const { return observations_.size(); }
+    const std::vector<Observation>& observations() const { return observations_; }
     Eigen::VectorXd expected(const Settings& settings) const { return forward_.predict(settings); }
 
     /// What would be measured where the truth is `expected`, with errors and effects of the samples.
@@ -68,6 +82,9 @@ private:
 
 double Planned::deviation(std::size_t k, double value, double complex_modulus) const {
     const Observation& one = observations_[k];
+    if (one.third_harmonic) {
+        return std::hypot(one.standard_error, third_harmonic_error * value);
+    }
     const double weight = std::isfinite(one.strain) ? 1 / one.strain : 1.0;
     const double row = std::hypot(options_.noise.stated_floor * weight, options_.noise.stated_relative * value);
     return one.loss ? std::hypot(row, options_.noise.stated_phase * complex_modulus) : row;
@@ -87,7 +104,7 @@ Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) 
     Experiment drawn = experiment_;
     for (Measurement& table : drawn.measurements) {
         for (Column& column : table.columns) {
-            if (column.name.ends_with("_modulus")) {
+            if (is_planned(column)) {
                 column.standard_errors.assign(column.values.size(), unset);
             }
         }
@@ -95,15 +112,14 @@ Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) 
     for (std::size_t k = 0; k < count; ++k) {
         const Observation& one = observations_[k];
         Measurement& table = drawn.measurements[one.measurement];
-        const double scale = factor[table.sample];
+        const double scale = one.third_harmonic ? 1.0 : factor[table.sample];
         const auto i = static_cast<Index>(k);
         const double unlike = structures[i] * normal_number(seed, first_step + number, count + factor.size() + k);
         const double truth = scale * (expected[i] + unlike);
         const double complex_modulus = scale * sizes[i];
         const double value = truth + deviation(k, truth, complex_modulus) * normal_number(seed, first_step + number, k);
-        const auto column = std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& each) {
-            return each.name == (one.loss ? "loss_modulus" : "storage_modulus");
-        });
+        const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                         [&](const Column& each) { return each.name == observable_of(one); });
         column->values[one.row] = value;
         column->standard_errors[one.row] = deviation(k, value, complex_modulus);  // who measures knows no more than this
     }
@@ -294,7 +310,9 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     power.storage_modulus = std::isfinite(options.storage_modulus) ? options.storage_modulus : modulus;
     base.normal_stiffness *= power.storage_modulus / modulus;
     power.normal_stiffness = base.normal_stiffness;
-    power.moduli = planned.moduli();
+    const auto& observations = planned.observations();
+    power.moduli = static_cast<std::size_t>(std::count_if(observations.begin(), observations.end(), is_modulus));
+    power.third_harmonics = observations.size() - power.moduli;
 
     DiagnosisOptions test_only = options.diagnosis;
     test_only.level = 0;

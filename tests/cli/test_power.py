@@ -51,6 +51,15 @@ class Power(ProgramTest):
         found = self.succeed_json("diagnose", "--power", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "ageing")
         self.assertEqual((found["moduli"], len(found["causes"])), (16, 1))
 
+    def test_waveforms_are_planned_as_harmonics(self):
+        strains = '{ from = "0.01 %", to = "1 %", points = 8 }'
+        tables = "".join(f'[[measurement]]\nkind = "{kind}"\nsample = "gel"\nplanned = {strains}\n' for kind in ("amplitude-sweep", "harmonics"))
+        self.write("plan.toml", PLAN.split("[[measurement]]")[0] + tables)
+        words = ["diagnose", "--power", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "contact-nonlinearity"]
+        found = self.succeed_json(*words)
+        self.assertEqual((found["moduli"], found["third_harmonics"], len(found["causes"])), (16, 16, 1))
+        self.assertRegex(self.succeed(*words), r"planned +16 moduli, G' about .*Pa, 16 parts of third harmonics")
+
     def test_the_expected_modulus_sets_the_stiffness(self):
         self.write("plan.toml", PLAN + '[expected]\nstorage_modulus = "5 kPa"\n')
         found = self.succeed_json("diagnose", "--power", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "ageing")
@@ -64,6 +73,7 @@ class Power(ProgramTest):
             ("points = 12", "points = 3", "whole number from 5"),
             ("points = 12", "points = 12, mood = 1", "'mood' is none of from, to, points"),
             ('"frequency-sweep"', '"coordinates"', "no axis"),
+            ('"frequency-sweep"', '"waveform"', "waveforms are planned as a table of kind harmonics"),
             ("stated_relative = 0.03", "stated_phase = 2", "stated_phase"),
         ):
             with self.subTest(new=new):

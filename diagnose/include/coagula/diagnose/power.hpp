@@ -72,18 +72,20 @@ struct CausePower {
 };
 
 struct Power {
-    double storage_modulus = 0;   ///< that was expected [Pa]
-    double normal_stiffness = 0;  ///< of a particle, that gives it [N/m]
-    std::size_t moduli = 0;       ///< that would be measured
-    Share by_chance;              ///< found although nothing is wrong: the level, if the test is right
+    double storage_modulus = 0;       ///< that was expected [Pa]
+    double normal_stiffness = 0;      ///< of a particle, that gives it [N/m]
+    std::size_t moduli = 0;           ///< that would be measured
+    std::size_t third_harmonics = 0;  ///< elastic and viscous parts of them, likewise
+    Share by_chance;                  ///< found although nothing is wrong: the level, if the test is right
     std::vector<CausePower> causes;
 };
 
 /// Simulates the planned experiment with each cause of the catalogue that it can show, over the physical range of its strength, and
 /// diagnoses the data. Errors: of a row sqrt((w floor)^2 + (relative level)^2), and for G'' the phase times |G*| besides; a factor
-/// of each sample. Moduli in the tables are ignored; a table without a column of loss moduli plans to measure them unless it has
-/// one of storage moduli only.
-/// Throws InputError when there is no table of moduli, fewer than five rows, or a cause that is not in the catalogue.
+/// of each sample; of a part of a third harmonic over the first 0.005 and a quarter of it. Moduli in the tables are ignored; a
+/// table without a column of loss moduli plans to measure them unless it has one of storage moduli only. A table of kind
+/// `harmonics` plans waveforms, of which the moduli are those of a sweep. Throws InputError when there is no table of moduli, fewer
+/// than five rows, or a cause that is not in the catalogue.
 Power find_power(const Experiment& planned, Simulator& simulator, const PowerOptions& options = {}, const Progress& progress = {});
 
 }  // namespace coagula::diagnose
