@@ -153,7 +153,7 @@ Eigen::VectorXd Forward::seen(const Settings& settings, const Eigen::VectorXcd& 
         }
         if (is_pore(observation)) {
             predicted[i] = simulator_.exclusion_probability(
-                settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius);
+                settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius, exact);
             continue;
         }
         if (observation.third_harmonic) {

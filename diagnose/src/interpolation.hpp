@@ -41,6 +41,12 @@ auto interpolate_nodes(const AnyAxis& axis, double value, const At& at) {
     return sum;
 }
 
+/// The same in two directions of one axis, from at(k, l).
+template <class AnyAxis, class At>
+auto interpolate_nodes(const AnyAxis& axis, double first, double second, const At& at) {
+    return interpolate_nodes(axis, first, [&](int k) { return interpolate_nodes(axis, second, [&](int l) { return at(k, l); }); });
+}
+
 /// The same for positive values that vary over decades, in their logarithms; `f` takes the value of a node.
 template <class Function>
 double interpolate(const Axis& axis, double value, const Function& f) {

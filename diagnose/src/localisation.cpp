@@ -13,13 +13,6 @@ namespace {
 /// Standard deviation over the diameter; below, no shell notices it.
 constexpr Axis error_axis{0.02, 0.9, 9};
 
-/// From the nodes of both errors.
-template <class At>
-double between_errors(double plane, double axis, const At& at) {
-    return interpolate_nodes(error_axis, plane,
-                             [&](int i) { return interpolate_nodes(error_axis, axis, [&](int j) { return at(i, j); }); });
-}
-
 }  // namespace
 
 /// Numbers that are measured of every structure at a place, from the cache where they are known: mean over the structures.
@@ -88,7 +81,7 @@ std::array<double, 3> Simulator::repeated_images(const Settings& settings, bool 
         seen = matched_images(plane, axis);
     } else if (plane > 0 || axis > 0) {
         for (std::size_t entry = 0; entry < seen.size(); ++entry) {
-            seen[entry] = between_errors(plane, axis, [&](int i, int j) { return image_node(i, j)[entry]; });
+            seen[entry] = interpolate_nodes(error_axis, plane, axis, [&](int i, int j) { return image_node(i, j)[entry]; });
         }
     }
     // A centre is a particle that the next image has, too. (In less than a hundredth of the centres it is a false one, and that
@@ -104,7 +97,7 @@ double Simulator::neighbours(const Settings& settings, std::size_t shell, bool e
     const double axis = settings.localisation_axis / (2 * radius_);
     const double pairs = exact || (plane == 0 && axis == 0)
                              ? shells(plane, axis)[shell]
-                             : between_errors(plane, axis, [&](int i, int j) { return shell_node(i, j)[shell]; });
+                             : interpolate_nodes(error_axis, plane, axis, [&](int i, int j) { return shell_node(i, j)[shell]; });
     const double found = 1 - settings.missed_share;
     if (settings.false_share == 0) {
         return found * pairs;

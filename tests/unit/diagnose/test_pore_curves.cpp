@@ -49,6 +49,74 @@ TEST(PoreCurves, ScatterFromStructureToStructure) {
     EXPECT_LT(std::sqrt(squares), 1.8);
 }
 
+/// The centres of an image as spheres in the box of the particles.
+Packing as_spheres(const Measurement& image, const Packing& particles) {
+    Packing seen{particles.cell, Eigen::Matrix3Xd(3, static_cast<Index>(image.rows())), {}};
+    for (Index centre = 0; centre < seen.size(); ++centre) {
+        const auto row = static_cast<std::size_t>(centre);
+        const Eigen::Vector3d place(image.columns[0].values[row], image.columns[1].values[row], image.columns[2].values[row]);
+        seen.positions.col(centre) = particles.cell.wrap(place);
+    }
+    seen.radii = Eigen::VectorXd::Constant(seen.size(), mean_radius(particles));
+    return seen;
+}
+
+Measurement image_of(const Packing& particles, const Settings& errors, std::uint64_t seed) {
+    Measurement image =
+        seen_by_microscope(particles, errors.localisation_plane, errors.localisation_axis, errors.missed_share, seed);
+    if (errors.false_share > 0) {
+        add_false_centres(image, errors.false_share, 2 * mean_radius(particles), seed + 1);
+    }
+    return image;
+}
+
+Settings errors(double plane, double axis, double missed, double wrong) {
+    Settings settings;
+    settings.localisation_plane = plane;
+    settings.localisation_axis = axis;
+    settings.missed_share = missed;
+    settings.false_share = wrong;
+    return settings;
+}
+
+/// Images drawn another way of the structures that the simulator has.
+TEST(PoreCurves, OfImagesAreExpectedAsTheyAreSeen) {
+    constexpr std::uint64_t images = 10;
+    Simulator& simulator = recipe().simulator;
+    for (const Settings& settings :
+         {errors(1.2e-7, 1.2e-7, 0, 0), errors(1e-9, 1e-9, 0.09, 0), errors(1e-9, 1e-9, 0, 0.08), errors(4e-8, 8e-8, 0.06, 0.03)}) {
+        for (const double pore : {0.5e-7, 1.25e-7, 2e-7}) {
+            Eigen::VectorXd seen(images);
+            for (std::uint64_t k = 0; k < images; ++k) {
+                const Packing& particles = structures_of_recipe()[k % 2];
+                seen[static_cast<Index>(k)] = pores_of(as_spheres(image_of(particles, settings, 900 + 2 * k), particles)).at(pore);
+            }
+            const double change = seen.mean() - simulator.exclusion_probability({}, pore);
+            const double error = std::sqrt((seen.array() - seen.mean()).square().mean() / (images - 1));
+            EXPECT_NEAR(simulator.exclusion_probability(settings, pore, true), seen.mean(), 5 * error);  // it draws as many
+            EXPECT_NEAR(simulator.exclusion_probability(settings, pore), seen.mean(), 5 * error + 0.1 * std::abs(change));
+        }
+    }
+    const double pore = 1.25e-7;
+    const double whole = simulator.exclusion_probability({}, pore);
+    EXPECT_GT(simulator.exclusion_probability(errors(1e-9, 1e-9, 0.09, 0), pore), whole + 0.03);
+    EXPECT_LT(simulator.exclusion_probability(errors(1e-9, 1e-9, 0, 0.08), pore), whole - 0.02);
+}
+
+/// Particles that are missed leave larger pores. Where the coordinates say so the pores need no other cause.
+TEST(PoreCurves, BesideCoordinatesShowWhatIsMissed) {
+    const Packing particles = structure(700, 61);
+    const Measurement image = image_of(particles, errors(2e-8, 4e-8, 0.09, 0), 62);
+    const Diagnosis found = diagnose_by_recipe({image, pore_table(as_spheres(image, particles))});
+    EXPECT_EQ(found.verdict, Verdict::named);
+    EXPECT_EQ(found.credible_set, std::vector<std::string>{"localisation-error"});
+    const EstimatedParameter& missed = found.causes.front().parameters[3];
+    EXPECT_EQ(missed.name, "missed_share");
+    EXPECT_LT(missed.low, 0.09);
+    EXPECT_GT(missed.high, 0.09);
+    EXPECT_LT(missed.high / missed.low, 1.5);
+}
+
 /// A structure of another heterogeneity is detected, one of the same is not.
 TEST(PoreCurves, ShowAnotherHeterogeneity) {
     const Diagnosis same = diagnose_by_recipe({pore_table(structure(300, 41)), pore_table(structure(300, 42))});

@@ -113,9 +113,9 @@ public:
     /// (src/repeated_images.hpp).
     std::array<double, 3> repeated_images(const Settings& settings, bool exact = false);
 
-    /// Probability that a point of the void space is farther than this [m] from the nearest particle surface, mean over the
-    /// structures.
-    double exclusion_probability(const Settings& settings, double pore_radius);
+    /// Probability that a point of the void space is farther than this [m] from the nearest particle surface, as measured
+    /// coordinates would show it, mean over the structures.
+    double exclusion_probability(const Settings& settings, double pore_radius, bool exact = false);
 
     double radius() const { return radius_; }
 
@@ -123,7 +123,11 @@ private:
     Simulator(Structures structures, std::vector<std::string> names, SimulationCache& cache, Progress progress,
               std::vector<std::size_t> groups, double radius);
     double over_changes(const StructureChange& change, const std::function<double(Simulator&)>& asked);
+    PoreCurve measured_pores(const Packing& packing) const;
     const PoreCurve& pore_curve(std::size_t structure);
+    double mean_exclusion_probability(double pore_radius);
+    const PoreCurve& imaged_pores(const std::array<double, 4>& errors);
+    double change_in_images(const Settings& settings, double pore_radius, double probability, bool exact);
     std::vector<std::size_t> members(std::size_t group) const;
     const std::vector<double>& linear_moduli(std::size_t structure, double ratio, double bending, double tolerance);
     double node(double ratio, double bending, double tolerance, std::size_t group);
@@ -166,6 +170,7 @@ private:
     OtherStages stages_;
     std::map<StructureChange, std::unique_ptr<Simulator>> remade_;
     std::map<std::size_t, PoreCurve> pore_curves_;
+    std::map<std::array<double, 4>, PoreCurve> imaged_pores_;
     std::vector<double> shells_about_places_;     ///< once it has been asked for
     std::vector<double> secant_curve_;            ///< likewise
     std::optional<YieldCurves> strength_curves_;  ///< likewise
