@@ -27,12 +27,13 @@ namespace {
 using diagnose::Experiment;
 namespace fs = std::filesystem;
 
-/// The contact of the best cause as a TOML file; empty when there is none.
+/// The contact of the best cause as a TOML file; empty when there is none or nothing shows its stiffness.
 std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
     const auto& set = diagnosis.credible_set;
     const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
                                    [&](const diagnose::Cause& cause) { return !set.empty() && cause.name == set.front(); });
-    if (!diagnosis.detected || best == diagnosis.causes.end() || best->parameters.empty()) {
+    const bool has_contact = best != diagnosis.causes.end() && !best->parameters.empty() && !diagnosis.base.parameters.empty();
+    if (!diagnosis.detected || !has_contact) {
         return {};
     }
     return "# " + best->name + ": " + best->words + "\n" +

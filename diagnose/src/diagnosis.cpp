@@ -23,12 +23,23 @@ constexpr double with_ease = 0.2;  ///< p-value of the best cause from which on 
 constexpr double certain = 0.95;
 constexpr const char* none_name = "none of the catalogue";
 
-Cause cause_of(const Fit& fit) {
+/// Whether something measured depends on the stiffness of the particles.
+bool shows_stiffness(const Inference& inference) {
+    const auto& observations = inference.likelihood().data().observations;
+    return std::any_of(observations.begin(), observations.end(),
+                       [](const Observation& one) { return is_modulus(one) && !std::isfinite(one.fluid_viscosity); });
+}
+
+Cause cause_of(const Fit& fit, const Inference& inference) {
     Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .settings = fit.settings, .draws = fit.draws};
     const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior) {
         cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high});
     };
-    add("normal_stiffness", "N/m", fit.stiffness);
+    if (shows_stiffness(inference)) {
+        add("normal_stiffness", "N/m", fit.stiffness);
+    } else {
+        cause.draws = fit.draws.bottomRows(std::max<Index>(0, fit.draws.rows() - 1)).eval();
+    }
     std::size_t next = 0;
     for (const Mechanism* mechanism : fit.hypothesis) {
         cause.words += (cause.words.empty() ? "" : "; ") + mechanism->term;
@@ -179,10 +190,11 @@ bool contains(const std::string& pair, const std::string& member) {
     return pair.starts_with(member + joint) || pair.ends_with(joint + member);
 }
 
-void rank_causes(const std::vector<Fit>& fits, double none_evidence, const Priors& priors, Diagnosis& diagnosis) {
+void rank_causes(const std::vector<Fit>& fits, const Inference& inference, double none_evidence, const Priors& priors,
+                 Diagnosis& diagnosis) {
     const std::vector<double> posterior = posteriors(fits, none_evidence, priors);
     for (std::size_t k = 0; k < fits.size(); ++k) {
-        diagnosis.causes.push_back(cause_of(fits[k]));
+        diagnosis.causes.push_back(cause_of(fits[k], inference));
         diagnosis.causes.back().posterior = posterior[k];
     }
     diagnosis.causes.push_back({.name = none_name,
@@ -258,7 +270,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.observations = data.observations.size();
     progress.update("fitting the base model", 0.1);
     const Fit base = inference.fit({});
-    diagnosis.base = cause_of(base);
+    diagnosis.base = cause_of(base, inference);
     const Detection detection = detect(inference, base, possible, options.seed, options.bootstrap);
     diagnosis.p_value = detection.p_value;
     diagnosis.detected = diagnosis.p_value <= options.level;
@@ -276,7 +288,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     // A smooth correction also takes up noise that is larger than stated; the test knows how uncertain the noise is.
     const double none = std::min(flexible_evidence(data, forward, base_prediction),
                                  winner.log_evidence + most_evidence_against(diagnosis.extended_p_value));
-    rank_causes(comparison.fits, none, priors_of(options, possible.size()), diagnosis);
+    rank_causes(comparison.fits, inference, none, priors_of(options, possible.size()), diagnosis);
     diagnosis.verdict = verdict_of(diagnosis, options.level);
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, held_out, experiment, simulator, winner.hypothesis, options.seed);

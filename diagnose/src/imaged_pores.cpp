@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t error_seed = 20122;
 constexpr std::uint64_t missed_seed = 20123;
 constexpr std::uint64_t place_seed = 20124;
-constexpr Index least_particles_drawn = 2000;  ///< so that what is drawn scatters less than the structures
+constexpr Index least_particles_drawn = 1000;  ///< so that what is drawn scatters less than the structures
 constexpr Axis error_axis{0.02, 0.9, 5};       ///< standard deviation over the diameter
 constexpr LinearAxis share_axis{0, 0.1, 5};
 constexpr int radii = 201;

@@ -4,10 +4,13 @@
 #include "pore_curves.hpp"
 #include "table_cells.hpp"
 
+#include <coagula/common/checks.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -126,6 +129,18 @@ std::vector<Eigen::Matrix3Xd> images_in(const Measurement& table) {
     return images;
 }
 
+/// Coordinates in another unit are far from what particles of this diameter could be.
+void require_plausible(const Eigen::Matrix3Xd& centres, double diameter, const std::string& label) {
+    constexpr double least = 1e-3;
+    const Eigen::Array3d box = (centres.rowwise().maxCoeff() - centres.rowwise().minCoeff()).array() + diameter;
+    const double filled = static_cast<double>(centres.cols()) * std::numbers::pi / 6 * std::pow(diameter, 3) / box.prod();
+    if (!(filled >= least && filled <= 1)) {
+        throw InputError(
+            label + ": particles of " + to_text(diameter / 2) + " m radius at these coordinates would fill " + to_text(filled) +
+            " of the box around them, and 0.001 to 1 is possible: check the unit of the coordinates and sample.particle_radius");
+    }
+}
+
 /// Neighbours in shells, mean over the images, with the errors of one, because they are of the same particles; none where no
 /// image has enough particles far enough from the faces.
 std::vector<Observation> neighbours_in(const std::vector<Eigen::Matrix3Xd>& images, std::size_t number, double diameter) {
@@ -160,6 +175,9 @@ std::vector<Observation> seen_in_images(const Experiment& experiment, std::size_
     const Measurement& table = experiment.measurements[number];
     const double diameter = 2 * experiment.sample.particle_radius;
     const std::vector<Eigen::Matrix3Xd> images = images_in(table);
+    for (const Eigen::Matrix3Xd& image : images) {
+        require_plausible(image, diameter, table.label);
+    }
     std::vector<Observation> all = neighbours_in(images, number, diameter);
     if (images.size() >= 2) {
         const RepeatedImages seen = compare_images(images, diameter, table.label);

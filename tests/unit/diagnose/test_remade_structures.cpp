@@ -101,7 +101,7 @@ TEST(Polydispersity, HiddenInCoordinatesIsNamed) {
     EXPECT_EQ(found.causes.front().name, "polydispersity");
     EXPECT_TRUE(in_set(found, "polydispersity"));
     EXPECT_GT(found.gain.rmse_ratio, 2);
-    const EstimatedParameter& deviation = found.causes.front().parameters[1];
+    const EstimatedParameter& deviation = found.causes.front().parameters[0];
     EXPECT_LT(deviation.low, 0.12);
     EXPECT_GT(deviation.high, 0.11);
 }
@@ -125,7 +125,7 @@ TEST(Polydispersity, TiesWithErrorsOfLocalisationUntilImagedTwice) {
     const Diagnosis errors = diagnose_by_recipe({repeated({once, seen_by_microscope(structure(700, 35), 2.5e-8, 2.5e-8, 0, 36)})});
     EXPECT_EQ(errors.verdict, Verdict::named);
     EXPECT_EQ(errors.credible_set, std::vector<std::string>{"localisation-error"});
-    const EstimatedParameter& plane = errors.causes.front().parameters[1];
+    const EstimatedParameter& plane = errors.causes.front().parameters[0];
     EXPECT_EQ(plane.name, "sigma_plane");
     EXPECT_NEAR(plane.value, 2.5e-8, 3 * (plane.high - plane.low) / 3.29);  // three standard deviations
     EXPECT_LT(plane.high / plane.low, 1.3);

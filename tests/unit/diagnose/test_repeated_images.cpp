@@ -148,6 +148,16 @@ TEST(RepeatedImages, MatchOneCentreWithOne) {
     EXPECT_DOUBLE_EQ(seen.values[2], 0.5);
 }
 
+TEST(RepeatedImages, InAnotherUnitAreRefused) {
+    for (const double unit : {0.1, 10.0, 1e-6, 1e6}) {
+        Experiment experiment = imaged({}, 1, 500);
+        for (Column& column : experiment.measurements[0].columns) {
+            std::for_each(column.values.begin(), column.values.end(), [&](double& value) { value *= unit; });
+        }
+        EXPECT_THROW(observations_of(experiment), InputError) << unit;
+    }
+}
+
 TEST(RepeatedImages, AreProposedWhereThereIsOneImage) {
     const auto proposed = [](const Experiment& experiment) { return candidates_for(experiment, observations_of(experiment)); };
     const Experiment once = imaged(errors(2e-8, 4e-8, 0, 0), 1, 600);

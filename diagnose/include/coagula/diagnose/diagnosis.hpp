@@ -63,9 +63,9 @@ struct Cause {
     std::string words = {};  ///< what it changes
     double posterior = 0;
     double log_evidence = 0;
-    std::vector<EstimatedParameter> parameters = {};
-    Settings settings = {};      ///< most probable
-    Eigen::MatrixXd draws = {};  ///< from the posterior: parameters x equally probable draws
+    std::vector<EstimatedParameter> parameters = {};  ///< the stiffness of the particles first, where a modulus shows it
+    Settings settings = {};                           ///< most probable
+    Eigen::MatrixXd draws = {};                       ///< from the posterior: parameters x equally probable draws
 };
 
 /// One way to fail that the test looked at.
