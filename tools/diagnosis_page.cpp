@@ -202,7 +202,7 @@ std::string parameters(const Diagnosis& found) {
             add(cause);
         }
     }
-    return html + html_table({"model", "parameter", "most probable", "90 % interval"}, rows);
+    return rows.empty() ? "" : html + html_table({"model", "parameter", "most probable", "90 % interval"}, rows);
 }
 
 std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
@@ -250,6 +250,9 @@ std::string interval(const diagnose::Estimate& estimate, double unit, const std:
 }
 
 std::string noise(const DiagnosisRecord& record) {
+    if (record.noise.empty()) {
+        return {};
+    }
     std::string html = heading("Noise and samples");
     std::vector<std::vector<std::string>> rows;
     std::map<std::string, std::vector<std::string>> effects;

@@ -128,9 +128,11 @@ Table table_of(const Diagnosis& diagnosis) {
         }
     }
     const diagnose::Gain& gain = diagnosis.gain;
-    lines.emplace_back("gain on held-out data", "error " + with_unit(100 * gain.rmse_base, "1") + " % before, " +
-                                                    with_unit(100 * gain.rmse_extended, "1") + " % after (" +
-                                                    with_unit(100 * gain.rmse_flexible, "1") + " % by a smooth correction)");
+    lines.emplace_back("gain on held-out data", gain.held_out == 0
+                                                    ? "none: too few rows to hold some out"
+                                                    : "error " + with_unit(100 * gain.rmse_base, "1") + " % before, " +
+                                                          with_unit(100 * gain.rmse_extended, "1") + " % after (" +
+                                                          with_unit(100 * gain.rmse_flexible, "1") + " % by a smooth correction)");
     if (!diagnosis.proposals.empty()) {
         const diagnose::Proposal& first = diagnosis.proposals.front();
         lines.emplace_back("measure next", first.what + "   (decides with probability " + with_unit(first.resolution, "1") + ")");

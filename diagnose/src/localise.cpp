@@ -154,6 +154,14 @@ void add_departures_of_images(const std::vector<Observation>& observations, cons
     }
 }
 
+/// Which way the measured values go from the early ones to the late ones, against a base model that may be zero.
+std::string way_of(double early, double late, bool of_base_zero) {
+    if (of_base_zero) {
+        return late < 0 ? " falls below the base model" : " rises above the base model";
+    }
+    return late < early ? " falls relative to the base model" : " rises relative to the base model";
+}
+
 /// A smooth departure along an axis.
 Failure departure_along(const MisfitStatistic& statistic, const std::vector<Observation>& observations,
                         const Eigen::VectorXd& residual, const Eigen::VectorXd& prediction) {
@@ -171,8 +179,7 @@ Failure departure_along(const MisfitStatistic& statistic, const std::vector<Obse
         std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
     failure.from = coordinate_of(observations[static_cast<std::size_t>(statistic.rows[place])], statistic.coordinate);
     failure.departure = late;
-    failure.sentence = spoken(statistic.observable) + (late < (of_base_zero ? 0.0 : early) ? " falls below" : " rises above") +
-                       " the base model along " +
+    failure.sentence = spoken(statistic.observable) + way_of(early, late, of_base_zero) + " along " +
                        (statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis) + ": mean difference " +
                        three_digits(100 * early) + " % before and " + three_digits(100 * late) + " % from " +
                        value_text(failure.from, statistic.coordinate) + " on" +

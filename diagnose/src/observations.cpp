@@ -135,9 +135,9 @@ void require_plausible(const Eigen::Matrix3Xd& centres, double diameter, const s
     const Eigen::Array3d box = (centres.rowwise().maxCoeff() - centres.rowwise().minCoeff()).array() + diameter;
     const double filled = static_cast<double>(centres.cols()) * std::numbers::pi / 6 * std::pow(diameter, 3) / box.prod();
     if (!(filled >= least && filled <= 1)) {
-        throw InputError(
-            label + ": particles of " + to_text(diameter / 2) + " m radius at these coordinates would fill " + to_text(filled) +
-            " of the box around them, and 0.001 to 1 is possible: check the unit of the coordinates and sample.particle_radius");
+        throw InputError(label + ": particles of " + to_text(diameter / 2) + " m radius at these coordinates would fill " +
+                         (filled > 1 ? "more than all" : "less than a thousandth") +
+                         " of the box around them: check the unit of the coordinates and sample.particle_radius");
     }
 }
 

@@ -172,7 +172,7 @@ TEST(Diagnosis, NamesTheStrengthOfTheBonds) {
     EXPECT_GT(critical.high, 3e-4);
     ASSERT_FALSE(found.failures.empty());
     EXPECT_TRUE(std::any_of(found.failures.begin(), found.failures.end(), [](const Failure& failure) {
-        return failure.axis == "strain" && failure.sentence.find("falls below") != std::string::npos;
+        return failure.axis == "strain" && failure.sentence.find("falls relative to") != std::string::npos;
     }));
 }
 
