@@ -18,10 +18,35 @@ constexpr int phases = 4;
 /// contacts close again and push (eight structures of 200 particles: waveforms in steps of 1.5 critical strains).
 constexpr double missing = 0.8;
 
+/// Of two changes that have the same sign, the part of the first in their sum.
+double part_of(double first, double second) {
+    const double sum = first + second;
+    return sum == 0 ? 0.5 : std::clamp(first / sum, 0.0, 1.0);
+}
+
+/// For every step between loads the slope at its start over the sum of those at its ends, slopes at loads lying between the mean
+/// slopes of the steps on either side; nothing changes before the first one.
+Eigen::ArrayXXd starts_of(const std::vector<double>& loads, const Eigen::MatrixXd& curves) {
+    const Index steps = curves.cols() - 1;
+    Eigen::ArrayXd widths(steps);
+    Eigen::ArrayXXd slopes(curves.rows(), steps);
+    for (Index step = 0; step < steps; ++step) {
+        widths[step] = std::log(loads[static_cast<std::size_t>(step) + 1] / loads[static_cast<std::size_t>(step)]);
+        slopes.col(step) = (curves.col(step + 1) - curves.col(step)).array() / widths[step];
+    }
+    Eigen::ArrayXXd at_loads = Eigen::ArrayXXd::Zero(curves.rows(), steps + 1);
+    for (Index load = 1; load < steps; ++load) {
+        const double share = widths[load - 1] / (widths[load - 1] + widths[load]);
+        at_loads.col(load) = (1 - share) * slopes.col(load - 1) + share * slopes.col(load);
+    }
+    at_loads.col(steps) = slopes.col(steps - 1);
+    return at_loads.leftCols(steps).binaryExpr(at_loads.rightCols(steps), &part_of);
+}
+
 }  // namespace
 
 YieldCurves::YieldCurves(std::vector<double> loads, const Eigen::MatrixXcd& settled) : loads_(std::move(loads)) {
-    loads_.insert(loads_.begin(), 0.0);
+    loads_.insert(loads_.begin(), 0.5 * loads_.front());
     curves_.setOnes(settled.rows(), settled.cols() + 1);
     curves_.rightCols(settled.cols()) = settled;
     for (Index node = 1; node < curves_.cols(); ++node) {
@@ -30,17 +55,28 @@ YieldCurves::YieldCurves(std::vector<double> loads, const Eigen::MatrixXcd& sett
         const Eigen::VectorXd sum = curves_.col(node - 1).imag() + load * load * curves_.col(node).imag();
         curves_.col(node).imag() = sum;
     }
+    starts_.resize(curves_.rows(), curves_.cols() - 1);
+    starts_.real() = starts_of(loads_, curves_.real()).matrix();
+    starts_.imag() = starts_of(loads_, curves_.imag()).matrix();
 }
 
-/// Between the nodes.
 Eigen::VectorXcd YieldCurves::at(double load) const {
     const auto above = std::upper_bound(loads_.begin(), loads_.end(), load);
+    if (above == loads_.begin()) {
+        return curves_.leftCols(1);
+    }
     if (above == loads_.end()) {
         return curves_.rightCols(1);
     }
     const Index next = above - loads_.begin();
-    const double share = (load - *(above - 1)) / (*above - *(above - 1));
-    return (1 - share) * curves_.col(next - 1) + share * curves_.col(next);
+    const double way = std::log(load / *(above - 1)) / std::log(*above / *(above - 1));
+    // The integral of a slope that goes linearly from its start to its end.
+    const auto share = [&](const auto& start) { return (2 * way - 2 * way * way) * start.array() + way * way; };
+    const Eigen::VectorXcd change = curves_.col(next) - curves_.col(next - 1);
+    Eigen::VectorXcd found = curves_.col(next - 1);
+    found.real().array() += share(starts_.col(next - 1).real()) * change.real().array();
+    found.imag().array() += share(starts_.col(next - 1).imag()) * change.imag().array();
+    return found;
 }
 
 double YieldCurves::storage(double from, double to, double phase) const {

@@ -10,7 +10,8 @@ import numpy
 
 PARTICLES = 400
 STRUCTURES = 8
-KNOWN = 16    # that the diagnosis may know
+BREAKING = 32  # of a sample with bonds that break: what a few structures differ from very many is more than errors of 2 %
+KNOWN = 16     # that the diagnosis may know
 LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
 SWEEP_ROWS = 14
 STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
@@ -22,8 +23,7 @@ SERIES_KNOWN = 2                            # of the diagnosis behind each row
 CONTACTS = {"bond-bending": (0.003, 0.03), "shear-stiffness": (0.3, 0.8), "bond-range": (0.025, 0.045)}
 OSCILLATION = ["--steps-per-oscillation", "6000", "--damping", "0.7", "--orientation", "xz,yx,zy"]
 SLOW_OSCILLATION = ["--steps-per-oscillation", "24000", "--damping", "0.7", "--orientation", "xz,yx,zy"]  # where losses count
-RING_OSCILLATION = ["--steps-per-oscillation", "12000", "--damping", "0.7", "--orientation", "xz"]
-RINGS = tuple(((ring + 0.5) / 6)**0.25 for ring in range(6))  # of equal shares of the torque: radius over that of the plates
+RINGS = tuple(((ring + 0.5) / 60)**0.25 for ring in range(60))  # of equal shares of the torque: radius over that of the plates
 
 
 class Material:
@@ -46,8 +46,10 @@ class Material:
         tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in contacts]
         tasks += [("modulus", number, *contact, coordination) for coordination in COORDINATIONS
                   for number in range(SERIES_STRUCTURES) for contact in contacts]
-        tasks += [("breaking", number, load, ring) for number in range(STRUCTURES) for load in LOADS for ring in (1.0, *RINGS) if breaking]
-        for number in range(STRUCTURES):
+        if breaking:
+            tasks += [("modulus", number) for number in range(STRUCTURES, BREAKING)]
+            tasks += [("breaking", number, load) for number in range(BREAKING) for load in LOADS]
+        for number in range(BREAKING if breaking else STRUCTURES):
             self.structure(number)
         for coordination in COORDINATIONS:
             for number in range(SERIES_STRUCTURES):
@@ -116,31 +118,29 @@ class Material:
         """Of a sample as large as all structures together."""
         return float(numpy.mean([self.modulus(number, cause, value) for number in range(STRUCTURES)]))
 
-    def breaking(self, number, load, ring=1.0):
-        """G* over G' of the fundamental, as a rheometer shows it, at strains growing linearly to `load` times the critical strain, or at a radius
-        between plates less, bonds breaking."""
+    def breaking(self, number, load):
+        """G* over G' of the fundamental, as a rheometer shows it, at strains growing linearly to `load` times the critical strain, bonds breaking."""
         def compute():
             strength = 1e-4 * CONTACT * RADIUS
             model = self.folder / "strength.toml"
             model.write_text(f"normal_strength = {strength}\nshear_strength = {strength}\n")
-            oscillation = SLOW_OSCILLATION if ring == 1.0 else RING_OSCILLATION
-            slowly = lambda *words: self.explicit(self.structure(number), *words, oscillation=oscillation)["oscillations"]
-            broken = slowly("--oscillations", SWEEP_ROWS, "--amplitude", ring * load * 1e-4, "--model", model)
+            slowly = lambda *words: self.explicit(self.structure(number), *words, oscillation=SLOW_OSCILLATION)["oscillations"]
+            broken = slowly("--oscillations", SWEEP_ROWS, "--amplitude", load * 1e-4, "--model", model)
             whole = slowly("--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude")
             mean = lambda part, of: numpy.mean(of[part], axis=0)
             unbroken = mean("fundamental_storage_modulus", whole)[-1]
             storage = mean("fundamental_storage_modulus", broken) / unbroken
             loss = (mean("fundamental_loss_modulus", broken) - mean("fundamental_loss_modulus", whole)[-1]) / unbroken
             return [storage.tolist(), loss.tolist()]
-        storage, loss = self.remembered(f"breaking {number} {load} {ring:.3f}", compute)
+        storage, loss = self.remembered(f"breaking {number} {load}", compute)
         return numpy.array(storage) + 1j * numpy.array(loss)
 
     def mean_breaking(self, load, rim=False):
-        """Of a sample as large as all structures together: G* over G' of their mean, or what the torque shows of it between plates, where the
+        """Of a sample as large as all such structures together: G* over G' of their mean, or what the torque shows of it between plates, where the
         strain grows from 0 at the axis to that of the table at the rim."""
-        weights = numpy.array([self.modulus(number) for number in range(STRUCTURES)])
-        rings = [weights @ [self.breaking(number, load, ring) for number in range(STRUCTURES)] for ring in (RINGS if rim else (1.0,))]
-        return numpy.mean(rings, axis=0) / weights.sum()
+        weights = [self.modulus(number) for number in range(BREAKING)]
+        whole = numpy.average([self.breaking(number, load) for number in range(BREAKING)], axis=0, weights=weights)
+        return numpy.mean([at_radius(whole, ring) for ring in RINGS], axis=0) if rim else whole
 
     def sketch(self):
         """The same with losses by their closed form, to choose how strong an effect is to be."""
@@ -161,6 +161,15 @@ class Material:
             return [(numpy.array(found[part]["mean"]) / plain).tolist() for part in ("storage_modulus", "loss_modulus")]
         storage, loss = self.remembered(f"losses {number} {ratio} {exponent} {list(frequencies)}", compute)
         return numpy.array(storage) + 1j * numpy.array(loss)
+
+
+def at_radius(sweep, radius):
+    """What a sweep in even steps shows where all its strains are this part as large: G' between its rows; the energy that is lost in a row is that of
+    the bonds that break between the strain before and its own."""
+    strains = numpy.arange(len(sweep) + 1) / len(sweep)
+    energy = numpy.concatenate([[0], numpy.cumsum(sweep.imag * strains[1:]**2)])
+    storage = numpy.interp(radius * strains[1:], strains, numpy.concatenate([[1], sweep.real]))
+    return storage + 1j * numpy.diff(numpy.interp(radius * strains, strains, energy)) / (radius * strains[1:])**2
 
 
 def computed(task):

@@ -8,7 +8,8 @@
 namespace coagula::diagnose {
 
 /// Some curves over the same loads, a load being a strain over the critical one: storage modulus over that at rest once nothing
-/// breaks any more, and the energy that was lost up to there.
+/// breaks any more, and the energy that was lost up to there. Between the loads their slopes over the logarithm of the load go
+/// smoothly into each other: a row of a sweep loses the difference of two places, which would jump with the nodes otherwise.
 class YieldCurves {
 public:
     /// @param loads growing, the first above 0. @param settled curves x loads: storage modulus over that at rest in the second
@@ -25,8 +26,10 @@ public:
 private:
     Eigen::VectorXcd at(double load) const;
 
-    std::vector<double> loads_;  ///< from rest on
+    std::vector<double> loads_;  ///< from half of the first one on, up to which nothing breaks
     Eigen::MatrixXcd curves_;    ///< curves x loads: settled storage and, imaginary, energy lost so far
+    Eigen::MatrixXcd starts_;    ///< curves x steps between loads: change per logarithm of the load at the start of a step over
+                                 ///< the sum of those at its ends
 };
 
 }  // namespace coagula::diagnose
