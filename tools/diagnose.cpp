@@ -1,5 +1,6 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
 #include "diagnose_power.hpp"
+#include "diagnosis_results.hpp"
 #include "diagnosis_run.hpp"
 #include "experiment_file.hpp"
 #include "report.hpp"
@@ -72,32 +73,6 @@ Json measurement_json(const CheckedMeasurement& checked) {
                              {"third_harmonic_storage", harmonics->third_harmonic_storage},
                              {"third_harmonic_loss", harmonics->third_harmonic_loss},
                              {"error", harmonics->error}};
-    }
-    return json;
-}
-
-Json estimate_json(const diagnose::Estimate& estimate, const std::string& unit) {
-    return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}, {"unit", unit}};
-}
-
-Json noise_json(const NoiseModel& noise) {
-    Json json = {{"kind", diagnose::name_of(noise.kind)},
-                 {"observable", noise.observable},
-                 {"tables", noise.tables},
-                 {"samples", noise.samples},
-                 {"values", noise.values},
-                 {"rows_estimated", noise.rows_estimated},
-                 {"sample_estimated", noise.sample_estimated},
-                 {"floor", estimate_json(noise.floor, noise.unit)},
-                 {"floor_of_stress", noise.floor_of_stress},
-                 {"relative", estimate_json(noise.relative, "1")},
-                 {"sample", estimate_json(noise.sample, "1")},
-                 {"autocorrelation", noise.autocorrelation},
-                 {"excess_kurtosis", noise.excess_kurtosis},
-                 {"sample_effects", Json::object()},
-                 {"statement", noise.statement}};
-    for (const diagnose::SampleEffect& effect : noise.sample_effects) {
-        json["sample_effects"][effect.sample] = effect.effect;
     }
     return json;
 }

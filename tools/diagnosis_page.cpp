@@ -165,7 +165,7 @@ std::string causes(const Diagnosis& found) {
     html += paragraph(
         "Probability of each cause, given the data, over its physical range. " +
         (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
-        " The best cause itself passes the test of the base model with p = " + probability(found.extended_p_value) + ".");
+        " The test of the base model, applied to the best cause, gives p = " + probability(found.extended_p_value) + ".");
     std::vector<std::vector<std::string>> rows;
     std::size_t improbable = 0;
     for (const Cause& cause : found.causes) {

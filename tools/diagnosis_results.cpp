@@ -60,9 +60,35 @@ std::string describe(const Cause& cause) {
     return text;
 }
 
+Json estimate_json(const diagnose::Estimate& estimate, const std::string& unit) {
+    return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}, {"unit", unit}};
+}
+
 }  // namespace
 
-Json to_json(const Diagnosis& diagnosis, const std::string& model) {
+Json noise_json(const diagnose::NoiseModel& noise) {
+    Json json = {{"kind", diagnose::name_of(noise.kind)},
+                 {"observable", noise.observable},
+                 {"tables", noise.tables},
+                 {"samples", noise.samples},
+                 {"values", noise.values},
+                 {"rows_estimated", noise.rows_estimated},
+                 {"sample_estimated", noise.sample_estimated},
+                 {"floor", estimate_json(noise.floor, noise.unit)},
+                 {"floor_of_stress", noise.floor_of_stress},
+                 {"relative", estimate_json(noise.relative, "1")},
+                 {"sample", estimate_json(noise.sample, "1")},
+                 {"autocorrelation", noise.autocorrelation},
+                 {"excess_kurtosis", noise.excess_kurtosis},
+                 {"sample_effects", Json::object()},
+                 {"statement", noise.statement}};
+    for (const diagnose::SampleEffect& effect : noise.sample_effects) {
+        json["sample_effects"][effect.sample] = effect.effect;
+    }
+    return json;
+}
+
+Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>& noise, const std::string& model) {
     Json json = {{"detected", diagnosis.detected},
                  {"p_value", diagnosis.p_value},
                  {"verdict", diagnose::name_of(diagnosis.verdict)},
@@ -96,9 +122,10 @@ Json to_json(const Diagnosis& diagnosis, const std::string& model) {
                         {"elpd_difference", gain.elpd_difference},
                         {"elpd_ci90", {gain.elpd_low, gain.elpd_high}}};
     }
-    json["noise"] = {{"storage_relative", diagnosis.noise.storage_relative},
-                     {"loss_relative", diagnosis.noise.loss_relative},
-                     {"sample", diagnosis.noise.sample}};
+    json["noise"] = {{"sample", diagnosis.noise.sample}, {"tables", Json::array()}};
+    for (const diagnose::NoiseModel& one : noise) {
+        json["noise"]["tables"].push_back(noise_json(one));
+    }
     json["proposed_measurements"] = Json::array();
     for (const diagnose::Proposal& proposal : diagnosis.proposals) {
         json["proposed_measurements"].push_back(

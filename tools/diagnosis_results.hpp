@@ -4,11 +4,18 @@
 #include "report.hpp"
 
 #include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/diagnose/noise.hpp>
+
+#include <string>
+#include <vector>
 
 namespace coagula::tools {
 
-/// The object of diagnosis.json. @param model path of the extended model; empty: there is none.
-Json to_json(const diagnose::Diagnosis& diagnosis, const std::string& model);
+/// What replicates or statements say about the errors of some tables.
+Json noise_json(const diagnose::NoiseModel& noise);
+
+/// The object of diagnosis.json. @param noise of the tables. @param model path of the extended model; empty: there is none.
+Json to_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>& noise, const std::string& model);
 
 Table table_of(const diagnose::Diagnosis& diagnosis);
 

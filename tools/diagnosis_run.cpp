@@ -86,7 +86,7 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     folder.write("report.html", diagnosis_page(record, gnuplot));
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
     folder.write("simulations.txt", cache_text(cache));
-    Json json = to_json(diagnosis, model);
+    Json json = to_json(diagnosis, noise, model);
     json["report"] = (folder.path() / "report.html").string();
     json["seconds"] = clock.seconds();
     folder.write("diagnosis.json", json.dump(2) + "\n");

@@ -1,10 +1,12 @@
 #include <coagula/diagnose/check_data.hpp>
 
+#include "median.hpp"
 #include "relations.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -40,6 +42,7 @@ public:
         check_columns();
         if (checked_.problems.empty()) {
             leave_out_impossible_cells();
+            check_level();
             check_order();
             check_relations();
             check_what_is_left();
@@ -70,6 +73,7 @@ private:
 
     void check_columns();
     void leave_out_impossible_cells();
+    void check_level();
     void check_order();
     void check_relations();
     void check_what_is_left();
@@ -133,6 +137,23 @@ void Checker::leave_out_impossible_cells() {
                 leave_out(column, row, "must be <= " + to_text(quantity.high));
             }
         }
+    }
+}
+
+/// A wrong unit, or a sign.
+void Checker::check_level() {
+    constexpr double softest = 1e-9;
+    constexpr double stiffest = 1e15;
+    const Column* storage = find_column(table(), "storage_modulus");
+    if (storage == nullptr || std::isfinite(table().fluid_viscosity)) {
+        return;
+    }
+    std::vector<double> values;
+    std::copy_if(storage->values.begin(), storage->values.end(), std::back_inserter(values),
+                 [](double value) { return std::isfinite(value); });
+    const double middle = median(values);
+    if (!values.empty() && !(middle >= softest && middle <= stiffest)) {
+        complain("column 'storage_modulus' has a median of " + to_text(middle) + " Pa; from 1e-9 to 1e15 Pa is possible");
     }
 }
 

@@ -1,6 +1,7 @@
 #include "hypothesis.hpp"
 
 #include "departures.hpp"
+#include "median.hpp"
 #include "quiet_log.hpp"
 #include "weights.hpp"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -17,9 +19,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double softest = 1e-3;  ///< particle [N/m]: fresh pastes of some pascal
-constexpr double stiffest = 1e5;
-constexpr double log_stiffness_range = 18.42;  ///< of these
+constexpr double log_stiffness_range = 18.42;  ///< of eight decades
 constexpr int posterior_draws = 64;
 constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit stays away
 
@@ -68,6 +68,24 @@ double Inference::log_prior(double log_stiffness) const {
                                  : -0.5 * departure * departure - std::log(stiffness_error() * std::sqrt(2 * pi));
 }
 
+double Inference::log_level() const {
+    const std::vector<Observation>& observations = likelihood_.data().observations;
+    Settings settings;
+    for (int round = 0; round < 2; ++round) {  // an instrument does not scale
+        const Eigen::VectorXd predicted = forward_.predict(settings);
+        std::vector<double> ratios;
+        for (std::size_t k = 0; k < observations.size(); ++k) {
+            const double ratio = observations[k].value / predicted[static_cast<Index>(k)];
+            if (is_modulus(observations[k]) && !std::isfinite(observations[k].fluid_viscosity) && ratio > 0 &&
+                std::isfinite(ratio)) {
+                ratios.push_back(ratio);
+            }
+        }
+        settings.normal_stiffness *= ratios.empty() ? 1.0 : median(std::move(ratios));
+    }
+    return std::log(settings.normal_stiffness);
+}
+
 /// Gauss and Newton's method for the logarithm of the stiffness: the prediction's logarithmic derivative by a difference, the
 /// density along it by itself.
 Node Inference::best_stiffness(Settings settings, double start) const {
@@ -96,7 +114,8 @@ Node Inference::best_stiffness(Settings settings, double start) const {
         longest *= slope * slope_before < 0 ? 0.4 : 1.0;
         slope_before = slope;
         const double change = curvature > 0 ? slope / curvature : std::copysign(longest, slope);
-        const double moved = std::clamp(place + std::clamp(change, -longest, longest), std::log(softest), std::log(stiffest));
+        const double moved = std::clamp(place + std::clamp(change, -longest, longest), log_level_ - 0.5 * log_stiffness_range,
+                                        log_level_ + 0.5 * log_stiffness_range);
         const bool done = std::abs(moved - place) < 1e-3 / std::sqrt(std::max(curvature, 1.0)) + 1e-9;
         if (done) {
             break;
@@ -197,7 +216,7 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
 PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
     const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
     const auto axes = static_cast<Index>(parameters.size());
-    double start = std::log(100.0);
+    double start = log_level_;
     const auto evaluate = [&](const Eigen::VectorXd& place) {
         const Node node = best_stiffness(settings_at(parameters, place), start);
         start = node.log_stiffness;

@@ -43,11 +43,12 @@ struct Fit {
 
 /// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
 /// posterior is (along its principal axes where it is a narrow ridge), with the Laplace approximation for the stiffness, which
-/// scales the moduli. The prior of the stiffness is normal in its logarithm where the experiment knows it, else uniform over 0.1 ..
-/// 1e5 N/m.
+/// scales the moduli. The prior of the stiffness is normal in its logarithm where the experiment knows it, else uniform over
+/// eight decades about that which the level of the data asks for.
 class Inference {
 public:
-    Inference(const Forward& forward, const Likelihood& likelihood) : forward_(forward), likelihood_(likelihood) {}
+    Inference(const Forward& forward, const Likelihood& likelihood)
+        : forward_(forward), likelihood_(likelihood), log_level_(log_level()) {}
 
     Fit fit(const Hypothesis& hypothesis) const;
 
@@ -71,11 +72,13 @@ private:
     PosteriorGrid grid_for(const Hypothesis& hypothesis) const;
     std::optional<PosteriorGrid> grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
                                                  const EvaluateNode& evaluate) const;
+    double log_level() const;
     double log_prior(double log_stiffness) const;
     Node best_stiffness(Settings settings, double start) const;
 
     const Forward& forward_;
     const Likelihood& likelihood_;
+    double log_level_;  ///< logarithm of the stiffness [N/m] that the base model needs for half of the moduli
 };
 
 }  // namespace coagula::diagnose

@@ -49,8 +49,8 @@ std::string spoken(const std::string& observable) {
     return observable == "loss_modulus" ? "G''" : "G'";
 }
 
-/// The row from which on the residuals differ most from those before.
-std::size_t change_point(const std::vector<Index>& rows, const Eigen::VectorXd& residual) {
+/// The row from which on the residuals differ most from those before; rows at one place stay together.
+std::size_t change_point(const std::vector<Index>& rows, const Eigen::VectorXd& residual, const std::vector<double>& places) {
     double total = 0;
     for (const Index row : rows) {
         total += residual[row];
@@ -64,7 +64,7 @@ std::size_t change_point(const std::vector<Index>& rows, const Eigen::VectorXd& 
         const auto left = static_cast<double>(k + 1);
         const double contrast =
             std::abs(before / left - (total - before) / (count - left)) * std::sqrt(left * (count - left) / count);
-        if (k >= 1 && contrast > best) {
+        if (k >= 1 && places[k] != places[k + 1] && contrast > best) {
             best = contrast;
             place = k + 1;
         }
@@ -162,13 +162,24 @@ std::string way_of(double early, double late, bool of_base_zero) {
     return late < early ? " falls relative to the base model" : " rises relative to the base model";
 }
 
+/// Whether the departure is the same all along.
+bool is_level(double early, double late) {
+    return early * late > 0 && std::abs(late - early) < 0.2 * std::abs(early);
+}
+
 /// A smooth departure along an axis.
 Failure departure_along(const MisfitStatistic& statistic, const std::vector<Observation>& observations,
                         const Eigen::VectorXd& residual, const Eigen::VectorXd& prediction) {
     const double scale = prediction.cwiseAbs().maxCoeff();
     const bool loss = statistic.observable == "loss_modulus";
-    const bool of_base_zero = statistic.observable.starts_with("third_harmonic");
-    const std::size_t place = change_point(statistic.rows, residual);
+    const bool third_harmonic = statistic.observable.starts_with("third_harmonic");
+    const bool of_base_zero =
+        std::all_of(statistic.rows.begin(), statistic.rows.end(), [&](Index row) { return prediction[row] == 0; });
+    std::vector<double> places;
+    for (const Index row : statistic.rows) {
+        places.push_back(coordinate_of(observations[static_cast<std::size_t>(row)], statistic.coordinate));
+    }
+    const std::size_t place = change_point(statistic.rows, residual, places);
     const double early = mean_departure(observations, prediction, statistic.rows, 0, place, loss, scale);
     const double late = mean_departure(observations, prediction, statistic.rows, place, statistic.rows.size(), loss, scale);
     Failure failure;
@@ -177,16 +188,21 @@ Failure departure_along(const MisfitStatistic& statistic, const std::vector<Obse
     // Three components with a unit-information prior against none (Kass and Wasserman 1995).
     failure.bayes_factor =
         std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
-    failure.from = coordinate_of(observations[static_cast<std::size_t>(statistic.rows[place])], statistic.coordinate);
+    failure.from = places[place];
     failure.departure = late;
-    failure.sentence = spoken(statistic.observable) + way_of(early, late, of_base_zero) + " along " +
-                       (statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis) + ": mean difference " +
-                       three_digits(100 * early) + " % before and " + three_digits(100 * late) + " % from " +
-                       value_text(failure.from, statistic.coordinate) + " on" +
-                       (loss                                              ? " (of the largest predicted modulus)"
-                        : of_base_zero                                    ? " (of the first)"
-                        : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
-                                                                          : "");
+    const std::string axis = statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis;
+    const std::string of = loss                                              ? " (of the largest predicted modulus)"
+                           : third_harmonic                                  ? " (of the first)"
+                           : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
+                                                                             : "";
+    if (is_level(early, late)) {
+        failure.sentence = spoken(statistic.observable) + " lies " + (late < 0 ? "below" : "above") + " the base model all along " +
+                           axis + ": mean difference " + three_digits(100 * 0.5 * (early + late)) + " %" + of;
+    } else {
+        failure.sentence = spoken(statistic.observable) + way_of(early, late, of_base_zero) + " along " + axis +
+                           ": mean difference " + three_digits(100 * early) + " % before and " + three_digits(100 * late) +
+                           " % from " + value_text(failure.from, statistic.coordinate) + " on" + of;
+    }
     return failure;
 }
 

@@ -182,6 +182,7 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
             proposal.resolution += *std::max_element(after.begin(), after.end()) > certain ? share : 0.0;
         }
     }
+    proposal.information = std::max(0.0, proposal.information);  // of few draws
     return proposal;
 }
 

@@ -129,6 +129,15 @@ TEST(CheckData, NamesAWrongUnit) {
     expect_problem(table, "|G*| x strain = stress fails in 20 of 20 rows, typically by a factor of 100: are the units");
 }
 
+TEST(CheckData, RefusesModuliThatNothingHas) {
+    for (const double factor : {-1.0, 1e-20, 1e20}) {
+        Measurement table = amplitude_sweep();
+        std::vector<double>& values = column(table, "storage_modulus").values;
+        std::for_each(values.begin(), values.end(), [&](double& value) { value *= factor; });
+        expect_problem(table, "from 1e-9 to 1e15 Pa is possible");
+    }
+}
+
 TEST(CheckData, DropsARedundantColumnThatContradictsThroughout) {
     Measurement table = amplitude_sweep();
     for (double& viscosity : column(table, "complex_viscosity").values) {

@@ -102,6 +102,27 @@ TEST(Diagnosis, FindsNothingWhereNothingIsHidden) {
     EXPECT_GE(detected, 1);   // none has one of 0.2 %
 }
 
+/// A gel of a pascal is fitted as one of a megapascal; the instrument, of course, shows other things.
+TEST(Diagnosis, FollowsTheScaleOfTheModuli) {
+    const auto moduli = moduli_of(springs(40));
+    auto soft = moduli;
+    std::for_each(soft.begin(), soft.end(), [](std::complex<double>& value) { value *= 1e-6; });
+    const Diagnosis stiff = diagnose_tables({frequency_sweep(moduli, 3)});
+    const Diagnosis found = diagnose_tables({frequency_sweep(soft, 3)});
+    EXPECT_EQ(found.verdict, stiff.verdict);
+    const double ratio = found.base.parameters.front().value / stiff.base.parameters.front().value;
+    EXPECT_NEAR(ratio, 1e-6, 1e-9);
+    EXPECT_NEAR(found.rows.front().base / found.rows.front().measured, 1, 0.2);
+}
+
+TEST(Diagnosis, SaysThatADepartureIsTheSameAllAlong) {
+    const Diagnosis found = diagnose_tables({frequency_sweep(std::vector<std::complex<double>>(16, {1e5, 4e3}), 3)});
+    ASSERT_FALSE(found.failures.empty());
+    EXPECT_NE(found.failures.front().sentence.find("G'' lies above the base model all along frequency: mean difference 4"),
+              std::string::npos)
+        << found.failures.front().sentence;
+}
+
 TEST(Diagnosis, NamesTheLossOfTheContacts) {
     ContactModel model = springs(40);
     model.normal_springpot_stiffness = 0.6 * 20;
