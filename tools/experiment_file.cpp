@@ -26,16 +26,16 @@ public:
     ExperimentFile run() {
         TomlKeys keys(root_, path_);
         result_.experiment.title = keys.text("title").value_or("");
+        for (const char* table : {"sample", "instrument", "structures", "noise", "expected", "measurement"}) {
+            keys.ignore(table);
+        }
+        keys.refuse_other_keys();
         read_sample();
         read_instrument();
         read_structures();
         read_noise();
         read_expectation();
         read_measurements();
-        for (const char* table : {"sample", "instrument", "structures", "noise", "expected", "measurement"}) {
-            keys.ignore(table);
-        }
-        keys.refuse_other_keys();
         try {
             diagnose::check(result_.experiment);
         } catch (const InputError& error) {

@@ -60,7 +60,7 @@ ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progr
         found.stages = stages_of(*experiment.recipe, experiment.sample, progress);
     }
     if (found.packings.empty()) {
-        throw InputError("the experiment names no structures: give files, or a recipe that makes them");
+        throw InputError("[structures] gives no structures: it needs 'files', or 'generator' with 'seeds'");
     }
     found.stages.measure_pores = measure_pores;
     for (const Packing& packing : found.packings) {

@@ -98,7 +98,7 @@ TableSelection read_selection(TomlKeys& keys) {
     const std::vector<std::int64_t> rows = keys.wholes("rows");
     if (!rows.empty()) {
         if (rows.size() < 2 || rows.size() > 3 || rows[0] < 1 || rows[1] < rows[0] || (rows.size() == 3 && rows[2] < 1)) {
-            keys.fail("rows", "must be [first, last] or [first, last, step], counted from 1");
+            keys.fail("rows", "must be [first, last] or [first, last, step], counted from 1, first not after last");
         }
         selection.first = rows[0];
         selection.last = rows[1];
@@ -116,6 +116,9 @@ TableSelection read_selection(TomlKeys& keys) {
 void select(diagnose::Measurement& table, const TableSelection& selection) {
     set_clock(table, selection);
     drop_columns(table, selection.without);
+    if (table.rows() == 0) {
+        throw InputError(table.label + ": there are no rows below the header");
+    }
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const auto number = static_cast<std::int64_t>(row) + 1;

@@ -159,6 +159,7 @@ class BadInput(ProgramTest):
     def test_measurements(self):
         for text, says in (
             ("", "there is no measurement"),
+            ('[[measurment]]\nkind = "amplitude-sweep"\n', "key 'measurment': there is no such key"),
             (experiment('file = "sweep.csv"'), "the key 'kind' is missing"),
             (experiment('kind = "amplitude-sweep"'), "the key 'file' is missing"),
             (experiment('kind = "swing"\nfile = "sweep.csv"'), "'swing' is none of frequency-sweep, amplitude-sweep"),
@@ -170,7 +171,7 @@ class BadInput(ProgramTest):
             (experiment(SWEEP + '\nvalues = { angular_frequency = "0 rad/s" }'), "must be > 0"),
             (experiment(SWEEP + '\nvalues = { stress = "3 Pa" }'), "has a column of it"),
             (experiment(SWEEP + "\nmood = 1"), "key 'mood'"),
-            (experiment(SWEEP + "\nrows = [3, 1]"), "must be [first, last]"),
+            (experiment(SWEEP + "\nrows = [3, 1]"), "first not after last"),
             (experiment(SWEEP + "\nrows = [30, 40]"), "none of its 8 rows"),
             (experiment(SWEEP + '\nwithout = "torque"'), "no column 'torque'"),
             (experiment(SWEEP + '\ntime_per_row = "0 s"'), "must be > 0 s"),

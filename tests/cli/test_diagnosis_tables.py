@@ -374,7 +374,7 @@ class Waveforms(Tables):
     def test_a_third_harmonic_is_found_and_described(self):
         found = self.diagnosis(self.waveforms(-0.08))
         self.assertTrue(found["detected"])
-        self.assertTrue(any("the elastic part of the third harmonic falls below the base model" in one["sentence"] for one in found["where"]))
+        self.assertTrue(any("the elastic part of the third harmonic lies below the base model all along strain" in one["sentence"] for one in found["where"]))
         for row in self.rows(found, "third_harmonic_storage"):
             self.assertAlmostEqual(row["measured"], -0.08, delta=0.005)
             self.assertAlmostEqual(row["standard_deviation"], math.hypot(0.002, 0.25 * 0.08), delta=0.001)
