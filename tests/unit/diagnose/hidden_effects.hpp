@@ -80,6 +80,16 @@ inline Measurement repeated(const std::vector<Measurement>& images) {
     return all;
 }
 
+/// Standard deviations [m] and shares of particles that are missed and of centres that are none.
+inline Settings image_errors(double plane, double axis, double missed, double wrong) {
+    Settings settings;
+    settings.localisation_plane = plane;
+    settings.localisation_axis = axis;
+    settings.missed_share = missed;
+    settings.false_share = wrong;
+    return settings;
+}
+
 /// Adds centres where no particle is, none nearer than half a diameter to another, until they are this share of all.
 inline void add_false_centres(Measurement& table, double share, double diameter, std::uint64_t seed) {
     const std::size_t particles = table.rows();

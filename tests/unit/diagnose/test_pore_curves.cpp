@@ -70,21 +70,12 @@ Measurement image_of(const Packing& particles, const Settings& errors, std::uint
     return image;
 }
 
-Settings errors(double plane, double axis, double missed, double wrong) {
-    Settings settings;
-    settings.localisation_plane = plane;
-    settings.localisation_axis = axis;
-    settings.missed_share = missed;
-    settings.false_share = wrong;
-    return settings;
-}
-
 /// Images drawn another way of the structures that the simulator has.
 TEST(PoreCurves, OfImagesAreExpectedAsTheyAreSeen) {
     constexpr std::uint64_t images = 10;
     Simulator& simulator = recipe().simulator;
-    for (const Settings& settings :
-         {errors(1.2e-7, 1.2e-7, 0, 0), errors(1e-9, 1e-9, 0.09, 0), errors(1e-9, 1e-9, 0, 0.08), errors(4e-8, 8e-8, 0.06, 0.03)}) {
+    for (const Settings& settings : {image_errors(1.2e-7, 1.2e-7, 0, 0), image_errors(1e-9, 1e-9, 0.09, 0),
+                                     image_errors(1e-9, 1e-9, 0, 0.08), image_errors(4e-8, 8e-8, 0.06, 0.03)}) {
         for (const double pore : {0.5e-7, 1.25e-7, 2e-7}) {
             Eigen::VectorXd seen(images);
             for (std::uint64_t k = 0; k < images; ++k) {
@@ -99,14 +90,14 @@ TEST(PoreCurves, OfImagesAreExpectedAsTheyAreSeen) {
     }
     const double pore = 1.25e-7;
     const double whole = simulator.exclusion_probability({}, pore);
-    EXPECT_GT(simulator.exclusion_probability(errors(1e-9, 1e-9, 0.09, 0), pore), whole + 0.03);
-    EXPECT_LT(simulator.exclusion_probability(errors(1e-9, 1e-9, 0, 0.08), pore), whole - 0.02);
+    EXPECT_GT(simulator.exclusion_probability(image_errors(1e-9, 1e-9, 0.09, 0), pore), whole + 0.03);
+    EXPECT_LT(simulator.exclusion_probability(image_errors(1e-9, 1e-9, 0, 0.08), pore), whole - 0.02);
 }
 
 /// Particles that are missed leave larger pores. Where the coordinates say so the pores need no other cause.
 TEST(PoreCurves, BesideCoordinatesShowWhatIsMissed) {
     const Packing particles = structure(700, 61);
-    const Measurement image = image_of(particles, errors(2e-8, 4e-8, 0.09, 0), 62);
+    const Measurement image = image_of(particles, image_errors(2e-8, 4e-8, 0.09, 0), 62);
     const Diagnosis found = diagnose_by_recipe({image, pore_table(as_spheres(image, particles))});
     EXPECT_EQ(found.verdict, Verdict::named);
     EXPECT_EQ(found.credible_set, std::vector<std::string>{"localisation-error"});

@@ -54,17 +54,8 @@ void expect_as_simulated(const Experiment& experiment, const Settings& settings)
     }
 }
 
-Settings errors(double plane, double axis, double missed, double wrong) {
-    Settings settings;
-    settings.localisation_plane = plane;
-    settings.localisation_axis = axis;
-    settings.missed_share = missed;
-    settings.false_share = wrong;
-    return settings;
-}
-
 TEST(RepeatedImages, ShowErrorsAsTheyAre) {
-    const Experiment experiment = imaged(errors(2e-8, 5e-8, 0, 0), 2, 100);
+    const Experiment experiment = imaged(image_errors(2e-8, 5e-8, 0, 0), 2, 100);
     const auto seen = differences_in(experiment);
     ASSERT_EQ(seen.size(), 3U);
     EXPECT_NEAR(seen[0].value, 0.04, 3 * seen[0].standard_error);
@@ -77,13 +68,13 @@ TEST(RepeatedImages, ShowErrorsAsTheyAre) {
 /// Errors so large that centres are taken for their neighbours, particles that are missed and centres that are none.
 TEST(RepeatedImages, AreExpectedAsTheyAreSeen) {
     for (const Settings& settings :
-         {errors(2e-8, 4e-8, 0.05, 0), errors(3e-8, 6e-8, 0.02, 0.09), errors(1e-7, 1.5e-7, 0.03, 0.03)}) {
+         {image_errors(2e-8, 4e-8, 0.05, 0), image_errors(3e-8, 6e-8, 0.02, 0.09), image_errors(1e-7, 1.5e-7, 0.03, 0.03)}) {
         expect_as_simulated(imaged(settings, 2, 200), settings);
     }
 }
 
 TEST(RepeatedImages, OneAfterTheOtherShareTheirErrors) {
-    const Settings settings = errors(2e-8, 4e-8, 0.03, 0);
+    const Settings settings = image_errors(2e-8, 4e-8, 0.03, 0);
     const Experiment four = imaged(settings, 4, 300);
     expect_as_simulated(four, settings);
     // Of a mean square successive difference of 4 numbers: 2 x 3^2 / (3 x 3 - 1) degrees of freedom in place of 1.
@@ -93,7 +84,7 @@ TEST(RepeatedImages, OneAfterTheOtherShareTheirErrors) {
 }
 
 TEST(RepeatedImages, MayDriftAsAWhole) {
-    const Settings settings = errors(2e-8, 4e-8, 0.02, 0);
+    const Settings settings = image_errors(2e-8, 4e-8, 0.02, 0);
     expect_as_simulated(imaged(settings, 3, 400, {6e-8, -4e-8, 9e-8}), settings);
 }
 
@@ -160,10 +151,10 @@ TEST(RepeatedImages, InAnotherUnitAreRefused) {
 
 TEST(RepeatedImages, AreProposedWhereThereIsOneImage) {
     const auto proposed = [](const Experiment& experiment) { return candidates_for(experiment, observations_of(experiment)); };
-    const Experiment once = imaged(errors(2e-8, 4e-8, 0, 0), 1, 600);
+    const Experiment once = imaged(image_errors(2e-8, 4e-8, 0, 0), 1, 600);
     ASSERT_EQ(proposed(once).size(), 1U);
     EXPECT_EQ(proposed(once).front().observations.front().centres, 800);
-    EXPECT_TRUE(proposed(imaged(errors(2e-8, 4e-8, 0, 0), 2, 600)).empty());
+    EXPECT_TRUE(proposed(imaged(image_errors(2e-8, 4e-8, 0, 0), 2, 600)).empty());
 }
 
 TEST(RepeatedImages, ThatAreTheSameAreRefused) {
