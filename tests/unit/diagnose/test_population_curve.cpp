@@ -1,6 +1,8 @@
 // The curve of a large sample from a few structures that yield in steps, drawn from a curve that is known.
 #include "population_curve.hpp"
 
+#include <coagula/diagnose/yield_curves.hpp>
+
 #include "hidden_effects.hpp"
 
 #include <gtest/gtest.h>
@@ -102,6 +104,24 @@ TEST(PopulationCurve, OfEqualStructuresIsTheirs) {
     const Eigen::MatrixXcd found = population_curve(loads, expected.replicate(1, 3));
     EXPECT_LT((found.col(0) - expected).cwiseAbs().maxCoeff(), 0.01);
     EXPECT_EQ(population_curve(loads, expected), expected);
+}
+
+/// A row loses the energy between its strain and that before, wherever the nodes lie: here 0.01 load^2 in all up to a load.
+TEST(YieldCurves, LoseEvenlyBetweenTheirNodes) {
+    const auto energy = [](double load) { return 0.01 * load * load; };
+    Eigen::RowVectorXcd settled(static_cast<Index>(loads.size()));
+    for (std::size_t node = 0; node < loads.size(); ++node) {
+        const double load = loads[node];
+        settled[static_cast<Index>(node)] =
+            Complex(1 - 0.2 * std::log(load), (energy(load) - energy(last_load(node))) / (load * load));
+    }
+    const YieldCurves curves(loads, settled);
+    for (double load = 2.2; load < 12; load += 0.17) {
+        const double before = load - 0.15;
+        const double lost = (energy(load) - energy(before)) / (load * load);
+        EXPECT_NEAR(curves.response(before, load)[0].imag() / lost, 1, 0.04) << load;
+        EXPECT_NEAR(curves.response(load, load)[0].real(), 1 - 0.2 * std::log(load), 2e-3) << load;
+    }
 }
 
 /// Nothing breaks, or everything at once.
