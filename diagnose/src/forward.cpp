@@ -27,6 +27,30 @@ Settings of_material(Settings settings) {
     return settings;
 }
 
+/// Slip under a cone, where the gap grows with the radius: 3 times the integral of u^3 / (u + x) over 0 < u < 1, by which the
+/// torque is the smaller. x is the displacement at both walls over the sample's own, at the rim.
+Complex sticking_share(Complex x) {
+    if (std::abs(x) < 50) {
+        return 1.0 - 1.5 * x + 3.0 * x * x - (x == 0.0 ? 0.0 : 3.0 * x * x * x * std::log(1.0 + 1.0 / x));
+    }
+    Complex share = 0;  // the same for large x, where the terms above cancel
+    Complex power = 1;
+    for (int k = 1; k <= 10; ++k) {
+        power /= x;
+        share += (k % 2 == 1 ? 3.0 : -3.0) / (k + 3.0) * power;
+    }
+    return share;
+}
+
+/// With a displacement of the sample at each wall of `slip` [m/Pa] times the stress there.
+Complex slipping(Complex modulus, double slip, const Observation& observation) {
+    if (std::isfinite(observation.cone_angle)) {
+        const double rim = observation.cone_angle * observation.plate_radius;
+        return std::isfinite(rim) ? modulus * sticking_share(2.0 * slip * modulus / rim) : modulus;
+    }
+    return std::isfinite(observation.gap) ? modulus / (1.0 + 2.0 * slip * modulus / observation.gap) : modulus;
+}
+
 /// Torque per angle over the modulus under a plate or cone [m^3].
 double tool_factor(const Observation& observation) {
     const double radius = observation.plate_radius;
@@ -63,8 +87,8 @@ Complex Forward::seen_by_instrument(const Settings& settings, const Observation&
         modulus *= observation.gap / (observation.gap + settings.gap_error);
     }
     const bool sticks = observation.rough_plates || std::isfinite(observation.fluid_viscosity);
-    if (settings.slip > 0 && !sticks && std::isfinite(observation.gap)) {
-        modulus /= 1.0 + 2.0 * settings.slip * modulus / observation.gap;
+    if (settings.slip > 0 && !sticks) {
+        modulus = slipping(modulus, settings.slip, observation);
     }
     const double factor = tool_factor(observation);
     if (settings.tool_compliance > 0) {

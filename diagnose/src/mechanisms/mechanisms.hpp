@@ -54,6 +54,11 @@ inline bool knows_gap(const Experiment& experiment) {
            any_measurement(experiment, [](const Measurement& table) { return find_column(table, "gap") != nullptr; });
 }
 
+/// How far the walls are apart is known: between plates, or under a cone of known angle and radius.
+inline bool knows_walls(const Experiment& experiment) {
+    return knows_gap(experiment) || (experiment.instrument.geometry == Geometry::cone_plate && knows_plates(experiment));
+}
+
 /// Some table has moduli that were measured one after the other.
 inline bool takes_time(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) {

@@ -8,7 +8,7 @@ Mechanism wall_slip() {
             .signature = "the apparent modulus is the lower the stiffer the sample and the smaller the gap",
             .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true, &Settings::slip}},
             .in_contact = false,
-            .applies = knows_gap};
+            .applies = knows_walls};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -209,12 +209,14 @@ def reading(material, session, table):
     hidden = session.hidden
     modulus = true_modulus(material, session, table)
     stress = modulus * table.strain
+    slip = 0.0 if table.rough or numpy.isfinite(table.viscosity) else hidden.slip
     if table.cone:
-        torque = 2 * numpy.pi * table.plate**3 / 3 * stress
+        radius = table.plate * (numpy.arange(400) + 0.5)[:, None] / 400  # in rings of one width
+        at_radius = stress / (1 + 2 * slip * modulus / (radius * CONE))
+        torque = 2 * numpy.pi * numpy.sum(at_radius * radius**2, axis=0) * table.plate / 400
         return 3 * torque / (2 * numpy.pi * table.plate**3) / (table.strain + hidden.compliance * torque / CONE)
     true_gap = table.gap + hidden.gap_error
     torque = numpy.pi * table.plate**3 / 2 * stress
-    slip = 0.0 if table.rough or numpy.isfinite(table.viscosity) else hidden.slip
     angle = (true_gap * table.strain + 2 * slip * stress) / table.plate + hidden.compliance * torque
     torque = torque - hidden.inertia * (2 * numpy.pi * table.frequency)**2 * angle
     if hidden.resonance:

@@ -139,5 +139,49 @@ TEST(Numerical, DriftsWithTheNumberOfParticles) {
     EXPECT_NEAR(departure[1], 0.25, 1e-9);
 }
 
+/// One frequency under a cone.
+Experiment under_cone(double radius, double angle) {
+    Experiment made;
+    made.instrument = {.geometry = Geometry::cone_plate, .plate_radius = radius, .cone_angle = angle};
+    Measurement table = sweep_at({1e-5}, 0);
+    table.kind = MeasurementKind::frequency_sweep;
+    made.measurements = {table};
+    return made;
+}
+
+std::complex<double> first_modulus(const Experiment& experiment, const Settings& settings) {
+    const auto rows = observations_of(experiment);
+    const Eigen::VectorXd predicted = Forward(experiment, rows, simulator()).predict(settings);
+    return {predicted[0], predicted[1]};
+}
+
+/// The torque against a sum over rings, each with the gap at its radius; for small slip, much, and where the formula changes.
+TEST(WallSlip, UnderAConeIsThatOfTheGapAtEveryRadius) {
+    constexpr double radius = 0.0125;
+    constexpr double angle = 0.02;
+    Experiment experiment = under_cone(radius, angle);
+    EXPECT_TRUE(find_mechanism("wall-slip")->applies(experiment));
+    Settings settings;
+    settings.springpot_ratio = 1;
+    settings.springpot_exponent = 0.3;
+    const std::complex<double> modulus = first_modulus(experiment, settings);
+    EXPECT_GT(modulus.imag(), 0.1 * modulus.real());
+    for (const double sliding : {1e-4, 0.1, 3.0, 49.0, 51.0, 1e4}) {  // at both walls, over the sample's own at the rim
+        settings.slip = sliding * angle * radius / (2 * std::abs(modulus));
+        constexpr int rings = 20000;
+        std::complex<double> torque = 0;
+        for (int ring = 0; ring < rings; ++ring) {
+            const double r = radius * (ring + 0.5) / rings;
+            const std::complex<double> stress = modulus / (1.0 + 2.0 * settings.slip * modulus / (angle * r));
+            torque += 3.0 / rings * std::pow(r / radius, 2) * stress;
+        }
+        EXPECT_LT(std::abs(first_modulus(experiment, settings) / torque - 1.0), 1e-7) << sliding;
+    }
+    experiment.measurements[0].rough_plates = true;
+    EXPECT_EQ(first_modulus(experiment, settings), modulus);
+    experiment.instrument.plate_radius = unset;
+    EXPECT_FALSE(find_mechanism("wall-slip")->applies(experiment));
+}
+
 }  // namespace
 }  // namespace coagula::diagnose

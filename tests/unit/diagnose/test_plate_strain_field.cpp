@@ -125,7 +125,6 @@ TEST(PlateStrainField, AConeInPlaceOfThePlateTurnsByItsAngle) {
     const Forward forward(experiment, rows, simulator());
     Settings settings;
     const double modulus = forward.predict(settings)[0];
-    settings.slip = 1e-9;
     settings.gap_error = 1e-4;
     EXPECT_DOUBLE_EQ(forward.predict(settings)[0], modulus);
     settings.tool_compliance = 0.01;
