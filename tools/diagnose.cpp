@@ -156,12 +156,25 @@ std::vector<CheckedMeasurement> check_all(const diagnose::Experiment& experiment
     return checked;
 }
 
+/// Options that this way of working would not heed.
+void refuse_options(const Arguments& arguments, const std::string& mode, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        if (arguments.has(name)) {
+            throw InputError("--" + name + " has no meaning " + mode);
+        }
+    }
+}
+
 void run(const Arguments& arguments) {
     if (arguments.flag("power")) {
+        refuse_options(arguments, "with --power", {"check"});
         run_power(arguments);
         return;
     }
-    if (!arguments.flag("check") && !arguments.has("output")) {
+    refuse_options(arguments, "without --power", {"data-sets", "diagnoses"});
+    if (arguments.flag("check")) {
+        refuse_options(arguments, "with --check, which writes nothing and tries no causes", {"output", "force", "causes"});
+    } else if (!arguments.has("output")) {
         throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
     }
     ExperimentFile file = read_experiment(arguments.input());
@@ -203,8 +216,8 @@ Verb diagnose_verb() {
         .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
                     flag("power", "before anyone measures: which causes this experiment could find, and from which strength on"),
                     text("causes", "NAME,NAME...", "these only, instead of the whole catalogue"),
-                    count("data-sets", "of --power: simulated at each strength near a threshold", "200", within(20, 100000)),
-                    count("diagnoses", "of --power: full diagnoses of simulated data for each cause", "4", within(0, 10000))},
+                    count("data-sets", "of --power: simulated at each strength near a threshold (200)", "", within(20, 100000)),
+                    count("diagnoses", "of --power: full diagnoses of simulated data for each cause (4)", "", within(0, 10000))},
         .run = run,
         .notes = {
             "Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore curves "

@@ -97,9 +97,11 @@ std::string describe(const Threshold& threshold, const CausePower& cause) {
         return "not within its range";
     }
     const double weakest = cause.curve.front().strength;
-    const auto text = [&](double value) { return std::isfinite(value) ? with_unit(value, cause.unit) : std::string("?"); };
-    return threshold.value == weakest ? "any strength of its range"
-                                      : text(threshold.value) + " (" + text(threshold.low) + " to " + text(threshold.high) + ")";
+    const auto text = [&](double value) { return std::isfinite(value) ? with_unit(value, cause.unit) : std::string("not known"); };
+    return threshold.value == weakest
+               ? "any strength of its range"
+               : text(threshold.value) + (cause.curve.back().strength > weakest ? " or more (" : " or less (") +
+                     text(threshold.low) + " to " + text(threshold.high) + ")";
 }
 
 std::string describe(const NamingRuns& naming) {
@@ -149,7 +151,7 @@ void run_power(const Arguments& arguments) {
     const Stopwatch clock;
     std::optional<ResultFolder> folder;
     if (arguments.has("output")) {
-        folder.emplace(arguments.text("output"), "power.json", arguments.flag("force"));
+        folder.emplace(arguments.text("output"), "power.json", std::vector<std::string>{}, arguments.flag("force"));
     }
     const Progress progress = make_progress(arguments.flag("quiet"));
     ExperimentFile file = read_experiment(arguments.input());
@@ -159,8 +161,11 @@ void run_power(const Arguments& arguments) {
     if (arguments.has("causes")) {
         options.causes = split(arguments.text("causes"));
     }
-    options.data_sets = static_cast<int>(arguments.count("data-sets"));
-    options.diagnoses = static_cast<int>(arguments.count("diagnoses"));
+    const auto given = [&](const std::string& name, int otherwise) {
+        return arguments.has(name) ? static_cast<int>(arguments.count(name)) : otherwise;
+    };
+    options.data_sets = given("data-sets", 200);
+    options.diagnoses = given("diagnoses", 4);
     options.diagnosis.level = arguments.quantity("level");
     options.diagnosis.bootstrap = static_cast<int>(std::min<std::int64_t>(arguments.count("bootstrap"), 199));
     options.diagnosis.seed = static_cast<std::uint64_t>(arguments.count("seed"));

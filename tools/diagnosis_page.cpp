@@ -1,13 +1,13 @@
 #include "diagnosis_page.hpp"
 
+#include "diagnosis_data_page.hpp"
 #include "diagnosis_plots.hpp"
+#include "diagnosis_results.hpp"
 #include "diagnosis_tables.hpp"
 #include "html.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 namespace coagula::tools {
 
@@ -19,32 +19,12 @@ using diagnose::Verdict;
 
 constexpr double shown_from = 0.001;  ///< smallest probability of a cause with a line of its own
 
-std::string paragraph(const std::string& html, const std::string& style = {}) {
-    return (style.empty() ? "<p>" : "<p class=\"" + style + "\">") + html + "</p>\n";
-}
-
-std::string heading(const std::string& text) {
-    return "<h2>" + text + "</h2>\n";
-}
-
-std::string percent(double part) {
-    if (part > 0.9995 && part < 1) {
-        return "&gt; 99.9 %";
-    }
-    return part > 0 && part < 0.001 ? "&lt; 0.1 %" : printed(100 * part) + " %";
-}
-
-std::string signed_percent(double part) {
-    return (part > 0 ? "+" : "") + printed(100 * part) + " %";
-}
-
 std::string probability(double p) {
     return printed(p);
 }
 
 std::string chance_text(const Diagnosis& found) {
-    const bool none_as_large = found.p_value * static_cast<double>(found.bootstrap.size() + 1) < 1.5;
-    return (none_as_large ? "p ≤ " : "p = ") + probability(found.p_value);
+    return (is_least_p(found) ? "p ≤ " : "p = ") + probability(found.p_value);
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -57,10 +37,6 @@ std::string joined(const std::vector<std::string>& names) {
 
 std::string figure(const std::string& svg, const std::string& caption) {
     return svg.empty() ? std::string{} : "<figure>\n" + svg + "\n<figcaption>" + caption + "</figcaption>\n</figure>\n";
-}
-
-std::string readable(const std::string& name) {
-    return escaped(replaced(name, "_", " "));
 }
 
 std::string header(const DiagnosisRecord& record) {
@@ -152,7 +128,7 @@ std::string data_and_models(const DiagnosisRecord& record, Gnuplot& gnuplot) {
                                (effect == found.base_effects.end() || effect->effect == 0
                                     ? "."
                                     : ". Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +
-                                          " for the base model.") +
+                                          " by the fit of the base model.") +
                                " Right: what remains, the effect of the sample taken out; grey: two standard deviations." +
                                (picture.moduli ? not_shown(found, k) : std::string{}));
         }
@@ -196,9 +172,11 @@ std::string parameters(const Diagnosis& found) {
         }
     };
     add(found.base);
+    const Cause* drawn = extended_cause(found);
     for (const Cause& cause : found.causes) {
         const auto& set = found.credible_set;
-        if (std::find(set.begin(), set.end(), cause.name) != set.end() && cause.name != found.base.name) {
+        const bool inside = std::find(set.begin(), set.end(), cause.name) != set.end();
+        if ((inside || &cause == drawn) && cause.name != found.base.name) {
             add(cause);
         }
     }
@@ -241,83 +219,6 @@ std::string proposals(const Diagnosis& found) {
     return heading("What to measure next") +
            paragraph("Measurements that would tell the causes of the 95 % set apart, the most informative first.") +
            html_table({"measurement", "decides with probability", "expected information"}, rows);
-}
-
-std::string interval(const diagnose::Estimate& estimate, double unit, const std::string& name) {
-    const auto text = [&](double value) { return name == "%" ? printed(value / unit) + " %" : printed(value, name); };
-    return text(estimate.value) +
-           (estimate.low < estimate.high ? " (" + text(estimate.low) + " to " + text(estimate.high) + ")" : std::string{});
-}
-
-std::string noise(const DiagnosisRecord& record) {
-    if (record.noise.empty()) {
-        return {};
-    }
-    std::string html = heading("Noise and samples");
-    std::vector<std::vector<std::string>> rows;
-    std::map<std::string, std::vector<std::string>> effects;
-    for (const diagnose::NoiseModel& model : record.noise) {
-        rows.push_back({symbol_of(model.observable) + ", " + std::string(diagnose::name_of(model.kind)),
-                        interval(model.relative, 0.01, "%"),
-                        interval(model.floor, 1, model.unit) + (model.floor_of_stress ? " of the stress" : ""),
-                        interval(model.sample, 0.01, "%"), printed(model.autocorrelation), escaped(model.statement)});
-        for (const diagnose::SampleEffect& effect : model.sample_effects) {
-            effects[effect.sample].push_back(symbol_of(model.observable) + " " + signed_percent(effect.effect));
-        }
-    }
-    html += html_table({"observable", "per row", "floor", "per sample", "neighbours correlate by", "where this is from"}, rows);
-    if (!effects.empty()) {
-        html += paragraph("Replicates differ by an effect of each sample, not of the model:");
-        html += "<ul class=\"findings\">\n";
-        for (const auto& [sample, values] : effects) {
-            std::string text;
-            for (const std::string& value : values) {
-                text += (text.empty() ? "" : ", ") + value;
-            }
-            html += "<li>" + escaped(sample) + ": " + text + "</li>\n";
-        }
-        html += "</ul>\n";
-    }
-    return html;
-}
-
-/// Row numbers as "1–3, 7".
-std::string row_list(const std::set<std::size_t>& rows) {
-    std::string text;
-    for (auto row = rows.begin(); row != rows.end();) {
-        const std::size_t first = *row;
-        std::size_t last = first;
-        while (++row != rows.end() && *row == last + 1) {
-            last = *row;
-        }
-        text += (text.empty() ? "" : ", ") + std::to_string(first + 1) + (last > first ? "–" + std::to_string(last + 1) : "");
-    }
-    return text;
-}
-
-std::string left_out(const diagnose::Experiment& experiment) {
-    std::string html = heading("Cells left out");
-    std::vector<std::vector<std::string>> rows;
-    for (const diagnose::Measurement& table : experiment.measurements) {
-        std::map<std::string, std::set<std::size_t>> cells;
-        std::map<std::string, std::string> reasons;
-        for (const diagnose::LeftOutCell& cell : table.left_out) {
-            cells[cell.column].insert(cell.row);
-            reasons.emplace(cell.column, "‘" + cell.value + "’ " + cell.reason);
-        }
-        for (const auto& [column, numbers] : cells) {
-            rows.push_back({escaped(table.label), readable(column), std::to_string(numbers.size()), row_list(numbers),
-                            escaped(reasons[column])});
-        }
-    }
-    if (rows.empty()) {
-        return html + paragraph("None: every cell is readable, possible and agrees with the others of its row.");
-    }
-    return html +
-           paragraph(
-               "Cells that cannot be read, are impossible or contradict the others of their row are not used and never "
-               "repaired.") +
-           html_table({"table", "column", "cells", "rows", "the first and why"}, rows);
 }
 
 std::string made(const DiagnosisRecord& record) {
@@ -387,8 +288,11 @@ std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot) {
     if (found.detected) {
         body += gain(record, gnuplot) + proposals(found);
     }
-    body += noise(record) + left_out(record.experiment) + made(record);
+    body += noise_section(record.noise) + left_out_section(record.experiment) + made(record);
     std::string head = header(record);
+    for (const std::string& note : record.notes) {
+        head += paragraph("Note: " + escaped(note) + ".", "soft");
+    }
     if (!gnuplot.problem().empty()) {
         const std::string& problem = gnuplot.problem();
         head += "<p class=\"missing\">" + escaped("T" + problem.substr(1)) + ".</p>\n";

@@ -21,6 +21,7 @@ struct DiagnosisRecord {
     std::vector<std::string> structures;  ///< one sentence each
     double level;                         ///< of the test
     std::string model;                    ///< path of the extended model; empty: none
+    std::vector<std::string> notes;       ///< what a reader should know about the data and structures
 };
 
 /// The cause that the extended model has; null when there is none (nothing detected).

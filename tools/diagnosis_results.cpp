@@ -32,6 +32,15 @@ Json cause_json(const Cause& cause) {
             {"parameters", parameters_json(cause)}};
 }
 
+/// What the prediction of each sample is multiplied with, less 1.
+Json effects_json(const std::vector<diagnose::SampleEffect>& effects) {
+    Json json = Json::object();
+    for (const diagnose::SampleEffect& effect : effects) {
+        json[effect.sample] = effect.effect;
+    }
+    return json;
+}
+
 Json row_json(const diagnose::PredictedRow& row) {
     return {{"measurement", row.measurement + 1},
             {"row", row.row + 1},
@@ -66,6 +75,10 @@ Json estimate_json(const diagnose::Estimate& estimate, const std::string& unit) 
 
 }  // namespace
 
+bool is_least_p(const Diagnosis& diagnosis) {
+    return diagnosis.p_value * static_cast<double>(diagnosis.bootstrap.size() + 1) < 1.5;
+}
+
 Json noise_json(const diagnose::NoiseModel& noise) {
     Json json = {{"kind", diagnose::name_of(noise.kind)},
                  {"observable", noise.observable},
@@ -80,11 +93,8 @@ Json noise_json(const diagnose::NoiseModel& noise) {
                  {"sample", estimate_json(noise.sample, "1")},
                  {"autocorrelation", noise.autocorrelation},
                  {"excess_kurtosis", noise.excess_kurtosis},
-                 {"sample_effects", Json::object()},
+                 {"sample_effects", effects_json(noise.sample_effects)},
                  {"statement", noise.statement}};
-    for (const diagnose::SampleEffect& effect : noise.sample_effects) {
-        json["sample_effects"][effect.sample] = effect.effect;
-    }
     return json;
 }
 
@@ -126,6 +136,8 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
     for (const diagnose::NoiseModel& one : noise) {
         json["noise"]["tables"].push_back(noise_json(one));
     }
+    json["sample_effects"] = {{"base", effects_json(diagnosis.base_effects)},
+                              {"extended", effects_json(diagnosis.extended_effects)}};
     json["proposed_measurements"] = Json::array();
     for (const diagnose::Proposal& proposal : diagnosis.proposals) {
         json["proposed_measurements"].push_back(
@@ -140,8 +152,8 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
 
 Table table_of(const Diagnosis& diagnosis) {
     Table lines{{"measured numbers", std::to_string(diagnosis.observations)},
-                {"verdict", std::string(diagnose::name_of(diagnosis.verdict)) + "   (p = " + with_unit(diagnosis.p_value, "1") +
-                                " that the base model fails so by chance)"}};
+                {"verdict", std::string(diagnose::name_of(diagnosis.verdict)) + (is_least_p(diagnosis) ? "   (p <= " : "   (p = ") +
+                                with_unit(diagnosis.p_value, "1") + " that the base model fails so by chance)"}};
     if (!diagnosis.detected) {
         return lines;
     }

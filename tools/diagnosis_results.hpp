@@ -19,4 +19,7 @@ Json to_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagnose::N
 
 Table table_of(const diagnose::Diagnosis& diagnosis);
 
+/// No data set drawn from the base model has a misfit as large, so that p is at most what is stated.
+bool is_least_p(const diagnose::Diagnosis& diagnosis);
+
 }  // namespace coagula::tools

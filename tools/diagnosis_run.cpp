@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 namespace coagula::tools {
 
@@ -26,6 +27,18 @@ namespace {
 
 using diagnose::Experiment;
 namespace fs = std::filesystem;
+
+/// What a model of the contact cannot have of a cause.
+std::string outside_of_contact(const std::string& name) {
+    const std::string parts = " + " + name + " + ";
+    std::string text;
+    for (const diagnose::Mechanism& mechanism : diagnose::catalogue()) {
+        if (!mechanism.in_contact && parts.find(" + " + mechanism.name + " + ") != parts.npos) {
+            text += "# " + mechanism.name + " is none of the contact, which follows without it.\n";
+        }
+    }
+    return text;
+}
 
 /// The contact of the best cause as a TOML file; empty when there is none or nothing shows its stiffness.
 std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
@@ -36,8 +49,27 @@ std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
     if (!diagnosis.detected || !has_contact) {
         return {};
     }
-    return "# " + best->name + ": " + best->words + "\n" +
+    return "# " + best->name + ": " + best->words + "\n" + outside_of_contact(best->name) +
            io::contact_model_text(diagnose::contact_model_of(best->settings, radius));
+}
+
+/// Those of the file, and where the structures are not those of the sample.
+std::vector<std::string> notes_on(const Experiment& experiment, double radius, std::vector<std::string> notes) {
+    constexpr double noticeable = 0.05;
+    const std::vector<double>& fractions = experiment.structure_volume_fractions;
+    const double fraction = std::accumulate(fractions.begin(), fractions.end(), 0.0) / static_cast<double>(fractions.size());
+    const auto compare = [&](double there, double stated, const std::string& what, const std::string& key,
+                             const std::string& unit) {
+        if (std::abs(there - stated) > noticeable * stated) {
+            notes.push_back("the structures have a " + what + " of " + with_unit(there, unit) +
+                            ", with which they are simulated, but " + key + " is " + with_unit(stated, unit));
+        }
+    };
+    if (experiment.structure_groups.empty()) {
+        compare(fraction, experiment.sample.volume_fraction, "volume fraction", "sample.volume_fraction", "1");
+    }
+    compare(radius, experiment.sample.particle_radius, "particle radius", "sample.particle_radius", "m");
+    return notes;
 }
 
 }  // namespace
@@ -51,7 +83,8 @@ std::vector<Option> diagnosis_options() {
 
 void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise) {
     const Progress progress = make_progress(arguments.flag("quiet"));
-    ResultFolder folder(arguments.text("output"), "diagnosis.json", arguments.flag("force"));
+    ResultFolder folder(arguments.text("output"), "diagnosis.json", {"report.html", "diagnosis.h5", "extended_model.toml"},
+                        arguments.flag("force"));
     const Stopwatch clock;
     diagnose::DiagnosisOptions options;
     options.level = arguments.quantity("level");
@@ -81,20 +114,24 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
         folder.write("extended_model.toml", contact);
     }
     const DiagnosisRecord record{file.experiment, diagnosis,     noise, describe_call(arguments, nullptr, clock),
-                                 sentences,       options.level, model};
+                                 sentences,       options.level, model, notes_on(file.experiment, radius, file.notes)};
     Gnuplot gnuplot;
     folder.write("report.html", diagnosis_page(record, gnuplot));
+    std::vector<std::string> notes = record.notes;
+    if (!gnuplot.problem().empty()) {
+        notes.push_back(gnuplot.problem());
+    }
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
     folder.write("simulations.txt", cache_text(cache));
     Json json = to_json(diagnosis, noise, model);
+    json["notes"] = notes;
     json["report"] = (folder.path() / "report.html").string();
     json["seconds"] = clock.seconds();
     folder.write("diagnosis.json", json.dump(2) + "\n");
     folder.publish();
     Table table = table_of(diagnosis);
-    if (!gnuplot.problem().empty()) {
-        table.emplace_back("note", gnuplot.problem());
-        json["notes"] = {gnuplot.problem()};
+    for (const std::string& note : notes) {
+        table.emplace_back("note", note);
     }
     table.emplace_back("written to", folder.path().string() + ", page for people: " + (folder.path() / "report.html").string());
     report(arguments, json, table);

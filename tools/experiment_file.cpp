@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 
 namespace coagula::tools {
 
@@ -144,6 +145,9 @@ void ExperimentReader::read_structures() {
             if (seed < 0) {
                 keys.fail("seeds", "must not be negative");
             }
+            if (std::find(recipe.seeds.begin(), recipe.seeds.end(), static_cast<std::size_t>(seed)) != recipe.seeds.end()) {
+                keys.fail("seeds", "holds " + std::to_string(seed) + " twice, which would be one structure, not two");
+            }
             recipe.seeds.push_back(static_cast<std::size_t>(seed));
         }
         result_.experiment.recipe = recipe;
@@ -189,6 +193,12 @@ void ExperimentReader::read_expectation() {
     keys.refuse_other_keys();
 }
 
+/// An end of a planned axis; an angular frequency may be given in cycles.
+double planned_end(TomlKeys& keys, const toml::node& node, const std::string& key, const std::string& unit) {
+    const bool in_cycles = unit == "rad/s" && node.is_string() && node.ref<std::string>().ends_with("Hz");
+    return in_cycles ? 2 * std::numbers::pi * keys.quantity_of(node, key, "Hz") : keys.quantity_of(node, key, unit);
+}
+
 /// A table that nobody has measured yet: its axis from an end to the other, and what is constant.
 diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const {
     const diagnose::TableRule rule = diagnose::rule_of(kind);
@@ -204,7 +214,7 @@ diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::
     double points = unset;
     for (const auto& [name, node] : keys.entries("planned")) {
         if (name == "from" || name == "to") {
-            (name == "from" ? from : to) = keys.quantity_of(*node, "planned." + name, std::string(axis.unit));
+            (name == "from" ? from : to) = planned_end(keys, *node, "planned." + name, std::string(axis.unit));
         } else if (name == "points") {
             points = keys.quantity_of(*node, "planned.points", "1");
         } else {

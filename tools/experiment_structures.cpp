@@ -43,6 +43,19 @@ diagnose::OtherStages stages_of(const diagnose::StructureRecipe& recipe, const d
                     const diagnose::StructureChange& change) { return generation_call(recipe, sample, recipe.seeds[k], change); }};
 }
 
+/// The scatter of structures tells how much they leave open; a copy scatters by nothing.
+void refuse_copies(const diagnose::Experiment& experiment, const std::vector<std::string>& hashes) {
+    const auto& groups = experiment.structure_groups;
+    for (std::size_t k = 0; k < experiment.structures.size(); ++k) {
+        for (std::size_t other = 0; other < k; ++other) {
+            if (hashes[k] == hashes[other] && (groups.empty() || groups[k] == groups[other])) {
+                throw InputError(experiment.structures[k] + ": the same particles as in " + experiment.structures[other] +
+                                 "; structures must be independent of each other");
+            }
+        }
+    }
+}
+
 }  // namespace
 
 ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progress& progress) {
@@ -68,6 +81,7 @@ ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progr
         experiment.structure_sizes.push_back(static_cast<std::size_t>(packing.size()));
         experiment.structure_volume_fractions.push_back(volume_fraction(packing));
     }
+    refuse_copies(experiment, found.hashes);
     return found;
 }
 
@@ -84,6 +98,9 @@ std::vector<std::string> structure_sentences(const diagnose::Experiment& experim
 }
 
 diagnose::SimulationCache read_cache(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path)) {
+        throw InputError(path.string() + " is a folder, but the cache of simulations is to be written there");
+    }
     diagnose::SimulationCache cache;
     std::ifstream file(path);
     for (std::string line; std::getline(file, line);) {

@@ -138,6 +138,29 @@ std::string printed(double value, const std::string& unit) {
            printed_unit(unit);
 }
 
+std::string paragraph(const std::string& html, const std::string& style) {
+    return (style.empty() ? "<p>" : "<p class=\"" + style + "\">") + html + "</p>\n";
+}
+
+std::string heading(const std::string& text) {
+    return "<h2>" + text + "</h2>\n";
+}
+
+std::string percent(double part) {
+    if (part > 0.9995 && part < 1) {
+        return "&gt; 99.9 %";
+    }
+    return part > 0 && part < 0.001 ? "&lt; 0.1 %" : printed(100 * part) + " %";
+}
+
+std::string signed_percent(double part) {
+    return (part > 0 ? "+" : "") + printed(100 * part) + " %";
+}
+
+std::string readable(const std::string& name) {
+    return escaped(replaced(name, "_", " "));
+}
+
 std::string html_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
                        const std::string& table_style) {
     std::string text = table_style.empty() ? "<table>" : "<table class=\"" + table_style + "\">";

@@ -17,6 +17,17 @@ std::string escaped(std::string_view text);
 /// "1.47 MPa", "3.2 × 10⁻⁵ m/Pa".
 std::string printed(double value, const std::string& unit = "1");
 
+/// Part of something in percent; what is nearly nothing or nearly all as a bound.
+std::string percent(double part);
+/// With a sign.
+std::string signed_percent(double part);
+
+/// A name of an interface, its underscores replaced.
+std::string readable(const std::string& name);
+
+std::string paragraph(const std::string& html, const std::string& style = {});
+std::string heading(const std::string& text);
+
 /// <table> with a head; cells are HTML.
 std::string html_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
                        const std::string& style = {});

@@ -16,6 +16,11 @@ bool has_numbers(const io::PlainColumn& column) {
     return std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
 }
 
+/// Also where neither is a number.
+bool same(double one, double other) {
+    return one == other || (std::isnan(one) && std::isnan(other));
+}
+
 /// Builds one measurement.
 class Converter {
 public:
@@ -32,6 +37,7 @@ public:
         }
         for (const diagnose::Quantity& quantity : diagnose::all_quantities()) {
             if (const auto index = column_of(std::string(quantity.name))) {
+                refuse_second(*index);
                 add_column(quantity, *index);
             }
         }
@@ -61,6 +67,18 @@ private:
             all += (all.empty() ? "'" : ", '") + column.heading + "'";
         }
         fail("there is no column '" + heading + "'; the columns are " + all);
+    }
+
+    /// Two columns of one heading would leave open which is meant, unless they say the same.
+    void refuse_second(std::size_t index) const {
+        const io::PlainColumn& chosen = table_.columns[index];
+        for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+            const io::PlainColumn& other = table_.columns[i];
+            if (i != index && other.heading == chosen.heading && other.unit == chosen.unit && has_numbers(other) &&
+                !std::equal(other.values.begin(), other.values.end(), chosen.values.begin(), chosen.values.end(), same)) {
+                fail("two columns have the heading '" + chosen.heading + "' and differ; change one of them");
+            }
+        }
     }
 
     std::optional<std::size_t> column_of(const std::string& quantity) const {

@@ -13,13 +13,21 @@ namespace coagula::tools {
 
 namespace fs = std::filesystem;
 
-ResultFolder::ResultFolder(fs::path folder, std::string key_file, bool force)
+ResultFolder::ResultFolder(fs::path folder, std::string key_file, const std::vector<std::string>& others, bool force)
     : folder_(std::move(folder)), key_file_(std::move(key_file)), staging_(folder_ / (".new." + std::to_string(getpid()))) {
     if (fs::exists(folder_) && !fs::is_directory(folder_)) {
         throw InputError(folder_.string() + " is there already and is no folder");
     }
-    if (fs::exists(folder_ / key_file_) && !force) {
-        throw InputError((folder_ / key_file_).string() + " is there already; use --force to replace it");
+    std::vector<std::string> names{key_file_};
+    names.insert(names.end(), others.begin(), others.end());
+    for (const std::string& name : names) {
+        const fs::path path = folder_ / name;
+        if (fs::is_directory(path)) {
+            throw InputError(path.string() + " is a folder, but a file of this name is to be written");
+        }
+        if (fs::exists(path) && !force) {
+            throw InputError(path.string() + " is there already; use --force to replace it");
+        }
     }
 }
 

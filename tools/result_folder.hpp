@@ -11,8 +11,10 @@ namespace coagula::tools {
 /// then renames them into place. The key file goes first and comes last, so that where it stands, all files are of one run.
 class ResultFolder {
 public:
-    /// Throws InputError when `folder` is a file, or `key_file` is there already and `force` is not given. Nothing is made yet.
-    ResultFolder(std::filesystem::path folder, std::string key_file, bool force);
+    /// Throws InputError when `folder` is a file, or one of the files is a folder, or is there already and `force` is not given.
+    /// Nothing is made yet.
+    /// @param others what else will be written, but for what may be there already.
+    ResultFolder(std::filesystem::path folder, std::string key_file, const std::vector<std::string>& others, bool force);
     ResultFolder(const ResultFolder&) = delete;
     ResultFolder& operator=(const ResultFolder&) = delete;
     ~ResultFolder();

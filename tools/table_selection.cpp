@@ -129,6 +129,10 @@ void select(diagnose::Measurement& table, const TableSelection& selection) {
     if (rows.empty()) {
         throw InputError(table.label + ": none of its " + std::to_string(table.rows()) + " rows is among those chosen");
     }
+    if (selection.last != TableSelection{}.last && selection.last > static_cast<std::int64_t>(table.rows())) {
+        throw InputError(table.label + ": rows up to " + std::to_string(selection.last) + " are chosen, but it has " +
+                         std::to_string(table.rows()));
+    }
     std::map<std::size_t, std::size_t> place;  // of a row among those that remain
     for (const std::size_t row : rows) {
         place.emplace(row, place.size());

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 
 namespace coagula::diagnose {
 
@@ -99,6 +102,16 @@ private:
     std::vector<double> time_;
 };
 
+/// " (0.333 to 3 mm)".
+std::string millimetres(std::initializer_list<double> lengths) {
+    std::ostringstream text;
+    text << std::setprecision(3);
+    for (const double length : lengths) {
+        text << (text.str().empty() ? " (" : " to ") << 1e3 * length;
+    }
+    return text.str() + " mm)";
+}
+
 std::vector<Candidate> shear_candidates(const Experiment& experiment, const std::vector<Observation>& observations) {
     const Habits habits = habits_of(observations);
     const double gap = experiment.instrument.gap;
@@ -126,12 +139,13 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
                                .strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows))
                                .table(MeasurementKind::amplitude_sweep);
         cone.cone_angle = usual_cone;
-        add("an amplitude sweep on a fresh sample under a cone, where the strain is the same everywhere", cone);
+        add("an amplitude sweep on a fresh sample under a cone of 1 degree, where the strain is the same everywhere", cone);
     }
     if (std::isfinite(gap)) {
         // A drift in time goes with the gap in one direction and against it in the other.
         const bool upwards = narrows(experiment);
-        const std::string series = upwards ? "a series of gaps from narrow to wide" : "a series of gaps from wide to narrow";
+        const std::string series = upwards ? "a series of gaps from narrow to wide" + millimetres({gap / 3, 3 * gap})
+                                           : "a series of gaps from wide to narrow" + millimetres({3 * gap, gap / 3});
         const Measurement plain = Plan(habits, gap, gaps)
                                       .gap(logarithmic_steps(upwards ? gap / 3 : 3 * gap, upwards ? 3 * gap : gap / 3, gaps))
                                       .table(MeasurementKind::gap_series);
@@ -144,9 +158,10 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
         add(series + " between rough plates, at which nothing slips", rough);
         add(series + " with a Newtonian oil of known viscosity", oil);
         add(series + " between rough plates, at which nothing slips, and one with a Newtonian oil of known viscosity", rough, oil);
-        add("the same with a plate of half the radius",
+        const double half = 0.5 * experiment.instrument.plate_radius;
+        add("a frequency sweep with a plate of half the radius" + (std::isfinite(half) ? millimetres({half}) : ""),
             Plan(plan).frequency(frequencies(10)).table(MeasurementKind::frequency_sweep));
-        candidates.back().experiment.instrument.plate_radius *= 0.5;
+        candidates.back().experiment.instrument.plate_radius = half;
     }
     for (Candidate& candidate : candidates) {
         candidate.observations = observations_of(candidate.experiment);

@@ -1,4 +1,5 @@
 #include <coagula/diagnose/check_data.hpp>
+#include <coagula/diagnose/waveform.hpp>
 
 #include "median.hpp"
 #include "relations.hpp"
@@ -41,6 +42,7 @@ public:
     CheckedMeasurement run() {
         check_columns();
         if (checked_.problems.empty()) {
+            check_whole_numbers();
             leave_out_impossible_cells();
             check_level();
             check_order();
@@ -72,6 +74,7 @@ private:
     }
 
     void check_columns();
+    void check_whole_numbers();
     void leave_out_impossible_cells();
     void check_level();
     void check_order();
@@ -118,6 +121,21 @@ void Checker::check_columns() {
     for (const std::string& name : required_columns()) {
         if (const Column* needed = find_column(table(), name); needed != nullptr && readable(*needed) == 0) {
             complain("column '" + name + "' has no readable number");
+        }
+    }
+}
+
+/// Columns that count something.
+void Checker::check_whole_numbers() {
+    for (const char* name : {"frame", "structure"}) {
+        const Column* column = find_column(table(), name);
+        for (std::size_t row = 0; column != nullptr && row < table().rows(); ++row) {
+            const double value = column->values[row];
+            if (std::isfinite(value) && value != std::floor(value)) {
+                complain("column '" + column->name + "' is " + to_text(value) + " in row " + std::to_string(row + 1) +
+                         ", but must hold whole numbers");
+                return;
+            }
         }
     }
 }
@@ -347,6 +365,9 @@ void Checker::check_what_is_left() {
                         [&](double value) { return !std::isfinite(value) || value == first; })) {
             complain("column '" + name + "' is " + to_text(first) + " " + values.unit + " in every row: that is no measurement");
         }
+    }
+    if (checked_.problems.empty() && table().kind == MeasurementKind::waveform && !harmonics_of(table())) {
+        complain(needs_of_harmonics);
     }
 }
 

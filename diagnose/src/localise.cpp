@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -167,9 +168,24 @@ bool is_level(double early, double late) {
     return early * late > 0 && std::abs(late - early) < 0.2 * std::abs(early);
 }
 
+/// An axis in words.
+std::string spoken_axis(const MisfitStatistic& statistic, const Experiment& experiment,
+                        const std::vector<Observation>& observations) {
+    if (statistic.coordinate == Coordinate::angular_frequency) {
+        return "frequency";
+    }
+    const bool clocked = std::all_of(statistic.rows.begin(), statistic.rows.end(), [&](Index row) {
+        const std::size_t table = observations[static_cast<std::size_t>(row)].measurement;
+        return find_column(experiment.measurements[table], "time") != nullptr;
+    });
+    return statistic.coordinate == Coordinate::time && !clocked ? "time (10 s a row where none is stated)"
+                                                                : std::string(name_of(statistic.coordinate));
+}
+
 /// A smooth departure along an axis.
-Failure departure_along(const MisfitStatistic& statistic, const std::vector<Observation>& observations,
-                        const Eigen::VectorXd& residual, const Eigen::VectorXd& prediction) {
+Failure departure_along(const MisfitStatistic& statistic, const Experiment& experiment,
+                        const std::vector<Observation>& observations, const Eigen::VectorXd& residual,
+                        const Eigen::VectorXd& prediction) {
     const double scale = prediction.cwiseAbs().maxCoeff();
     const bool loss = statistic.observable == "loss_modulus";
     const bool third_harmonic = statistic.observable.starts_with("third_harmonic");
@@ -190,7 +206,7 @@ Failure departure_along(const MisfitStatistic& statistic, const std::vector<Obse
         std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
     failure.from = places[place];
     failure.departure = late;
-    const std::string axis = statistic.coordinate == Coordinate::angular_frequency ? "frequency" : failure.axis;
+    const std::string axis = spoken_axis(statistic, experiment, observations);
     const std::string of = loss                                              ? " (of the largest predicted modulus)"
                            : third_harmonic                                  ? " (of the first)"
                            : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
@@ -220,7 +236,11 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
     }
     std::vector<Failure> failures;
     const auto add = [&](const MisfitStatistic& one) {
-        failures.push_back(departure_along(one, observations, residual, prediction));
+        Failure found = departure_along(one, inference.forward().experiment(), observations, residual, prediction);
+        if (std::none_of(failures.begin(), failures.end(),
+                         [&](const Failure& other) { return other.sentence == found.sentence; })) {
+            failures.push_back(std::move(found));
+        }
     };
     for (const MisfitStatistic* statistic : along) {
         if (statistic->score >= noticeable) {

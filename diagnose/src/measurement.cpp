@@ -149,6 +149,9 @@ void check_instrument(const Instrument& instrument) {
     check_positive(instrument.tool_inertia, "instrument.tool_inertia", "kg.m2");
     check_positive(instrument.tool_compliance, "instrument.tool_compliance", "rad/(N.m)");
     check_cone(instrument.cone_angle, "instrument.cone_angle");
+    if (std::isnan(instrument.inner_radius) != std::isnan(instrument.outer_radius)) {
+        throw InputError("instrument.inner_radius and instrument.outer_radius go together: give both or none");
+    }
     if (instrument.outer_radius <= instrument.inner_radius) {
         throw InputError("instrument.outer_radius is " + to_text(instrument.outer_radius) + " m, but must exceed inner_radius, " +
                          to_text(instrument.inner_radius) + " m");

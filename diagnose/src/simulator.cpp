@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace coagula::diagnose {
 
@@ -50,10 +51,6 @@ Simulator::Simulator(Structures structures, std::vector<std::string> names, Simu
       cache_(cache),
       progress_(std::move(progress)),
       radius_(radius) {}
-
-std::size_t Simulator::groups() const {
-    return groups_.empty() ? 0 : *std::max_element(groups_.begin(), groups_.end());
-}
 
 std::vector<std::size_t> Simulator::members(std::size_t group) const {
     std::vector<std::size_t> found;
@@ -131,7 +128,8 @@ double Simulator::scatter_between_structures() {
         }
         degrees += static_cast<double>(values.size()) - 1;
     };
-    for (std::size_t group = std::min<std::size_t>(1, groups()); group <= groups(); ++group) {
+    const std::set<std::size_t> groups = groups_.empty() ? std::set<std::size_t>{0} : std::set(groups_.begin(), groups_.end());
+    for (const std::size_t group : groups) {
         std::vector<double> moduli;
         for (const std::size_t k : members(group)) {
             moduli.push_back(linear_moduli(k, base.stiffness_ratio, 0, base.bond_tolerance).front());

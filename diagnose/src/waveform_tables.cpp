@@ -89,9 +89,7 @@ void reduce_waveforms(Experiment& experiment, double relative, double phase) {
         }
         const auto found = harmonics_of(waveform);
         if (!found) {
-            throw InputError(waveform.label +
-                             ": the waveform has no harmonics: it needs its angular frequency, at least 11 readable "
-                             "samples over nine tenths of a period, and a strain and a stress that oscillate");
+            throw InputError(waveform.label + ": " + needs_of_harmonics);
         }
         auto table = std::find_if(reduced.begin(), reduced.end(),
                                   [&](const auto& one) { return same_run(one, waveform) && measured_alike(one, waveform); });

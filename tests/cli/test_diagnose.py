@@ -136,6 +136,30 @@ class BadInput(ProgramTest):
         self.refuse_data(head + "".join(rows[6:] + rows[:6]), "the rows are in the wrong order")
         self.refuse_data(sweep().replace("strain [%]", "strain [1]"), "by a factor of 100", "units")
         self.refuse_data("", "sweep.csv", "no header")
+        twice = HEAD.replace("loss modulus", "storage modulus")
+        self.refuse_data(twice + "".join(f"{i},500,{50 + i},1\n" for i in range(1, 9)), "two columns have the heading 'storage modulus' and differ")
+
+    def test_columns_that_say_the_same_twice(self):
+        twice = "strain [%],storage modulus [Pa],storage modulus [Pa]\n" + "".join(f"{i},{500 + i},{500 + i}\n" for i in range(1, 9))
+        self.write("sweep.csv", twice)
+        self.write("experiment.toml", experiment(SWEEP))
+        self.assertEqual(self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"][0]["rows"], 8)
+
+    def test_lines_may_end_by_carriage_returns_alone(self):
+        self.write("sweep.csv", sweep().replace("\n", "\r"))
+        self.write("experiment.toml", experiment(SWEEP))
+        self.assertEqual(self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"][0]["rows"], 8)
+
+    def test_waveforms(self):
+        wave = [f"{k / 64},{0.01 * math.sin(2 * math.pi * k / 64)},{10 * math.sin(2 * math.pi * k / 64 + 0.1)}" for k in range(64)]
+        for rows, values in ((wave, ""), (wave[:32], '\nvalues = { frequency = "1 Hz" }')):
+            text = experiment('kind = "waveform"\nfile = "sweep.csv"' + values)
+            self.refuse(text, "sweep.csv: the waveform has no harmonics", data="time [s],strain [1],stress [Pa]\n" + "\n".join(rows) + "\n")
+
+    def test_frames_are_counted(self):
+        rows = "".join(f"{k},{k % 3},{k % 5},{1 + k % 2 / 2}\n" for k in range(20))
+        self.refuse(experiment('kind = "coordinates"\nfile = "sweep.csv"'), "column 'frame' is 1.5 in row 2, but must hold whole numbers",
+                    data="x [um],y [um],z [um],frame\n" + rows)
 
     def test_metadata(self):
         for before, says in (
@@ -143,6 +167,7 @@ class BadInput(ProgramTest):
             ('[instrument]\ngap = "1 Pa"\n', "key 'gap'"),
             ('[instrument]\ngeometry = "egg"\n', "'egg' is none of"),
             ('[instrument]\ngeometry = "plate-plate"\ncone_angle = "1 degree"\n', "cone_angle"),
+            ('[instrument]\ninner_radius = "13 mm"\n', "instrument.inner_radius and instrument.outer_radius go together"),
             ('[instrument]\nplate_radius = "12.5mm"\ngap = "2cm"\n', "must be below plate_radius"),
             ("[sample]\nvolume_fraction = 40\n", "volume_fraction"),
             ('[sample]\nparticle_radius = "-1um"\n', "particle_radius"),
@@ -150,6 +175,7 @@ class BadInput(ProgramTest):
             ("colour = 3\n", "key 'colour'"),
             ('[structures]\nfiles = ["absent.h5"]\n', "absent.h5 does not exist"),
             ('[structures]\ngenerator = "snow"\n', "'snow'"),
+            ('[structures]\ngenerator = "vem"\nseeds = [3, 4, 3]\n', "holds 3 twice"),
             ("[noise]\nstated_relative = 5\n", "stated_relative"),
             ("sample = 3\n", "must be a table"),
         ):
@@ -173,6 +199,7 @@ class BadInput(ProgramTest):
             (experiment(SWEEP + "\nmood = 1"), "key 'mood'"),
             (experiment(SWEEP + "\nrows = [3, 1]"), "first not after last"),
             (experiment(SWEEP + "\nrows = [30, 40]"), "none of its 8 rows"),
+            (experiment(SWEEP + "\nrows = [1, 9]"), "rows up to 9 are chosen, but it has 8"),
             (experiment(SWEEP + '\nwithout = "torque"'), "no column 'torque'"),
             (experiment(SWEEP + '\ntime_per_row = "0 s"'), "must be > 0 s"),
             (experiment(SWEEP + '\ntime_zero = "1 s"'), "has no times"),
@@ -186,6 +213,18 @@ class BadInput(ProgramTest):
         self.fail_with(2, "diagnose", "--check", self.folder, says="cannot be read")
         self.write("experiment.toml", experiment(SWEEP))
         self.fail_with(2, "diagnose", "experiment.toml", says="--check")
+
+    def test_options_that_would_not_be_heeded(self):
+        self.write("experiment.toml", experiment(SWEEP))
+        for words, says in (
+            (("--check", "--power"), "--check has no meaning with --power"),
+            (("--check", "-o", "out"), "--output has no meaning with --check"),
+            (("--check", "--causes", "ageing"), "--causes has no meaning with --check"),
+            (("-o", "out", "--diagnoses", "1"), "--diagnoses has no meaning without --power"),
+        ):
+            with self.subTest(words=words):
+                self.fail_with(2, "diagnose", "experiment.toml", *words, says=says)
+                self.assertFalse((self.folder / "out").exists())
 
 
 @unittest.skipUnless(CEMENT.is_dir(), f"no folder {CEMENT}")

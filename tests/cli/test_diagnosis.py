@@ -69,11 +69,41 @@ class Diagnosis(ProgramTest):
                 self.assertAlmostEqual(again[part]["mean"][k] / predicted[(k + 1, part)], 1, delta=1e-6)
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="--force")
 
-    def test_refusals(self):
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="sweep.csv")
+    def smooth_sweep(self):
         self.write("sweep.csv", "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]\n" +
                    "".join(f"{k},{1e6 + k},{1e4 + k}\n" for k in range(1, 12)))
+
+    def test_nothing_of_the_folder_is_lost(self):
+        self.smooth_sweep()
+        results = self.folder / "results"
+        for name in ("simulations.txt", "report.html"):
+            with self.subTest(folder=name):
+                (results / name).mkdir(parents=True)
+                self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", "--force", says=f"{name} is a folder")
+                self.assertEqual([path.name for path in results.iterdir()], [name])
+                (results / name).rmdir()
+        (results / "report.html").write_text("mine")
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="report.html is there already; use --force")
+        self.assertEqual((results / "report.html").read_text(), "mine")
+
+    def test_structures_that_are_not_the_sample_are_noted(self):
+        self.smooth_sweep()
+        self.write("experiment.toml", EXPERIMENT.replace('"0.25 um"', '"2.5 um"\nvolume_fraction = 0.3'))
+        note = "the structures have a volume fraction of 0.4, with which they are simulated, but sample.volume_fraction is 0.3"
+        words = ("diagnose", "experiment.toml", "-o", "results", "--force", "--bootstrap", "99", "--causes", "ageing")
+        found = self.succeed_json(*words)["notes"]
+        self.assertEqual((found[0], len(found)), (note, 2))
+        self.assertIn("particle radius of 250 nm", found[1])
+        self.assertIn(note, self.succeed(*words))
+        self.assertIn(note, (self.folder / "results" / "report.html").read_text())
+
+    def test_refusals(self):
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="sweep.csv")
+        self.smooth_sweep()
         self.fail_with(2, "diagnose", "experiment.toml", says="--output")
+        (self.folder / "copy.h5").write_bytes((self.folder / "packing.h5").read_bytes())
+        self.write("experiment.toml", EXPERIMENT.replace('["packing.h5"]', '["packing.h5", "copy.h5"]'))
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="copy.h5: the same particles as in")
         self.write("experiment.toml", EXPERIMENT.replace('[structures]\nfiles = ["packing.h5"]\n', ""))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="structures")
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "sweep.csv", says="no folder")

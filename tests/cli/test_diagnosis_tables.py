@@ -85,7 +85,7 @@ class StructureSeries(Tables):
             with self.subTest(groups=groups):
                 self.refuse(self.experiment(groups), says)
         fraction = self.experiment("groups = [1, 2, 3, 4, 5, 5]", 'values = { structure = "2.5" }\n')
-        self.refuse(fraction, "series.csv: column 'structure' must have a whole number in row 1")
+        self.refuse(fraction, "series.csv: column 'structure' is 2.5 in row 1, but must hold whole numbers")
         table = (self.folder / "series.csv").read_text().splitlines()
         numbered = [table[0] + ",structure"] + [f"{line},{'' if k == 2 else k + 1}" for k, line in enumerate(table[1:])]
         self.write("series.csv", "\n".join(numbered) + "\n")

@@ -184,9 +184,10 @@ std::string to_utf8(std::string_view bytes) {
 }
 
 std::vector<std::string> split_lines(const std::string& text) {
+    const char line_end = text.find('\n') == text.npos ? '\r' : '\n';  // old programs end lines by a carriage return alone
     std::vector<std::string> lines;
     for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const std::size_t end = std::min(text.find(line_end, begin), text.size());
         std::string line = text.substr(begin, end - begin);
         if (line.ends_with('\r')) {
             line.pop_back();

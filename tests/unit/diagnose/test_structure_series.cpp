@@ -190,6 +190,18 @@ TEST(StructureError, IsTheScatterOfMeansOfDrawnStructures) {
 }
 
 /// Two sets of four structures: how far their mean curves of breaking bonds are apart, over the errors that both state.
+/// Rows that were not measured leave their numbers out.
+TEST(StructureError, GroupsNeedNotFollowEachOther) {
+    const auto error_of_last = [](std::size_t last) {
+        SimulationCache cache;
+        Simulator some({structure(64, 1), structure(64, 2), structure(64, 3), structure(64, 4)}, {"a", "b", "c", "d"}, cache, {},
+                       {1, 1, last, last});
+        return some.structure_error(last);
+    };
+    EXPECT_GT(error_of_last(2), 0);
+    EXPECT_EQ(error_of_last(7), error_of_last(2));
+}
+
 TEST(StructureError, IsWhatMeanCurvesOfYieldDifferBy) {
     Settings settings;
     settings.critical_strain = 1e-4;

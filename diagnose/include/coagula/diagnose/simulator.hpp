@@ -61,8 +61,6 @@ public:
 
     /// Mean number of particles of the structures of a group.
     double particles(std::size_t group = 0) const;
-    /// The largest group; 0 if there are none.
-    std::size_t groups() const;
 
     /// Mean volume fraction of the structures of a group.
     double volume_fraction(std::size_t group = 0);
