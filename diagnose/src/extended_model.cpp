@@ -32,11 +32,13 @@ ContactModel contact_model_of(const Settings& settings, double radius) {
     if (settings.felt_viscosity > 0) {
         model.solvent_viscosity = settings.felt_viscosity;
     }
+    const double tension = settings.tension * normal * 2 * radius;
     if (const double critical = std::min(settings.critical_strain, settings.rim_critical_strain); std::isfinite(critical)) {
-        model.normal_strength = model.shear_strength = critical * normal * radius;
+        model.shear_strength = critical * normal * radius;
+        model.normal_strength = model.shear_strength + tension;  // it is counted from the load at rest
     }
-    if (settings.tension > 0) {
-        model.prestress = -settings.tension * normal * 2 * radius;
+    if (tension > 0) {
+        model.prestress = -tension;
     }
     if (settings.contact_preload > 0) {
         // Two equal spheres: the contact's stiffness is 2 E* sqrt(r0 / 2 x overlap), E* = E / (2 (1 - nu^2)).

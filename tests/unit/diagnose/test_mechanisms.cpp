@@ -183,5 +183,40 @@ TEST(WallSlip, UnderAConeIsThatOfTheGapAtEveryRadius) {
     EXPECT_FALSE(find_mechanism("wall-slip")->applies(experiment));
 }
 
+/// At both ends of their priors.
+TEST(ExtendedModel, IsAcceptedForEveryPairInTheContact) {
+    const auto set = [](const Mechanism& mechanism, double place, Settings& settings) {
+        for (const MechanismParameter& parameter : mechanism.parameters) {
+            settings.*parameter.value = parameter.at(place);
+        }
+    };
+    std::size_t pairs = 0;
+    for (const Mechanism& first : catalogue()) {
+        for (const Mechanism& second : catalogue()) {
+            for (const double place : {0.0, 1.0, 2.0, 3.0}) {
+                if (!first.in_contact || !second.in_contact) {
+                    continue;
+                }
+                Settings settings;
+                set(first, place < 2 ? 0 : 1, settings);
+                set(second, place == 1 || place == 3 ? 1 : 0, settings);
+                EXPECT_NO_THROW(check(contact_model_of(settings, 0.25e-6))) << first.name << " + " << second.name;
+                ++pairs;
+            }
+        }
+    }
+    EXPECT_GT(pairs, 100);
+}
+
+/// Bonds under tension bear, beyond it, what they would bear without.
+TEST(ExtendedModel, StrengthIsCountedFromTheTensionAtRest) {
+    Settings settings;
+    settings.critical_strain = 1e-3;
+    const double alone = contact_model_of(settings, 0.25e-6).normal_strength;
+    settings.tension = 1e-2;
+    const ContactModel model = contact_model_of(settings, 0.25e-6);
+    EXPECT_NEAR(model.normal_strength + model.prestress, alone, 1e-12 * model.normal_strength);
+}
+
 }  // namespace
 }  // namespace coagula::diagnose
