@@ -22,11 +22,11 @@ import numpy
 from cases import ROWS
 from material import Material
 from session import follow_up, placed
-from table import in_set, print_table
+from table import BREAKING, in_set, print_table
 
 
 DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "single", "pair", "tie", "outside"]
-BREAKING_ROWS = {"bond-strength", "tie-yield"}
+BREAKING_ROWS = {*BREAKING, "tie-yield"}
 
 
 def diagnose(program, experiment, cache, *words):

@@ -87,6 +87,13 @@ def of_effect(name):
     return draw
 
 
+def bond_strength_under_cone(generator, material):
+    """All sweeps of the samples whose bonds break: the strain is the same everywhere, so that nothing ties."""
+    session = of_effect("bond-strength")(generator, material)
+    breaking = {table.sample for table in session.tables if table.kind == "amplitude-sweep"}
+    return replace(session, tables=[replace(table, cone=table.sample in breaking) for table in session.tables])
+
+
 def single(generator, material):
     name = generator.choice(["contact-loss", "ageing", "tool-compliance", "tool-inertia"])
     return of_effect(name)(generator, material)
@@ -157,5 +164,6 @@ def outside(generator, material):
 
 ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlated, "null-offsets": null_offsets, "single": single,
         "pair": pair, "tie": tie, "outside": outside, "null-series": null_series, "structure-series": structure_series,
-        "tie-level": tie_of_level, "tie-stiffening": tie_of_stiffening, "tie-yield": tie_of_yield}
+        "tie-level": tie_of_level, "tie-stiffening": tie_of_stiffening, "tie-yield": tie_of_yield,
+        "bond-strength-cone": bond_strength_under_cone}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})
