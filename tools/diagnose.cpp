@@ -3,6 +3,7 @@
 #include "diagnosis_results.hpp"
 #include "diagnosis_run.hpp"
 #include "experiment_file.hpp"
+#include "measured_tables.hpp"
 #include "report.hpp"
 #include "verbs.hpp"
 
@@ -145,7 +146,30 @@ void add_noise_lines(Table& lines, const NoiseModel& noise) {
     }
 }
 
+bool same_numbers(const diagnose::Measurement& one, const diagnose::Measurement& other) {
+    const auto alike = [](const diagnose::Column& a, const diagnose::Column& b) {
+        return a.name == b.name && same_values(a.values, b.values);
+    };
+    return one.kind == other.kind &&
+           std::equal(one.columns.begin(), one.columns.end(), other.columns.begin(), other.columns.end(), alike);
+}
+
+/// Plans, and copies: replicates are never the same to the last digit.
+void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tables) {
+    for (auto table = tables.begin(); table != tables.end(); ++table) {
+        if (table->label.ends_with("(planned)")) {
+            throw InputError(table->label + ": a plan has no measured moduli; it is for --power");
+        }
+        const auto copy = std::find_if(tables.begin(), table, [&](const auto& other) { return same_numbers(*table, other); });
+        if (copy != table && table->kind != diagnose::MeasurementKind::waveform) {
+            throw InputError(table->label + ", sample '" + table->sample + "': the same numbers as in " + copy->label +
+                             ", sample '" + copy->sample + "'; give each measurement once");
+        }
+    }
+}
+
 std::vector<CheckedMeasurement> check_all(const diagnose::Experiment& experiment) {
+    refuse_what_was_not_measured(experiment.measurements);
     std::vector<CheckedMeasurement> checked;
     for (const diagnose::Measurement& measurement : experiment.measurements) {
         checked.push_back(diagnose::check_data(measurement));

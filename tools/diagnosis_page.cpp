@@ -240,16 +240,12 @@ std::string made(const DiagnosisRecord& record) {
     return html + "</dl>\n";
 }
 
-}  // namespace
-
-const Cause* extended_cause(const Diagnosis& diagnosis) {
-    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(), [&](const Cause& cause) {
-        return !cause.parameters.empty() && cause.name != diagnosis.base.name;
-    });
-    return diagnosis.detected && best != diagnosis.causes.end() ? &*best : nullptr;
+std::string next_sentence(const diagnose::Proposal& proposal) {
+    constexpr double hardly = 0.1;
+    return proposal.resolution >= hardly
+               ? " To decide, measure " + proposal.what + "."
+               : " No single measurement that was tried here is likely to decide; most is told by " + proposal.what + ".";
 }
-
-namespace {
 
 std::string gained(const diagnose::Gain& gain) {
     return gain.held_out == 0 ? std::string{}
@@ -267,9 +263,12 @@ std::string verdict_sentence(const Diagnosis& found) {
     }
     const std::string fails = "The base model fails" + chance;
     if (found.verdict == Verdict::none_of_catalogue) {
-        return fails + ", and no cause of the catalogue explains how.";
+        const Cause* best = extended_cause(found);
+        return fails + (best == &found.causes.front() ? ", and so does the best that the catalogue has, " + best->name +
+                                                            " (p = " + probability(found.extended_p_value) + ")."
+                                                      : ", and no cause of the catalogue explains how.");
     }
-    const std::string next = found.proposals.empty() ? "" : " To decide, measure " + found.proposals.front().what + ".";
+    const std::string next = found.proposals.empty() ? "" : next_sentence(found.proposals.front());
     if (found.verdict == Verdict::tied) {
         return fails + "; these data cannot tell whether the cause is " + joined(found.credible_set) + "." + next;
     }

@@ -24,9 +24,6 @@ struct DiagnosisRecord {
     std::vector<std::string> notes;       ///< what a reader should know about the data and structures
 };
 
-/// The cause that the extended model has; null when there is none (nothing detected).
-const diagnose::Cause* extended_cause(const diagnose::Diagnosis& diagnosis);
-
 /// What was found, in a sentence or two.
 std::string verdict_sentence(const diagnose::Diagnosis& diagnosis);
 

@@ -32,6 +32,12 @@ Json cause_json(const Cause& cause) {
             {"parameters", parameters_json(cause)}};
 }
 
+/// Of an axis, that of its column.
+std::string unit_of(const std::string& axis) {
+    const diagnose::Quantity* quantity = diagnose::find_quantity(axis);
+    return quantity != nullptr ? std::string(quantity->unit) : axis == "normal_stiffness" ? "N/m" : "1";
+}
+
 /// What the prediction of each sample is multiplied with, less 1.
 Json effects_json(const std::vector<diagnose::SampleEffect>& effects) {
     Json json = Json::object();
@@ -79,6 +85,13 @@ bool is_least_p(const Diagnosis& diagnosis) {
     return diagnosis.p_value * static_cast<double>(diagnosis.bootstrap.size() + 1) < 1.5;
 }
 
+const Cause* extended_cause(const Diagnosis& diagnosis) {
+    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(), [&](const Cause& cause) {
+        return !cause.parameters.empty() && cause.name != diagnosis.base.name;
+    });
+    return diagnosis.detected && best != diagnosis.causes.end() ? &*best : nullptr;
+}
+
 Json noise_json(const diagnose::NoiseModel& noise) {
     Json json = {{"kind", diagnose::name_of(noise.kind)},
                  {"observable", noise.observable},
@@ -115,7 +128,8 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
         json["where"].push_back({{"observable", failure.observable},
                                  {"axis", failure.axis},
                                  {"bayes_factor", number(failure.bayes_factor)},
-                                 {"from", failure.from},
+                                 {"from", number(failure.from)},
+                                 {"unit", unit_of(failure.axis)},
                                  {"sentence", failure.sentence}});
     }
     for (const diagnose::PredictedRow& row : diagnosis.rows) {
@@ -124,13 +138,15 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
     if (diagnosis.detected) {
         const diagnose::Gain& gain = diagnosis.gain;
         json["extended_p_value"] = diagnosis.extended_p_value;
+        // Nothing is known of a gain where no row was held out.
+        const auto known = [&](double value) { return gain.held_out > 0 ? number(value) : Json(nullptr); };
         json["gain"] = {{"held_out", gain.held_out},
-                        {"rmse_base", gain.rmse_base},
-                        {"rmse_extended", gain.rmse_extended},
-                        {"rmse_flexible", gain.rmse_flexible},
-                        {"rmse_ratio", gain.rmse_ratio},
-                        {"elpd_difference", gain.elpd_difference},
-                        {"elpd_ci90", {gain.elpd_low, gain.elpd_high}}};
+                        {"rmse_base", known(gain.rmse_base)},
+                        {"rmse_extended", known(gain.rmse_extended)},
+                        {"rmse_flexible", known(gain.rmse_flexible)},
+                        {"rmse_ratio", known(gain.rmse_ratio)},
+                        {"elpd_difference", known(gain.elpd_difference)},
+                        {"elpd_ci90", {known(gain.elpd_low), known(gain.elpd_high)}}};
     }
     json["noise"] = {{"sample", diagnosis.noise.sample}, {"tables", Json::array()}};
     for (const diagnose::NoiseModel& one : noise) {
@@ -169,8 +185,8 @@ Table table_of(const Diagnosis& diagnosis) {
     const diagnose::Gain& gain = diagnosis.gain;
     lines.emplace_back("gain on held-out data", gain.held_out == 0
                                                     ? "none: too few rows to hold some out"
-                                                    : "error " + with_unit(100 * gain.rmse_base, "1") + " % before, " +
-                                                          with_unit(100 * gain.rmse_extended, "1") + " % after (" +
+                                                    : "error " + with_unit(100 * gain.rmse_base, "1") + " % by the base model, " +
+                                                          with_unit(100 * gain.rmse_extended, "1") + " % by the best cause (" +
                                                           with_unit(100 * gain.rmse_flexible, "1") + " % by a smooth correction)");
     if (!diagnosis.proposals.empty()) {
         const diagnose::Proposal& first = diagnosis.proposals.front();

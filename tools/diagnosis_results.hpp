@@ -19,6 +19,9 @@ Json to_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagnose::N
 
 Table table_of(const diagnose::Diagnosis& diagnosis);
 
+/// The cause that the extended model has; null when there is none (nothing detected).
+const diagnose::Cause* extended_cause(const diagnose::Diagnosis& diagnosis);
+
 /// No data set drawn from the base model has a misfit as large, so that p is at most what is stated.
 bool is_least_p(const diagnose::Diagnosis& diagnosis);
 

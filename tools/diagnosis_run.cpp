@@ -20,6 +20,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <set>
 
 namespace coagula::tools {
 
@@ -53,6 +54,16 @@ std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
            io::contact_model_text(diagnose::contact_model_of(best->settings, radius));
 }
 
+/// Whether a row of a structure series stands for a group; without their column the rows are counted.
+bool has_group(const diagnose::Measurement& table, double group) {
+    if (table.kind != diagnose::MeasurementKind::structure_series) {
+        return false;
+    }
+    const diagnose::Column* column = diagnose::find_column(table, "structure");
+    return column == nullptr ? group <= static_cast<double>(table.rows())
+                             : std::find(column->values.begin(), column->values.end(), group) != column->values.end();
+}
+
 /// Those of the file, and where the structures are not those of the sample.
 std::vector<std::string> notes_on(const Experiment& experiment, double radius, std::vector<std::string> notes) {
     constexpr double noticeable = 0.05;
@@ -69,6 +80,12 @@ std::vector<std::string> notes_on(const Experiment& experiment, double radius, s
         compare(fraction, experiment.sample.volume_fraction, "volume fraction", "sample.volume_fraction", "1");
     }
     compare(radius, experiment.sample.particle_radius, "particle radius", "sample.particle_radius", "m");
+    for (const std::size_t group : std::set(experiment.structure_groups.begin(), experiment.structure_groups.end())) {
+        const auto stands = [&](const diagnose::Measurement& table) { return has_group(table, static_cast<double>(group)); };
+        if (std::none_of(experiment.measurements.begin(), experiment.measurements.end(), stands)) {
+            notes.push_back("no row of a structure series is number " + std::to_string(group) + " of structures.groups");
+        }
+    }
     return notes;
 }
 

@@ -111,7 +111,8 @@ void ExperimentReader::read_instrument() {
 int small_count(TomlKeys& keys, const std::string& key, std::int64_t low) {
     const std::int64_t value = keys.whole(key).value_or(low);
     if (value < low || value > std::numeric_limits<int>::max()) {
-        keys.fail(key, "is " + std::to_string(value) + ", but must be a whole number >= " + std::to_string(low));
+        keys.fail(key, "is " + std::to_string(value) + ", but must be a whole number from " + std::to_string(low) + " to " +
+                           std::to_string(std::numeric_limits<int>::max()));
     }
     return static_cast<int>(value);
 }
@@ -121,7 +122,7 @@ void ExperimentReader::read_structures() {
     for (const std::string& file : keys.texts("files")) {
         const std::string path = resolved(file);
         if (!fs::is_regular_file(path)) {
-            keys.fail("files", path + " does not exist");
+            keys.fail("files", path + (fs::exists(path) ? " is no file" : " does not exist"));
         }
         result_.experiment.structures.push_back(path);
     }

@@ -16,11 +16,6 @@ bool has_numbers(const io::PlainColumn& column) {
     return std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// Also where neither is a number.
-bool same(double one, double other) {
-    return one == other || (std::isnan(one) && std::isnan(other));
-}
-
 /// Builds one measurement.
 class Converter {
 public:
@@ -66,7 +61,7 @@ private:
         for (const io::PlainColumn& column : table_.columns) {
             all += (all.empty() ? "'" : ", '") + column.heading + "'";
         }
-        fail("there is no column '" + heading + "'; the columns are " + all);
+        fail("there is no column '" + heading + "' with numbers; those with numbers are " + all);
     }
 
     /// Two columns of one heading would leave open which is meant, unless they say the same.
@@ -75,7 +70,7 @@ private:
         for (std::size_t i = 0; i < table_.columns.size(); ++i) {
             const io::PlainColumn& other = table_.columns[i];
             if (i != index && other.heading == chosen.heading && other.unit == chosen.unit && has_numbers(other) &&
-                !std::equal(other.values.begin(), other.values.end(), chosen.values.begin(), chosen.values.end(), same)) {
+                !same_values(other.values, chosen.values)) {
                 fail("two columns have the heading '" + chosen.heading + "' and differ; change one of them");
             }
         }
@@ -181,6 +176,11 @@ private:
 };
 
 }  // namespace
+
+bool same_values(const std::vector<double>& one, const std::vector<double>& other) {
+    return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                      [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
+}
 
 diagnose::Measurement to_measurement(const io::MeasuredFile& file, const io::PlainTable& table, diagnose::MeasurementKind kind,
                                      const std::string& label, const ColumnRules& rules) {

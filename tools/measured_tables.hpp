@@ -25,4 +25,7 @@ struct ColumnRules {
 diagnose::Measurement to_measurement(const io::MeasuredFile& file, const io::PlainTable& table, diagnose::MeasurementKind kind,
                                      const std::string& label, const ColumnRules& rules);
 
+/// As many and the same, or no number in both.
+bool same_values(const std::vector<double>& one, const std::vector<double>& other);
+
 }  // namespace coagula::tools

@@ -104,6 +104,9 @@ private:
 
 /// " (0.333 to 3 mm)".
 std::string millimetres(std::initializer_list<double> lengths) {
+    if (!std::isfinite(*lengths.begin())) {
+        return {};
+    }
     std::ostringstream text;
     text << std::setprecision(3);
     for (const double length : lengths) {
@@ -141,6 +144,15 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
         cone.cone_angle = usual_cone;
         add("an amplitude sweep on a fresh sample under a cone of 1 degree, where the strain is the same everywhere", cone);
     }
+    if (experiment.instrument.geometry == Geometry::cone_plate) {
+        Measurement rough = plan.table(MeasurementKind::frequency_sweep);
+        rough.rough_plates = true;
+        add("a sweep at the smallest strain between a rough cone and a rough plate, at which nothing slips", rough);
+        add("a sweep at the smallest strain under a cone of half the radius" +
+                millimetres({0.5 * experiment.instrument.plate_radius}),
+            plan.table(MeasurementKind::frequency_sweep));
+        candidates.back().experiment.instrument.plate_radius *= 0.5;
+    }
     if (std::isfinite(gap)) {
         // A drift in time goes with the gap in one direction and against it in the other.
         const bool upwards = narrows(experiment);
@@ -159,7 +171,7 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
         add(series + " with a Newtonian oil of known viscosity", oil);
         add(series + " between rough plates, at which nothing slips, and one with a Newtonian oil of known viscosity", rough, oil);
         const double half = 0.5 * experiment.instrument.plate_radius;
-        add("a frequency sweep with a plate of half the radius" + (std::isfinite(half) ? millimetres({half}) : ""),
+        add("a frequency sweep with a plate of half the radius" + millimetres({half}),
             Plan(plan).frequency(frequencies(10)).table(MeasurementKind::frequency_sweep));
         candidates.back().experiment.instrument.plate_radius = half;
     }

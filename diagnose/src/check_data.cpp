@@ -43,8 +43,8 @@ public:
         check_columns();
         if (checked_.problems.empty()) {
             check_whole_numbers();
-            leave_out_impossible_cells();
             check_level();
+            leave_out_impossible_cells();
             check_order();
             check_relations();
             check_what_is_left();
@@ -141,10 +141,9 @@ void Checker::check_whole_numbers() {
 }
 
 void Checker::leave_out_impossible_cells() {
-    const std::string axis = axis_of(table()) == nullptr ? "" : axis_of(table())->name;
     for (Column& column : table().columns) {
         const Quantity& quantity = *find_quantity(column.name);
-        const bool amplitude = column.name == axis && column.name == "strain";
+        const bool amplitude = column.name == "strain" && table().kind != MeasurementKind::waveform;
         const double low = amplitude ? 0 : quantity.low;
         const bool low_excluded = amplitude || quantity.low_excluded;
         for (std::size_t row = 0; row < table().rows(); ++row) {

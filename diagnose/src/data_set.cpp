@@ -14,6 +14,8 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr std::size_t fewest_observations = 5;
+constexpr std::size_t most_observations = 3000;  ///< their covariances take a minute or so
+constexpr double least_error = 1e-4;             ///< of a number over it: what no instrument reads better
 
 RowNoise noise_of(const std::vector<Observation>& observations, const Eigen::VectorXd& deviation) {
     RowNoise noise{deviation, {}, Eigen::VectorXd::Zero(deviation.size())};
@@ -95,6 +97,11 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
                                 " inside"
                               : ""));
     }
+    if (data.observations.size() > most_observations) {
+        throw InputError("the experiment has " + std::to_string(data.observations.size()) + " numbers, more than " +
+                         std::to_string(most_observations) +
+                         ": take every k-th row of the longest tables, rows = [first, last, k]");
+    }
     data.values.resize(static_cast<Index>(data.observations.size()));
     Eigen::VectorXd deviation(data.values.size());
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
@@ -104,6 +111,9 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         const double stated = one.loss ? std::hypot(noise.loss_floor, noise.loss_relative * one.value)
                                        : std::hypot(noise.storage_floor, noise.storage_relative * one.value);
         deviation[row] = std::isfinite(one.standard_error) ? one.standard_error : stated;
+        if (deviation[row] > 0) {
+            deviation[row] = std::max(deviation[row], least_error * std::abs(one.value));
+        }
         if (!(deviation[row] > 0)) {
             const Measurement& table = experiment.measurements[one.measurement];
             throw InputError(table.label + ": row " + std::to_string(one.row + 1) + " of " + observable_of(one) +

@@ -7,6 +7,7 @@
 
 #include <ceres/ceres.h>
 #include <Eigen/Cholesky>
+#include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -249,7 +250,9 @@ Eigen::MatrixXd Inference::draws_from(const PosteriorGrid& grid, const std::vect
         while (number + 1 < grid.nodes.size() && below + probability[number] < (draw + 0.5) / posterior_draws) {
             below += probability[number++];
         }
-        draws(0, draw) = std::exp(grid.nodes[number].log_stiffness);
+        const double part = std::fmod((draw + 0.5) * std::numbers::phi, 1.0);  // apart from that of the node
+        const double departure = boost::math::quantile(boost::math::normal(), part);
+        draws(0, draw) = std::exp(grid.nodes[number].log_stiffness + grid.nodes[number].deviation * departure);
         for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
             const auto row = static_cast<Index>(axis);
             draws(row + 1, draw) = parameters[axis].at(grid.places[number][row]);
@@ -278,9 +281,11 @@ Fit Inference::fit(const Hypothesis& hypothesis) const {
         fit.parameters.push_back({value, std::min(value, parameters[axis].at(grid.quantile(row, 0.05))),
                                   std::max(value, parameters[axis].at(grid.quantile(row, 0.95)))});
     }
-    const double spread = 1.645 * node.deviation;
-    fit.stiffness = {fit.settings.normal_stiffness, fit.settings.normal_stiffness * std::exp(-spread),
-                     fit.settings.normal_stiffness * std::exp(spread)};
+    // A stiffness that only the data show also has what so few structures leave in their level.
+    const double best_one = fit.settings.normal_stiffness;
+    const double of_structures = std::isnan(stiffness_error()) ? forward_.level_error() : 0.0;
+    const auto quantile = [&](double part) { return std::exp(grid.log_stiffness_quantile(part, of_structures)); };
+    fit.stiffness = {best_one, std::min(best_one, quantile(0.05)), std::max(best_one, quantile(0.95))};
     return fit;
 }
 

@@ -31,6 +31,8 @@ std::string value_text(double value, Coordinate coordinate) {
             return three_digits(1e3 * value) + " mm";
         case Coordinate::pore_radius:
             return three_digits(1e6 * value) + " um";
+        case Coordinate::distance:
+            return three_digits(value) + " diameters";
         default:
             return three_digits(value);
     }
@@ -126,7 +128,7 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
                                 .departure = effects[sample],
                                 .sentence = "sample '" + data.sample_names[static_cast<std::size_t>(sample)] +
                                             "' as a whole lies " + three_digits(100 * std::abs(effects[sample])) + " %, " +
-                                            deviations_text(score) + " the others"});
+                                            deviations_text(score) + " the base model"});
         }
     }
 }
@@ -168,16 +170,19 @@ bool is_level(double early, double late) {
     return early * late > 0 && std::abs(late - early) < 0.2 * std::abs(early);
 }
 
-/// An axis in words.
-std::string spoken_axis(const MisfitStatistic& statistic, const Experiment& experiment,
-                        const std::vector<Observation>& observations) {
-    if (statistic.coordinate == Coordinate::angular_frequency) {
-        return "frequency";
-    }
-    const bool clocked = std::all_of(statistic.rows.begin(), statistic.rows.end(), [&](Index row) {
+/// Whether tables state the times of these rows.
+bool is_clocked(const MisfitStatistic& statistic, const Experiment& experiment, const std::vector<Observation>& observations) {
+    return std::all_of(statistic.rows.begin(), statistic.rows.end(), [&](Index row) {
         const std::size_t table = observations[static_cast<std::size_t>(row)].measurement;
         return find_column(experiment.measurements[table], "time") != nullptr;
     });
+}
+
+/// An axis in words.
+std::string spoken_axis(const MisfitStatistic& statistic, bool clocked) {
+    if (statistic.coordinate == Coordinate::angular_frequency) {
+        return "frequency";
+    }
     return statistic.coordinate == Coordinate::time && !clocked ? "time (10 s a row where none is stated)"
                                                                 : std::string(name_of(statistic.coordinate));
 }
@@ -206,7 +211,7 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
         std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
     failure.from = places[place];
     failure.departure = late;
-    const std::string axis = spoken_axis(statistic, experiment, observations);
+    const std::string axis = spoken_axis(statistic, is_clocked(statistic, experiment, observations));
     const std::string of = loss                                              ? " (of the largest predicted modulus)"
                            : third_harmonic                                  ? " (of the first)"
                            : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
@@ -235,15 +240,28 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
         }
     }
     std::vector<Failure> failures;
+    const Experiment& experiment = inference.forward().experiment();
     const auto add = [&](const MisfitStatistic& one) {
-        Failure found = departure_along(one, inference.forward().experiment(), observations, residual, prediction);
+        Failure found = departure_along(one, experiment, observations, residual, prediction);
         if (std::none_of(failures.begin(), failures.end(),
                          [&](const Failure& other) { return other.sentence == found.sentence; })) {
             failures.push_back(std::move(found));
         }
     };
+    const auto is_told = [&](const MisfitStatistic& one) {
+        return std::any_of(failures.begin(), failures.end(),
+                           [&](const Failure& other) { return other.observable == one.observable; });
+    };
+    std::vector<const MisfitStatistic*> by_rows;  // along a time that nobody has stated
     for (const MisfitStatistic* statistic : along) {
-        if (statistic->score >= noticeable) {
+        if (statistic->score < noticeable) {
+            continue;
+        }
+        const bool clocked = statistic->coordinate != Coordinate::time || is_clocked(*statistic, experiment, observations);
+        clocked ? add(*statistic) : by_rows.push_back(statistic);
+    }
+    for (const MisfitStatistic* statistic : by_rows) {
+        if (!is_told(*statistic)) {
             add(*statistic);
         }
     }

@@ -5,11 +5,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 namespace coagula::diagnose {
 
 namespace {
+
+/// Where a growing function passes a value.
+double halved(const std::function<double(double)>& function, double value, double low, double high) {
+    for (int halving = 0; halving < 50; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (function(middle) < value ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
 
 using Eigen::Index;
 
@@ -83,13 +94,28 @@ double PosteriorGrid::quantile(Index axis, double part) const {
         }
         return sum;
     };
-    double low = 0;
-    double high = 1;
-    for (int halving = 0; halving < 50; ++halving) {
-        const double middle = 0.5 * (low + high);
-        (below(middle) < part ? low : high) = middle;
+    return halved(below, part, 0, 1);
+}
+
+double PosteriorGrid::log_stiffness_quantile(double part, double further) const {
+    constexpr double farthest = 10;  // standard deviations
+    const std::vector<double> probability = probabilities_of(log_weights(*this));
+    const auto deviation = [&](const Node& node) { return std::hypot(node.deviation, further); };
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const Node& node : nodes) {
+        low = std::min(low, node.log_stiffness - farthest * deviation(node));
+        high = std::max(high, node.log_stiffness + farthest * deviation(node));
     }
-    return 0.5 * (low + high);
+    const auto below = [&](double log_stiffness) {
+        double sum = 0;
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const double departure = (log_stiffness - nodes[k].log_stiffness) / deviation(nodes[k]);
+            sum += probability[k] * 0.5 * std::erfc(-departure / std::numbers::sqrt2);
+        }
+        return sum;
+    };
+    return halved(below, part, low, high);
 }
 
 PosteriorGrid grid_along_axes(Index axes, const EvaluateNode& evaluate) {

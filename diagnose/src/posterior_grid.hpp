@@ -31,6 +31,9 @@ struct PosteriorGrid {
     double effective_nodes() const;
     /// Place along an axis below which a part of the probability lies.
     double quantile(Eigen::Index axis, double part) const;
+    /// Logarithm of the stiffness below which a part of the probability lies, whatever the place.
+    /// @param further standard deviation that no node knows of.
+    double log_stiffness_quantile(double part, double further) const;
 };
 
 /// A grid along the axes that closes in on where the posterior is.

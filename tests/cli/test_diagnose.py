@@ -139,6 +139,18 @@ class BadInput(ProgramTest):
         twice = HEAD.replace("loss modulus", "storage modulus")
         self.refuse_data(twice + "".join(f"{i},500,{50 + i},1\n" for i in range(1, 9)), "two columns have the heading 'storage modulus' and differ")
 
+    def test_copies_and_plans_are_no_measurements(self):
+        self.refuse(experiment(SWEEP, SWEEP + '\nsample = "B"'), "sweep.csv, sample 'B': the same numbers as in sweep.csv, sample 'measurement 1'")
+        self.refuse(experiment('kind = "time-sweep"\nplanned = { from = "1 s", to = "9 s", points = 9 }'), "measurement 1 (planned)", "--power")
+
+    def test_what_no_amplitude_and_no_modulus_can_be(self):
+        text = "frequency [Hz],strain [1],storage modulus [Pa]\n" + "".join(f"{k},{(-1) ** k},{'1e300' if k == 4 else 500 + k}\n" for k in range(1, 9))
+        self.write("sweep.csv", text)
+        self.write("experiment.toml", experiment(SWEEP.replace("amplitude", "frequency")))
+        (table,) = self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"]
+        cells = {(cell["column"], cell["row"]) for cell in table["left_out"]}
+        self.assertEqual(cells, {("storage_modulus", 4), *(("strain", row) for row in (1, 3, 5, 7))})
+
     def test_columns_that_say_the_same_twice(self):
         twice = "strain [%],storage modulus [Pa],storage modulus [Pa]\n" + "".join(f"{i},{500 + i},{500 + i}\n" for i in range(1, 9))
         self.write("sweep.csv", twice)

@@ -69,9 +69,17 @@ class Diagnosis(ProgramTest):
                 self.assertAlmostEqual(again[part]["mean"][k] / predicted[(k + 1, part)], 1, delta=1e-6)
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="--force")
 
-    def smooth_sweep(self):
-        self.write("sweep.csv", "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]\n" +
-                   "".join(f"{k},{1e6 + k},{1e4 + k}\n" for k in range(1, 12)))
+    def smooth_sweep(self, rows=11):
+        self.write("sweep.csv", "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa],error [Pa]\n" +
+                   "".join(f"{k},{1e6 + k},{1e4 + k},1e-9\n" for k in range(1, rows + 1)))
+
+    def test_errors_that_no_instrument_has_are_no_reason_for_nan(self):
+        self.smooth_sweep()
+        self.write("experiment.toml", EXPERIMENT + 'standard_errors = { storage_modulus = "error", loss_modulus = "error" }\n')
+        found = self.succeed_json("diagnose", "experiment.toml", "-o", "results", "--bootstrap", "99", "--causes", "ageing")
+        for cause in found["causes"]:
+            self.assertIsInstance(cause["posterior"], float)
+        self.assertAlmostEqual(found["rows"][0]["standard_deviation"] / found["rows"][0]["measured"], 1e-4, delta=1e-9)
 
     def test_nothing_of_the_folder_is_lost(self):
         self.smooth_sweep()
@@ -101,6 +109,9 @@ class Diagnosis(ProgramTest):
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="sweep.csv")
         self.smooth_sweep()
         self.fail_with(2, "diagnose", "experiment.toml", says="--output")
+        self.smooth_sweep(1600)
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="3200 numbers, more than 3000: take every k-th row")
+        self.smooth_sweep()
         (self.folder / "copy.h5").write_bytes((self.folder / "packing.h5").read_bytes())
         self.write("experiment.toml", EXPERIMENT.replace('["packing.h5"]', '["packing.h5", "copy.h5"]'))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="copy.h5: the same particles as in")

@@ -16,8 +16,8 @@ Mechanism ageing_after_shear() {
     return {.name = "ageing-after-shear",
             .term = "the structure that the shear before the run destroyed builds up again: the stiffness grows as a power of time",
             .signature = "follows the time since the shear, not the strain, over orders of magnitude",
-            .parameters = {{"exponent", "1", 0.1, 3, true, &Settings::build_up_exponent},
-                           {"time", "s", 1, 1000, true, &Settings::build_up_time}},
+            .parameters = {{"build_up_exponent", "1", 0.1, 3, true, &Settings::build_up_exponent},
+                           {"build_up_time", "s", 1, 1000, true, &Settings::build_up_time}},
             .in_contact = false,
             .applies = sheared_before};
 }

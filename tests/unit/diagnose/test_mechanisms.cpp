@@ -10,6 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 namespace coagula::diagnose {
 namespace {
 
@@ -181,6 +184,16 @@ TEST(WallSlip, UnderAConeIsThatOfTheGapAtEveryRadius) {
     EXPECT_EQ(first_modulus(experiment, settings), modulus);
     experiment.instrument.plate_radius = unset;
     EXPECT_FALSE(find_mechanism("wall-slip")->applies(experiment));
+}
+
+/// What a pair says of one cause is not lost behind the other.
+TEST(Catalogue, ParametersHaveNamesOfTheirOwn) {
+    std::set<std::string> names{"normal_stiffness"};
+    for (const Mechanism& mechanism : catalogue()) {
+        for (const MechanismParameter& parameter : mechanism.parameters) {
+            EXPECT_TRUE(names.insert(parameter.name).second) << mechanism.name << ": " << parameter.name;
+        }
+    }
 }
 
 /// At both ends of their priors.

@@ -50,5 +50,17 @@ TEST(PosteriorGrid, LeavesOutWhatThePriorDoesNotAllow) {
     EXPECT_GE(grid.quantile(0, 0.01), 0);
 }
 
+/// Between two nodes far apart lie the quarter and three quarters of what the likelier one has.
+TEST(PosteriorGrid, StiffnessIsThatOfAllNodes) {
+    PosteriorGrid grid;
+    grid.nodes = {{.log_stiffness = 1, .deviation = 0.03, .log_weight = std::log(0.75)},
+                  {.log_stiffness = 3, .deviation = 0.1, .log_weight = std::log(0.25)}};
+    EXPECT_NEAR(grid.log_stiffness_quantile(0.375, 0), 1, 1e-9);
+    EXPECT_NEAR(grid.log_stiffness_quantile(0.875, 0), 3, 1e-9);
+    EXPECT_NEAR(grid.log_stiffness_quantile(0.375 + 0.75 * 0.3413447461, 0.04), 1.05, 1e-6);
+    grid.nodes.pop_back();
+    EXPECT_NEAR(grid.log_stiffness_quantile(0.95, 0.04) - 1, 1.644854 * 0.05, 1e-6);
+}
+
 }  // namespace
 }  // namespace coagula::diagnose
