@@ -110,9 +110,10 @@ void ExperimentReader::read_instrument() {
 
 int small_count(TomlKeys& keys, const std::string& key, std::int64_t low) {
     const std::int64_t value = keys.whole(key).value_or(low);
-    if (value < low || value > std::numeric_limits<int>::max()) {
-        keys.fail(key, "is " + std::to_string(value) + ", but must be a whole number from " + std::to_string(low) + " to " +
-                           std::to_string(std::numeric_limits<int>::max()));
+    constexpr std::int64_t high = std::numeric_limits<int>::max();
+    if (value < low || value > high) {
+        keys.fail(key, "is " + std::to_string(value) + ", but must be a whole number " +
+                           (value < low ? ">= " + std::to_string(low) : "<= " + std::to_string(high)));
     }
     return static_cast<int>(value);
 }

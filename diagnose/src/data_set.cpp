@@ -14,7 +14,7 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr std::size_t fewest_observations = 5;
-constexpr std::size_t most_observations = 3000;  ///< their covariances take a minute or so
+constexpr std::size_t most_observations = 3000;  ///< covariances of more take many minutes and say little more
 constexpr double least_error = 1e-4;             ///< of a number over it: what no instrument reads better
 
 RowNoise noise_of(const std::vector<Observation>& observations, const Eigen::VectorXd& deviation) {

@@ -58,6 +58,12 @@ double Inference::stiffness_error() const {
     return std::isnan(stated) ? stated : std::hypot(stated, forward_.level_error());
 }
 
+bool Inference::level_is_open() const {
+    const auto& observations = likelihood_.data().observations;
+    return std::isnan(forward_.experiment().sample.normal_stiffness_error) &&
+           std::any_of(observations.begin(), observations.end(), is_modulus);
+}
+
 double Inference::stiffness_departure(double log_stiffness) const {
     const Sample& sample = forward_.experiment().sample;
     return (log_stiffness - std::log(sample.normal_stiffness)) / stiffness_error();
@@ -281,9 +287,8 @@ Fit Inference::fit(const Hypothesis& hypothesis) const {
         fit.parameters.push_back({value, std::min(value, parameters[axis].at(grid.quantile(row, 0.05))),
                                   std::max(value, parameters[axis].at(grid.quantile(row, 0.95)))});
     }
-    // A stiffness that only the data show also has what so few structures leave in their level.
     const double best_one = fit.settings.normal_stiffness;
-    const double of_structures = std::isnan(stiffness_error()) ? forward_.level_error() : 0.0;
+    const double of_structures = level_is_open() ? forward_.level_error() : 0.0;
     const auto quantile = [&](double part) { return std::exp(grid.log_stiffness_quantile(part, of_structures)); };
     fit.stiffness = {best_one, std::min(best_one, quantile(0.05)), std::max(best_one, quantile(0.95))};
     return fit;

@@ -66,6 +66,8 @@ public:
     const Likelihood& likelihood() const { return likelihood_; }
 
 private:
+    /// Moduli show a stiffness that nothing else tells, with what so few structures leave in their level.
+    bool level_is_open() const;
     class ProjectedResiduals;
     static Settings settings_at(const std::vector<MechanismParameter>& parameters, const Eigen::VectorXd& place);
     static Eigen::MatrixXd draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters);

@@ -90,7 +90,7 @@ class Power(ProgramTest):
         self.write("plan.toml", PLAN)
         self.fail_with(2, "diagnose", "--power", "plan.toml", "--causes", "magic", says="'magic' is no cause")
         # A plan is no measurement.
-        self.fail_with(2, "diagnose", "plan.toml", "-o", "results", says="no column 'storage_modulus'")
+        self.fail_with(2, "diagnose", "plan.toml", "-o", "results", says="a plan has no measured moduli")
 
 
 if __name__ == "__main__":

@@ -83,7 +83,7 @@ def is_tied(entry):
 
 def has_gain(entry):
     gain = entry["found"].get("gain")
-    return bool(gain) and gain["elpd_ci90"][0] > 0
+    return bool(gain) and gain["held_out"] > 0 and gain["elpd_ci90"][0] > 0
 
 
 def confidently_wrong(entry):

@@ -33,9 +33,8 @@ struct WaveformHarmonics {
 std::optional<WaveformHarmonics> harmonics_of(const Measurement& waveform);
 
 inline constexpr const char* needs_of_harmonics =
-    "the waveform has no harmonics: it needs its angular frequency, at least 11 readable samples over nine tenths of a period, and "
-    "a "
-    "strain and a stress that oscillate";
+    "the waveform has no harmonics: it needs its angular frequency, at least 11 readable samples over nine tenths of a period, "
+    "and a strain and a stress that oscillate";
 
 /// Puts tables of harmonics in the place of the waveforms of an experiment, one for each sample, run and way to measure, with a row
 /// per waveform: `strain`, `angular_frequency`, `third_harmonic_storage` and `third_harmonic_loss` with standard errors, of which a
