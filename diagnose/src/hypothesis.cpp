@@ -61,7 +61,8 @@ double Inference::stiffness_error() const {
 bool Inference::level_is_open() const {
     const auto& observations = likelihood_.data().observations;
     return std::isnan(forward_.experiment().sample.normal_stiffness_error) &&
-           std::any_of(observations.begin(), observations.end(), is_modulus);
+           std::any_of(observations.begin(), observations.end(),
+                       [](const Observation& one) { return is_modulus(one) && one.structures == 0; });
 }
 
 double Inference::stiffness_departure(double log_stiffness) const {

@@ -66,7 +66,8 @@ public:
     const Likelihood& likelihood() const { return likelihood_; }
 
 private:
-    /// Moduli show a stiffness that nothing else tells, with what so few structures leave in their level.
+    /// Moduli show a stiffness that nothing else tells, with what so few structures leave in their level; in a structure series
+    /// each row has that error itself.
     bool level_is_open() const;
     class ProjectedResiduals;
     static Settings settings_at(const std::vector<MechanismParameter>& parameters, const Eigen::VectorXd& place);
