@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -33,18 +34,43 @@ double typical(const Measurement& table, std::string_view name) {
     return values[values.size() / 2];
 }
 
-/// The row of `table` at this axis value.
-std::optional<std::size_t> row_at(const Measurement& table, double position) {
-    const std::vector<double>& axis = axis_of(table)->values;
-    std::optional<std::size_t> nearest;
-    for (std::size_t row = 0; row < axis.size(); ++row) {
-        if (std::isfinite(axis[row]) && alike(axis[row], position) &&
-            (!nearest || std::abs(axis[row] - position) < std::abs(axis[*nearest] - position))) {
-            nearest = row;
+/// The rows of a table in the order of their axis values, the first of equal ones first.
+class RowsByAxis {
+public:
+    explicit RowsByAxis(const Measurement& table) {
+        const std::vector<double>& axis = axis_of(table)->values;
+        for (std::size_t row = 0; row < axis.size(); ++row) {
+            if (std::isfinite(axis[row])) {
+                rows_.emplace_back(axis[row], row);
+            }
         }
+        std::sort(rows_.begin(), rows_.end());
     }
-    return nearest;
-}
+
+    /// The row nearest to this axis value, if it is alike.
+    std::optional<std::size_t> at(double position) const {
+        const auto above = first_from(position);
+        std::pair<double, std::size_t> nearest{unset, 0};
+        if (above != rows_.end() && alike(above->first, position)) {
+            nearest = {above->first - position, above->second};
+        }
+        if (above != rows_.begin()) {
+            const auto below = first_from(std::prev(above)->first);
+            if (alike(below->first, position)) {
+                const std::pair<double, std::size_t> other{position - below->first, below->second};
+                nearest = std::isnan(nearest.first) ? other : std::min(nearest, other);
+            }
+        }
+        return std::isnan(nearest.first) ? std::nullopt : std::optional(nearest.second);
+    }
+
+private:
+    std::vector<std::pair<double, std::size_t>>::const_iterator first_from(double position) const {
+        return std::lower_bound(rows_.begin(), rows_.end(), std::pair<double, std::size_t>{position, 0});
+    }
+
+    std::vector<std::pair<double, std::size_t>> rows_;
+};
 
 /// Whether an axis goes up more often than down.
 bool goes_up(const Measurement& table) {
@@ -72,8 +98,9 @@ bool are_replicates(const Measurement& a, const Measurement& b) {
         }
     }
     const std::vector<double>& axis = axis_of(a)->values;
+    const RowsByAxis rows(b);
     const auto shared =
-        std::count_if(axis.begin(), axis.end(), [&](double position) { return std::isfinite(position) && row_at(b, position); });
+        std::count_if(axis.begin(), axis.end(), [&](double position) { return std::isfinite(position) && rows.at(position); });
     return static_cast<std::size_t>(shared) >= fewest_shared;
 }
 
@@ -124,14 +151,16 @@ Replicates replicates_in(const Group& tables, const Column& observable) {
     }
     replicates.complex_moduli.setConstant(replicates.axis.size(), unset);
     replicates.values.setConstant(replicates.axis.size(), static_cast<Eigen::Index>(tables.size()), unset);
+    std::vector<RowsByAxis> rows;
     for (const Measurement* table : tables) {
+        rows.emplace_back(*table);
         replicates.samples.push_back(table->sample);
         replicates.labels.push_back(table->label);
     }
     for (std::size_t row = 0; row < axis.size(); ++row) {
         std::vector<double> sizes;
         for (std::size_t k = 0; k < tables.size(); ++k) {
-            const std::size_t there = std::isfinite(axis[row]) ? row_at(*tables[k], axis[row]).value_or(none) : none;
+            const std::size_t there = std::isfinite(axis[row]) ? rows[k].at(axis[row]).value_or(none) : none;
             if (const Column* column = find_column(*tables[k], observable.name); column != nullptr && there != none) {
                 replicates.values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(k)) = column->values[there];
                 sizes.push_back(complex_modulus(*tables[k], there));
