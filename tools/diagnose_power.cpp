@@ -160,6 +160,7 @@ void run_power(const Arguments& arguments) {
     options.storage_modulus = file.expected_storage_modulus;
     if (arguments.has("causes")) {
         options.causes = split(arguments.text("causes"));
+        diagnose::require_causes(options.causes);
     }
     const auto given = [&](const std::string& name, int otherwise) {
         return arguments.has(name) ? static_cast<int>(arguments.count(name)) : otherwise;
@@ -169,12 +170,13 @@ void run_power(const Arguments& arguments) {
     options.diagnosis.level = arguments.quantity("level");
     options.diagnosis.bootstrap = static_cast<int>(std::min<std::int64_t>(arguments.count("bootstrap"), 199));
     options.diagnosis.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    ExperimentStructures structures = structures_of(file.experiment, progress);
+    ExperimentStructures structures = naming(arguments.input(), [&] { return structures_of(file.experiment, progress); });
     diagnose::SimulationCache cache = folder ? read_cache(folder->path() / "simulations.txt") : diagnose::SimulationCache{};
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
                                   file.experiment.structure_groups);
     simulator.use(std::move(structures.stages));
-    const Power power = diagnose::find_power(file.experiment, simulator, options, progress);
+    const Power power =
+        naming(arguments.input(), [&] { return diagnose::find_power(file.experiment, simulator, options, progress); });
 
     Json json = to_json(power, options);
     json["seconds"] = clock.seconds();

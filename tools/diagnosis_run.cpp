@@ -109,11 +109,12 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
     if (arguments.has("causes")) {
         options.causes = split(arguments.text("causes"));
+        diagnose::require_causes(options.causes);
     }
     diagnose::state_errors(file.experiment, noise);
     diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
     diagnose::reduce_waveforms(file.experiment, file.noise.stated_relative, file.noise.stated_phase);
-    ExperimentStructures structures = structures_of(file.experiment, progress);
+    ExperimentStructures structures = naming(arguments.input(), [&] { return structures_of(file.experiment, progress); });
 
     diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
     const double radius = mean_radius(structures.packings.front());
@@ -121,7 +122,8 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
                                   file.experiment.structure_groups);
     simulator.use(std::move(structures.stages));
-    const diagnose::Diagnosis diagnosis = diagnose::diagnose(file.experiment, simulator, options, progress);
+    const diagnose::Diagnosis diagnosis =
+        naming(arguments.input(), [&] { return diagnose::diagnose(file.experiment, simulator, options, progress); });
 
     const std::string contact = model_text(diagnosis, radius);
     const std::string model = contact.empty() ? "" : (folder.path() / "extended_model.toml").string();

@@ -37,11 +37,7 @@ public:
         read_noise();
         read_expectation();
         read_measurements();
-        try {
-            diagnose::check(result_.experiment);
-        } catch (const InputError& error) {
-            throw InputError(path_ + ": " + error.what());
-        }
+        naming(path_, [&] { diagnose::check(result_.experiment); });
         return std::move(result_);
     }
 

@@ -1,6 +1,7 @@
 // The experiment file: TOML that names a sample, an instrument and tables of measured data (docs/experiment-file.md).
 #pragma once
 
+#include <coagula/common/checks.hpp>
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/noise.hpp>
 
@@ -19,5 +20,15 @@ struct ExperimentFile {
 /// Reads the file and the tables it names, in SI units; unreadable cells are listed in `left_out`. Paths are relative to the folder
 /// of the file. Throws InputError with a sentence that names the file, the key or column and the rule.
 ExperimentFile read_experiment(const std::string& path);
+
+/// What `work` with an experiment returns; an InputError of it names the experiment file first.
+template <typename Work>
+auto naming(const std::string& path, const Work& work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + error.what());
+    }
+}
 
 }  // namespace coagula::tools

@@ -110,13 +110,13 @@ class Diagnosis(ProgramTest):
         self.smooth_sweep()
         self.fail_with(2, "diagnose", "experiment.toml", says="--output")
         self.smooth_sweep(1600)
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="3200 numbers, more than 3000: take every k-th row")
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="experiment.toml: the experiment has 3200 numbers, more than 3000")
         self.smooth_sweep()
         (self.folder / "copy.h5").write_bytes((self.folder / "packing.h5").read_bytes())
         self.write("experiment.toml", EXPERIMENT.replace('["packing.h5"]', '["packing.h5", "copy.h5"]'))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="copy.h5: the same particles as in")
         self.write("experiment.toml", EXPERIMENT.replace('[structures]\nfiles = ["packing.h5"]\n', ""))
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="structures")
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="experiment.toml: [structures] gives no structures")
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "sweep.csv", says="no folder")
 
 
