@@ -149,7 +149,9 @@ void add_causes(Results& results, const Diagnosis& found) {
 void add_gain(Results& results, const diagnose::Gain& gain) {
     const std::string path = group + "gain/";
     const auto number = [&](const std::string& name, double value, const std::string& meaning) {
-        results.push_back(io::scalar(path + name, value, "1", meaning));
+        if (std::isfinite(value)) {
+            results.push_back(io::scalar(path + name, value, "1", meaning));
+        }
     };
     number("rmse_base", gain.rmse_base, "rms error over |G*| on held-out rows, base model");
     number("rmse_extended", gain.rmse_extended, "rms error over |G*| on held-out rows, best cause");
@@ -221,7 +223,7 @@ Results datasets_of(const DiagnosisRecord& record) {
     add_predictions(results, found.rows);
     add_detection(results, found);
     add_causes(results, found);
-    if (found.detected) {
+    if (found.detected && found.gain.held_out > 0) {
         add_gain(results, found.gain);
     }
     add_noise(results, record);

@@ -19,12 +19,12 @@ using diagnose::Verdict;
 
 constexpr double shown_from = 0.001;  ///< smallest probability of a cause with a line of its own
 
-std::string probability(double p) {
-    return printed(p);
+std::string print_number(double value) {
+    return printed(value);
 }
 
 std::string chance_text(const Diagnosis& found) {
-    return (is_least_p(found) ? "p ≤ " : "p = ") + probability(found.p_value);
+    return (is_least_p(found) ? "p ≤ " : "p = ") + print_number(found.p_value);
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -141,7 +141,7 @@ std::string causes(const Diagnosis& found) {
     html += paragraph(
         "Probability of each cause, given the data, over its physical range. " +
         (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
-        " The test of the base model, applied to the best cause, gives p = " + probability(found.extended_p_value) + ".");
+        " The test of the base model, applied to the best cause, gives p = " + print_number(found.extended_p_value) + ".");
     std::vector<std::vector<std::string>> rows;
     std::size_t improbable = 0;
     for (const Cause& cause : found.causes) {
@@ -195,8 +195,7 @@ std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
                       percent(gain.rmse_base) + " of |G*| (rms) with the base model, by " + percent(gain.rmse_flexible) +
                       " with a smooth correction of it, and by <b>" + percent(gain.rmse_extended) +
                       "</b> with the extended model: a factor of " + printed(gain.rmse_ratio) +
-                      ". The log predictive density changes by " + printed(gain.elpd_difference) + " (90 % interval " +
-                      printed(gain.elpd_low) + " to " + printed(gain.elpd_high) + ").");
+                      ". The log predictive density changes by " + change_of_density(gain, print_number) + ".");
     for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
         const diagnose::Measurement& table = record.experiment.measurements[k];
         for (const Picture& picture : draw_gain(gnuplot, table, k, record.diagnosis)) {
@@ -250,7 +249,8 @@ std::string next_sentence(const diagnose::Proposal& proposal) {
 std::string gained(const diagnose::Gain& gain) {
     return gain.held_out == 0 ? std::string{}
                               : " On rows that no model has seen its error is " + printed(100 * gain.rmse_extended) +
-                                    " % instead of " + printed(100 * gain.rmse_base) + " %.";
+                                    " % instead of " + printed(100 * gain.rmse_base) + " %; the log predictive density changes by " +
+                                    change_of_density(gain, print_number) + ".";
 }
 
 }  // namespace
@@ -265,7 +265,7 @@ std::string verdict_sentence(const Diagnosis& found) {
     if (found.verdict == Verdict::none_of_catalogue) {
         const Cause* best = extended_cause(found);
         return fails + (best == &found.causes.front() ? ", and so does the best that the catalogue has, " + best->name +
-                                                            " (p = " + probability(found.extended_p_value) + ")."
+                                                            " (p = " + print_number(found.extended_p_value) + ")."
                                                       : ", and no cause of the catalogue explains how.");
     }
     const std::string next = found.proposals.empty() ? "" : next_sentence(found.proposals.front());

@@ -79,7 +79,23 @@ Json estimate_json(const diagnose::Estimate& estimate, const std::string& unit) 
     return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}, {"unit", unit}};
 }
 
+std::string describe(const diagnose::Gain& gain) {
+    if (gain.held_out == 0) {
+        return "none: too few rows to hold some out";
+    }
+    const auto percent = [](double part) { return with_unit(100 * part, "1") + " %"; };
+    return "error " + percent(gain.rmse_base) + " by the base model, " + percent(gain.rmse_extended) + " by the best cause (" +
+           percent(gain.rmse_flexible) + " by a smooth correction); log predictive density " +
+           change_of_density(gain, [](double value) { return with_unit(value, "1"); });
+}
+
 }  // namespace
+
+std::string change_of_density(const diagnose::Gain& gain, const std::function<std::string(double)>& print) {
+    const std::string change = (gain.elpd_difference < 0 ? "" : "+") + print(gain.elpd_difference);
+    return std::isnan(gain.elpd_low) ? change + " (too few rows for an interval)"
+                                     : change + " (90 % interval " + print(gain.elpd_low) + " to " + print(gain.elpd_high) + ")";
+}
 
 bool is_least_p(const Diagnosis& diagnosis) {
     return diagnosis.p_value * static_cast<double>(diagnosis.bootstrap.size() + 1) < 1.5;
@@ -138,15 +154,13 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
     if (diagnosis.detected) {
         const diagnose::Gain& gain = diagnosis.gain;
         json["extended_p_value"] = diagnosis.extended_p_value;
-        // Nothing is known of a gain where no row was held out.
-        const auto known = [&](double value) { return gain.held_out > 0 ? number(value) : Json(nullptr); };
         json["gain"] = {{"held_out", gain.held_out},
-                        {"rmse_base", known(gain.rmse_base)},
-                        {"rmse_extended", known(gain.rmse_extended)},
-                        {"rmse_flexible", known(gain.rmse_flexible)},
-                        {"rmse_ratio", known(gain.rmse_ratio)},
-                        {"elpd_difference", known(gain.elpd_difference)},
-                        {"elpd_ci90", {known(gain.elpd_low), known(gain.elpd_high)}}};
+                        {"rmse_base", number(gain.rmse_base)},
+                        {"rmse_extended", number(gain.rmse_extended)},
+                        {"rmse_flexible", number(gain.rmse_flexible)},
+                        {"rmse_ratio", number(gain.rmse_ratio)},
+                        {"elpd_difference", number(gain.elpd_difference)},
+                        {"elpd_ci90", {number(gain.elpd_low), number(gain.elpd_high)}}};
     }
     json["noise"] = {{"sample", diagnosis.noise.sample}, {"tables", Json::array()}};
     for (const diagnose::NoiseModel& one : noise) {
@@ -182,12 +196,7 @@ Table table_of(const Diagnosis& diagnosis) {
             lines.emplace_back("  " + cause.name, describe(cause));
         }
     }
-    const diagnose::Gain& gain = diagnosis.gain;
-    lines.emplace_back("gain on held-out data", gain.held_out == 0
-                                                    ? "none: too few rows to hold some out"
-                                                    : "error " + with_unit(100 * gain.rmse_base, "1") + " % by the base model, " +
-                                                          with_unit(100 * gain.rmse_extended, "1") + " % by the best cause (" +
-                                                          with_unit(100 * gain.rmse_flexible, "1") + " % by a smooth correction)");
+    lines.emplace_back("gain on held-out data", describe(diagnosis.gain));
     if (!diagnosis.proposals.empty()) {
         const diagnose::Proposal& first = diagnosis.proposals.front();
         lines.emplace_back("measure next", first.what + "   (decides with probability " + with_unit(first.resolution, "1") + ")");

@@ -6,6 +6,7 @@
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/noise.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ Table table_of(const diagnose::Diagnosis& diagnosis);
 
 /// The cause that the extended model has; null when there is none (nothing detected).
 const diagnose::Cause* extended_cause(const diagnose::Diagnosis& diagnosis);
+
+/// How the log predictive density on held-out rows changes: "+12.3 (90 % interval 8.1 to 17)". There must be such rows.
+std::string change_of_density(const diagnose::Gain& gain, const std::function<std::string(double)>& print);
 
 /// No data set drawn from the base model has a misfit as large, so that p is at most what is stated.
 bool is_least_p(const diagnose::Diagnosis& diagnosis);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t block_rows = 3;
 constexpr int resamples = 2000;
+constexpr std::ptrdiff_t fewest_known = 4;
 
 std::vector<Index> rows_where(const std::vector<bool>& held_out, bool wanted) {
     std::vector<Index> rows;
@@ -49,10 +50,13 @@ double root_mean_square(const DataSet& held, const Eigen::VectorXd& prediction) 
     return std::sqrt(sum / static_cast<double>(held.observations.size()));
 }
 
-/// 90 % interval of a sum of differences, resampled in blocks of neighbours.
+/// 90 % interval of a sum of differences, resampled in blocks of neighbours; one block says nothing of the scatter of blocks.
 void bootstrap_interval(const Eigen::VectorXd& differences, std::uint64_t seed, Gain& gain) {
     const auto count = static_cast<std::size_t>(differences.size());
     const std::size_t blocks = (count + block_rows - 1) / block_rows;
+    if (blocks < 2) {
+        return;
+    }
     std::vector<double> sums(resamples, 0.0);
     for (std::size_t sample = 0; sample < sums.size(); ++sample) {
         for (std::size_t drawn = 0; drawn < blocks; ++drawn) {
@@ -95,7 +99,8 @@ std::vector<bool> choose_held_out(const Experiment& experiment, const std::vecto
             }
         }
     }
-    return held;
+    const bool enough = std::count(held.begin(), held.end(), false) >= fewest_known;
+    return enough ? held : std::vector<bool>(observations.size(), false);
 }
 
 Gain measure_gain(const DataSet& data, const std::vector<bool>& held_out, const Experiment& experiment, Simulator& simulator,
@@ -106,7 +111,7 @@ Gain measure_gain(const DataSet& data, const std::vector<bool>& held_out, const 
     const DataSet held = data.part(held_rows);
     Gain gain;
     gain.held_out = held.observations.size();
-    if (held.observations.empty() || known.observations.size() < 4) {
+    if (held.observations.empty()) {
         return gain;
     }
     const Likelihood likelihood(known);

@@ -81,6 +81,15 @@ class Diagnosis(ProgramTest):
             self.assertIsInstance(cause["posterior"], float)
         self.assertAlmostEqual(found["rows"][0]["standard_deviation"] / found["rows"][0]["measured"], 1e-4, delta=1e-9)
 
+    def test_one_row_held_out_gives_a_gain_without_an_interval(self):
+        self.smooth_sweep(6)
+        words = ("diagnose", "experiment.toml", "-o", "results", "--force", "--bootstrap", "99", "--causes", "contact-loss")
+        gain = self.succeed_json(*words)["gain"]
+        self.assertEqual((gain["held_out"], gain["elpd_ci90"]), (2, [None, None]))
+        self.assertGreater(gain["elpd_difference"], 0)
+        self.assertIn("(too few rows for an interval)", self.succeed(*words))
+        self.assertIn("(too few rows for an interval)", (self.folder / "results" / "report.html").read_text())
+
     def test_nothing_of_the_folder_is_lost(self):
         self.smooth_sweep()
         results = self.folder / "results"

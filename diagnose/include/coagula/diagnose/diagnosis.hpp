@@ -95,16 +95,16 @@ struct HeldOutPrediction {
     double flexible = 0;
 };
 
-/// What the extended model gains on data that neither model was fitted to.
+/// What the extended model gains on data that neither model was fitted to; NaN where no rows were held out.
 struct Gain {
     std::size_t held_out = 0;  ///< numbers
-    double rmse_base = 0;      ///< of the relative difference
-    double rmse_extended = 0;
-    double rmse_flexible = 0;    ///< of a base model with a smooth (Gaussian process) correction
-    double rmse_ratio = 1;       ///< base over extended
-    double elpd_difference = 0;  ///< in expected log predictive density, extended less base
-    double elpd_low = 0;         ///< 90 % interval by block bootstrap
-    double elpd_high = 0;
+    double rmse_base = unset;  ///< of the relative difference
+    double rmse_extended = unset;
+    double rmse_flexible = unset;    ///< of a base model with a smooth (Gaussian process) correction
+    double rmse_ratio = unset;       ///< base over extended
+    double elpd_difference = unset;  ///< in expected log predictive density, extended less base
+    double elpd_low = unset;         ///< 90 % interval by block bootstrap; NaN with fewer than two blocks of rows
+    double elpd_high = unset;
     std::vector<HeldOutPrediction> predictions = {};
 };
 
