@@ -82,8 +82,8 @@ def is_tied(entry):
 
 
 def has_gain(entry):
-    gain = entry["found"].get("gain")
-    return bool(gain) and gain["held_out"] > 0 and gain["elpd_ci90"][0] > 0
+    low = (entry["found"].get("gain") or {}).get("elpd_ci90", [None])[0]
+    return low is not None and low > 0
 
 
 def confidently_wrong(entry):
@@ -96,7 +96,7 @@ def held_out_ratio(entry):
     """rms error of the extended model over that of a fit told the cause."""
     told = entry.get("told") or entry["found"]["gain"]
     own = entry["found"]["gain"]
-    return own["rmse_extended"] / told["rmse_extended"] if told and own and told["rmse_extended"] > 0 else None
+    return own["rmse_extended"] / told["rmse_extended"] if told and own and told["rmse_extended"] else None
 
 
 def add_named(table, case, entries):
