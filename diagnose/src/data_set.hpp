@@ -48,7 +48,7 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise);
 double scaled_chi_square(double degrees, double normal);
 
 /// Whitened errors of the rows, then the effects of the samples over their deviation, as the noise model draws them: heavy tails
-/// and the uncertainty of estimated deviations included.
+/// and the uncertainty of estimated deviations and correlations included.
 Eigen::VectorXd draw_errors(const DataSet& data, std::uint64_t seed, std::uint64_t number);
 
 }  // namespace coagula::diagnose

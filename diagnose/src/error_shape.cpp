@@ -43,9 +43,12 @@ ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseMod
     if (lag / values + own > significant / std::sqrt(degrees) && own < 0.25) {
         const double correlation = std::min(strongest, (lag / values + own) / (1 - 3 * own));
         shape.law.correlation = correlation;
+        shape.law.correlation_error = std::sqrt((1 - correlation * correlation) / degrees) / (1 - 3 * own);
         const double rows = static_cast<double>(model.conditions);
         const double per_mean = std::min(0.8 * rows, (1 + correlation) / (1 - correlation));  // rows in a row's place
         shape.factor *= std::sqrt((1 - 1 / rows) / (1 - per_mean / rows));
+        // Variance of the variance of correlated numbers (Bayley and Hammersley 1946).
+        shape.law.degrees *= (1 - correlation * correlation) / (1 + correlation * correlation);
     }
     // Kurtosis of Student's t: 6 / (nu - 4); residuals carry about `degrees` independent numbers.
     if (kurtosis / values > significant * std::sqrt(24 / degrees)) {

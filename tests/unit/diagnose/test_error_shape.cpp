@@ -1,3 +1,5 @@
+#include "data_set.hpp"
+
 #include <coagula/common/random.hpp>
 #include <coagula/diagnose/noise.hpp>
 
@@ -6,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace coagula::diagnose {
 namespace {
@@ -55,6 +58,8 @@ TEST(ErrorShape, FindsTheCorrelationOfNeighboursAndTheirFullDeviation) {
     const NoiseModel model = model_of(2, [&](Eigen::Index c, int s) { return errors(c, s); });
     const ErrorShape shape = shape_of_errors({model}, model);
     EXPECT_NEAR(shape.law.correlation, 0.6, 0.13);  // standard deviation 0.8 / sqrt(160) = 0.064
+    EXPECT_NEAR(shape.law.correlation_error, 0.064, 0.02);
+    EXPECT_NEAR(shape.law.degrees, 73, 16);  // as many independent numbers leave the variance as open
     EXPECT_GT(shape.factor, 1);
     EXPECT_NEAR(shape.factor * model.relative.value, 0.02, 0.005);  // three standard deviations of 73 degrees of freedom
 }
@@ -84,6 +89,45 @@ TEST(ErrorShape, DrawsFewReplicatesTowardsTheOthers) {
     const ErrorShape shape = shape_of_errors({few, many}, few);
     EXPECT_GT(shape.factor * few.relative.value, 0.015);
     EXPECT_EQ(shape.law.degrees, 24);
+}
+
+/// Mean and standard deviation over draws of the lag-one coefficient of whitened errors, 400 rows whose correlation is stated as
+/// 0.6.
+std::pair<double, double> lag_of_draws(double correlation_error) {
+    constexpr std::size_t rows = 400;
+    constexpr std::uint64_t draws = 1000;
+    DataSet data;
+    data.values = Eigen::VectorXd::Zero(rows);
+    data.noise.deviation = Eigen::VectorXd::Ones(rows);
+    data.noise.correlation = Eigen::VectorXd::Constant(rows, 0.6);
+    data.noise.correlation[0] = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+        data.noise.previous.push_back(static_cast<Index>(row) - 1);
+        Observation one{0, row};
+        one.errors.correlation = 0.6;
+        one.errors.correlation_error = correlation_error;
+        data.observations.push_back(one);
+    }
+    double sum = 0;
+    double squares = 0;
+    for (std::uint64_t draw = 0; draw < draws; ++draw) {
+        const Eigen::VectorXd errors = draw_errors(data, 7, draw);
+        const double lag = errors.head(rows - 1).dot(errors.tail(rows - 1)) / errors.squaredNorm();
+        sum += lag;
+        squares += lag * lag;
+    }
+    const double mean = sum / draws;
+    return {mean, std::sqrt(squares / draws - mean * mean)};
+}
+
+TEST(DrawnErrors, AreLessIndependentWhereTheirCorrelationIsUncertain) {
+    // Where the true correlation is c + d, that of the whitened errors is d to first order; 400 rows scatter by 1 / sqrt(400).
+    const auto [known_mean, known_scatter] = lag_of_draws(0);
+    EXPECT_NEAR(known_mean, 0, 0.006);
+    EXPECT_NEAR(known_scatter, 0.05, 0.005);
+    const auto [mean, scatter] = lag_of_draws(0.05);
+    EXPECT_NEAR(mean, 0, 0.008);
+    EXPECT_NEAR(scatter, std::hypot(0.05, 0.05), 0.007);
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ TableRule rule_of(MeasurementKind kind);
 /// What is known of the errors of a column besides their size.
 struct ErrorLaw {
     double correlation = 0;                                    ///< of neighbouring rows, 0 .. 1
+    double correlation_error = 0;                              ///< its standard error
     double degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which their size was estimated
     double tail = std::numeric_limits<double>::infinity();     ///< degrees of freedom of Student's t; infinite: normal
 };
