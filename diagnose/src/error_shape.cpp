@@ -5,6 +5,16 @@
 
 namespace coagula::diagnose {
 
+namespace {
+
+/// Factor on a deviation of correlated rows about their mean, which takes more from them than from independent ones.
+double lost_to_effects(double correlation, double rows) {
+    const double per_mean = std::min(0.8 * rows, (1 + correlation) / (1 - correlation));  // rows in a row's place
+    return std::sqrt((1 - 1 / rows) / (1 - per_mean / rows));
+}
+
+}  // namespace
+
 ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseModel& model) {
     double values = 0;
     double degrees = 0;
@@ -19,7 +29,7 @@ ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseMod
             degrees += other.degrees;
             relative += other.degrees * other.relative.value * other.relative.value;
             lag += weight * other.autocorrelation;
-            bias += weight / static_cast<double>(other.conditions);
+            bias += other.sample_estimated ? weight / static_cast<double>(other.conditions) : 0.0;
             kurtosis += weight * other.excess_kurtosis;
         }
     }
@@ -38,15 +48,13 @@ ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseMod
     }
     constexpr double significant = 2;  // standard errors
     constexpr double strongest = 0.9;
-    // Mean of the lag-one coefficient of n rows about their mean: rho - (1 + 3 rho) / n (Kendall 1954).
+    // Mean of the lag-one coefficient of n rows about their mean, a sample effect: rho - (1 + 3 rho) / n (Kendall 1954).
     const double own = bias / values;
     if (lag / values + own > significant / std::sqrt(degrees) && own < 0.25) {
         const double correlation = std::min(strongest, (lag / values + own) / (1 - 3 * own));
         shape.law.correlation = correlation;
         shape.law.correlation_error = std::sqrt((1 - correlation * correlation) / degrees) / (1 - 3 * own);
-        const double rows = static_cast<double>(model.conditions);
-        const double per_mean = std::min(0.8 * rows, (1 + correlation) / (1 - correlation));  // rows in a row's place
-        shape.factor *= std::sqrt((1 - 1 / rows) / (1 - per_mean / rows));
+        shape.factor *= model.sample_estimated ? lost_to_effects(correlation, static_cast<double>(model.conditions)) : 1.0;
         // Variance of the variance of correlated numbers (Bayley and Hammersley 1946).
         shape.law.degrees *= (1 - correlation * correlation) / (1 + correlation * correlation);
     }

@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace coagula::diagnose {
 namespace {
@@ -62,6 +63,35 @@ TEST(ErrorShape, FindsTheCorrelationOfNeighboursAndTheirFullDeviation) {
     EXPECT_NEAR(shape.law.degrees, 73, 16);  // as many independent numbers leave the variance as open
     EXPECT_GT(shape.factor, 1);
     EXPECT_NEAR(shape.factor * model.relative.value, 0.02, 0.005);  // three standard deviations of 73 degrees of freedom
+}
+
+/// A loss modulus that is zero but for its errors, which are independent: ten rows of three samples, without an effect of these.
+NoiseModel nothing_but_errors(std::uint64_t seed, std::uint64_t table) {
+    constexpr Eigen::Index rows = 10;
+    Replicates replicates;
+    replicates.observable = "loss_modulus";
+    replicates.axis = Eigen::VectorXd::LinSpaced(rows, 1, 10);
+    replicates.floor_weights = Eigen::VectorXd::Ones(rows);
+    replicates.complex_moduli = Eigen::VectorXd::Constant(rows, 1000);
+    replicates.samples = {"A", "B", "C"};
+    replicates.values.resize(rows, 3);
+    for (int s = 0; s < 3; ++s) {
+        for (Eigen::Index row = 0; row < rows; ++row) {
+            replicates.values(row, s) = 10 * normal(seed, row, s, table);
+        }
+    }
+    return fit_noise(replicates);
+}
+
+TEST(ErrorShape, FindsCorrelationByChanceAsRarelyAsItSaysWhereNoEffectOfASampleIsTakenOff) {
+    // Beyond two standard errors: 2.3 % of 300 are 7 +- 3.
+    int found = 0;
+    for (std::uint64_t seed = 100; seed < 400; ++seed) {
+        const std::vector<NoiseModel> models{nothing_but_errors(seed, 1), nothing_but_errors(seed, 2), nothing_but_errors(seed, 3)};
+        ASSERT_FALSE(models[0].sample_estimated);
+        found += shape_of_errors(models, models[0]).law.correlation > 0 ? 1 : 0;
+    }
+    EXPECT_LE(found, 16);
 }
 
 TEST(ErrorShape, FindsHeavyTails) {
