@@ -53,5 +53,33 @@ TEST(Replicates, LineUpWhereRowsWereLeftOut) {
     EXPECT_EQ(found.values(8, 0), found.values(8, 1));
 }
 
+/// Values of the second table beside those of the first, whose storage moduli are 100, 101, ... in its rows.
+TEST(Replicates, LineUpByTheNearestRowThatIsAlike) {
+    Measurement first = sweep_of("A");
+    Measurement second = sweep_of("B");
+    const std::size_t rows = first.rows();
+    ASSERT_GE(rows, 10u);
+    for (std::size_t row = 0; row < rows; ++row) {
+        column(second, "storage_modulus").values[row] = 100 + static_cast<double>(row);
+        column(second, "strain").values[row] = column(first, "strain").values[row];
+    }
+    std::vector<double>& strain = column(second, "strain").values;
+    const std::vector<double>& wanted = column(first, "strain").values;
+    strain[0] = 0.99 * wanted[0];   // below it
+    strain[1] = 0.998 * wanted[1];  // two rows for one: the lower is nearer
+    strain[2] = 1.015 * wanted[1];
+    strain[3] = 0.985 * wanted[4];  // the upper is nearer
+    strain[4] = 1.005 * wanted[4];
+    strain[5] = 0.99 * wanted[5];  // two that are equal: the first
+    strain[6] = strain[5];
+    strain[8] = 1.03 * wanted[8];  // too far
+    const Replicates found = find_replicates({first, second}).front();
+    const auto at = [&](Eigen::Index row) { return found.values(row, 1); };
+    for (const Eigen::Index row : {0, 1, 4, 5, 7, 9}) {
+        EXPECT_EQ(at(row), 100.0 + static_cast<double>(row));
+    }
+    EXPECT_TRUE(std::isnan(at(8)));
+}
+
 }  // namespace
 }  // namespace coagula::diagnose
