@@ -4,6 +4,8 @@ import os
 import shutil
 import unittest
 
+import h5py
+
 from support import PACKING, VEM, ProgramTest, checksum
 
 GOOD_CSV = "x [um],y [um],z [um]\n1,1,1\n3,1,1\n1,3,1\n5,5,5\n"
@@ -30,10 +32,6 @@ class StructureFiles(ProgramTest):
         self.every_reader("text.h5", says="text.h5")
 
     def test_foreign_hdf5(self):
-        try:
-            import h5py
-        except ImportError:
-            self.skipTest("needs python3-h5py")
         with h5py.File(self.folder / "other.h5", "w") as file:
             file["measurements"] = [1.0, 2.0]
         self.every_reader("other.h5", says="other.h5")
@@ -48,10 +46,6 @@ class StructureFiles(ProgramTest):
             self.assertEqual(checksum(path), before)
 
     def damaged(self, change):
-        try:
-            import h5py
-        except ImportError:
-            self.skipTest("needs python3-h5py")
         shutil.copy(PACKING, self.folder / "bad.h5")
         with h5py.File(self.folder / "bad.h5", "r+") as file:
             change(file)

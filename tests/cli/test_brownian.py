@@ -7,8 +7,10 @@ import subprocess
 import time
 import unittest
 
+import h5py
+
 from support import PACKING, PROGRAM, ProgramTest, checksum
-from test_determinism import data_sets, h5py
+from test_determinism import data_sets
 
 SUSPENSION = ["generate", "brownian", "--particles", "300", "--volume-fraction", "0.4", "--radius", "0.25um",
               "--equilibration-time", "0.3ms"]
@@ -32,10 +34,6 @@ class Potential(ProgramTest):
                        says="same thing")
 
     def test_picture(self):
-        try:
-            subprocess.run(["gnuplot", "--version"], capture_output=True, check=True)
-        except OSError:
-            self.skipTest("needs gnuplot")
         self.succeed(*self.CURVE, "--surface-potential", "15mV", "--picture", "curve.svg")
         self.assertIn("<svg", (self.folder / "curve.svg").read_text())
         self.fail_with(2, *self.CURVE, "--surface-potential", "15mV", "--picture", "curve.jpg", says=".png or .svg")
@@ -50,13 +48,11 @@ class Runs(ProgramTest):
         found = self.succeed_json("characterize", "b.h5")
         self.assertAlmostEqual(found["coordination"], made["coordination"])
         self.succeed_json("shear", "b.h5")
-        if h5py:
-            with h5py.File(self.folder / "b.h5") as file:
-                self.assertEqual(file["particles/trajectory/position/value"].shape, (3, 300, 3))
-                self.assertEqual(file["particles/trajectory/box/edges/value"].shape, (3, 3, 3))
-                self.assertLess(abs(file["particles/trajectory/position/time"][1] - 2e-4), 2e-6)
+        with h5py.File(self.folder / "b.h5") as file:
+            self.assertEqual(file["particles/trajectory/position/value"].shape, (3, 300, 3))
+            self.assertEqual(file["particles/trajectory/box/edges/value"].shape, (3, 3, 3))
+            self.assertLess(abs(file["particles/trajectory/position/time"][1] - 2e-4), 2e-6)
 
-    @unittest.skipIf(h5py is None, "needs python3-h5py")
     def test_threads_give_the_same_bytes(self):
         for threads in (1, 2):
             self.succeed("generate", "brownian", "--particles", "4100", "--volume-fraction", "0.4", "--radius", "0.25um",
@@ -102,7 +98,6 @@ class Runs(ProgramTest):
         self.assertLess(made["potential"]["contact_energy"], -3)
 
 
-@unittest.skipIf(h5py is None, "needs python3-h5py")
 class Restart(ProgramTest):
     LONG = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "3ms", "--tangential-stiffness", "6mN/m", "--friction", "0.3",
             "--rolling-stiffness", "3mN/m"]

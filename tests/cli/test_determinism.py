@@ -2,12 +2,9 @@
 
 import unittest
 
-from support import ProgramTest, VEM
+import h5py
 
-try:
-    import h5py
-except ImportError:
-    h5py = None
+from support import ProgramTest, VEM
 
 
 def data_sets(path):
@@ -25,7 +22,6 @@ def data_sets(path):
     return found
 
 
-@unittest.skipIf(h5py is None, "needs python3-h5py")
 class SameBytes(ProgramTest):
     def make(self, name, threads, seed=1):
         common = ["--threads", threads, "--quiet"]

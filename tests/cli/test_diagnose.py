@@ -7,7 +7,7 @@ from pathlib import Path
 
 from support import ProgramTest
 
-CEMENT = Path(os.environ["COAGULA_SHARED_DATA"]) / "cement_laos"
+CEMENT = Path(os.environ["COAGULA_DATASETS"]) / "cement_laos"
 HEAD = "strain [%],storage modulus [Pa],loss modulus [Pa],stress [Pa]\n"
 
 
@@ -239,7 +239,6 @@ class BadInput(ProgramTest):
                 self.assertFalse((self.folder / "out").exists())
 
 
-@unittest.skipUnless(CEMENT.is_dir(), f"no folder {CEMENT}")
 class CementPaste(ProgramTest):
     """The example of docs/experiment-file.md on the exports themselves."""
 

@@ -2,12 +2,9 @@
 
 import unittest
 
-from support import ProgramTest
+import h5py
 
-try:
-    import h5py
-except ImportError:
-    h5py = None
+from support import ProgramTest
 
 PLANES = ("xy", "xz", "yz")
 
@@ -59,7 +56,6 @@ class LoadStructure(ProgramTest):
         self.assertAlmostEqual(found["mean"]["backbone_bond_fraction"], sum(fractions) / 3, delta=1e-12)
         self.assertRegex(self.succeed("shear", "packing.h5"), r"backbone +\d.* % of the bonds store 90 % of the energy; .* x, y, z\n")
 
-    @unittest.skipIf(h5py is None, "needs python3-h5py")
     def test_values_of_bonds_and_particles(self):
         self.copy_of_packing()
         found = self.succeed_json("shear", "packing.h5")
@@ -83,7 +79,6 @@ class LoadStructure(ProgramTest):
                 lengths = (displacement**2).sum(axis=1) ** 0.5 / 0.25e-6
                 self.assertLess(abs(points[f"nonaffinity_{plane}"][()] - lengths).max(), 1e-6 * lengths.max())
 
-    @unittest.skipIf(h5py is None, "needs python3-h5py")
     def test_cell_data_fit_the_cells(self):
         self.copy_of_packing()
         for tolerance in ("0.01", "0.03"):

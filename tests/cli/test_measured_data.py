@@ -1,4 +1,4 @@
-"""Packings that somebody measured or computed elsewhere, from import to modulus; skipped where the data is absent."""
+"""Packings that somebody measured or computed elsewhere, from import to modulus."""
 
 import json
 import os
@@ -7,10 +7,9 @@ from pathlib import Path
 
 from support import ProgramTest
 
-DATA = Path(os.environ["COAGULA_SHARED_DATA"])
+DATA = Path(os.environ["COAGULA_DATASETS"])
 
 
-@unittest.skipUnless((DATA / "finney_pack").is_dir(), f"no folder {DATA / 'finney_pack'}")
 class FinneyBallBearings(ProgramTest):
     """Finney's measured random close packing (1970): a heap with a free surface, in units of the radius."""
 
@@ -35,7 +34,6 @@ class FinneyBallBearings(ProgramTest):
         self.assertTrue(0 < near["storage_modulus"]["mean"] < far["storage_modulus"]["mean"] < far["affine_modulus"])
 
 
-@unittest.skipUnless((DATA / "reference_structures").is_dir(), f"no folder {DATA / 'reference_structures'}")
 class ReferenceStructure(ProgramTest):
     """A gel of 8000 particles against values from another program."""
 

@@ -219,7 +219,7 @@ TEST_F(MeasuredFiles, RefusesWhatHoldsNoTable) {
 /// A real export: 60 points of pre-shear, then 51 amplitudes with a waveform of 512 samples and the first again.
 class CementPaste : public ::testing::TestWithParam<const char*> {
 protected:
-    std::string path() const { return testing::shared_data(std::string("cement_laos/") + GetParam()); }
+    std::string path() const { return testing::dataset(std::string("cement_laos/") + GetParam()); }
 };
 
 /// First harmonic of a closed waveform.
@@ -233,9 +233,6 @@ std::complex<double> first_harmonic(const std::vector<double>& values) {
 }
 
 TEST_P(CementPaste, WaveformsAndModuliOfTheExportAgree) {
-    if (!testing::have_shared_data("cement_laos")) {
-        GTEST_SKIP() << "no folder " << testing::shared_data("cement_laos");
-    }
     const MeasuredFile file = read_measured_file(path());
     EXPECT_EQ(file.format, MeasuredFormat::rheocompass);
     ASSERT_EQ(file.tables.size(), 2u + 51u);
@@ -259,10 +256,7 @@ INSTANTIATE_TEST_SUITE_P(Replicates, CementPaste,
                          ::testing::Values("LAOS_0.55_250_1.csv", "LAOS__0.55_250_2.csv", "LAOS_0.55_250_3.csv"));
 
 TEST(CementPasteBuildUp, KeepsEveryCellAsItStands) {
-    if (!testing::have_shared_data("cement_laos")) {
-        GTEST_SKIP() << "no folder " << testing::shared_data("cement_laos");
-    }
-    const MeasuredFile file = read_measured_file(testing::shared_data("cement_laos/SAOS_0.55_250.csv"));
+    const MeasuredFile file = read_measured_file(testing::dataset("cement_laos/SAOS_0.55_250.csv"));
     ASSERT_EQ(file.tables.size(), 2u);
     const PlainTable& table = file.tables[1];
     ASSERT_EQ(table.rows(), 200u);

@@ -239,10 +239,7 @@ TEST_F(TextFormats, ReadsLammpsOfOthers) {
 }
 
 TEST_F(TextFormats, MeasuredAndReferencePackings) {
-    const std::filesystem::path data = COAGULA_SHARED_DATA;
-    if (!std::filesystem::exists(data)) {
-        GTEST_SKIP() << "the shared data is not there";
-    }
+    const std::filesystem::path data = COAGULA_DATASETS;
     ImportOptions options;
     options.radius = 0.25e-6;
     options.box = Eigen::Vector3d::Constant(1.0939048394478881e-05);

@@ -15,16 +15,11 @@
 namespace coagula::characterize {
 namespace {
 
-const std::string shared_data = COAGULA_SHARED_DATA;
-
 class ReferenceStructure : public ::testing::TestWithParam<std::string> {
 protected:
     void SetUp() override {
         packing = test::reference_structure(GetParam());
-        std::ifstream file(shared_data + "/reference_structures/reference.json");
-        if (packing.size() == 0 || !file) {
-            GTEST_SKIP() << "no reference structures in " << shared_data;
-        }
+        std::ifstream file = testing::open_dataset(testing::dataset("reference_structures/reference.json"));
         expected = nlohmann::json::parse(file).at(GetParam());
     }
 
@@ -71,20 +66,15 @@ INSTANTIATE_TEST_SUITE_P(Structures, ReferenceStructure,
 /// Finney's ball bearings of radius 1, a sample with a free surface.
 Packing finney() {
     Packing packing;
-    packing.positions = test::read_columns(shared_data + "/finney_pack/finney.csv", 1);
-    if (packing.size() > 0) {
-        const Eigen::Vector3d lower = packing.positions.rowwise().minCoeff();
-        packing.cell = Cell::open(lower, packing.positions.rowwise().maxCoeff() - lower);
-        packing.radii = Eigen::VectorXd::Ones(packing.size());
-    }
+    packing.positions = test::read_columns(testing::dataset("finney_pack/finney.csv"), 1);
+    const Eigen::Vector3d lower = packing.positions.rowwise().minCoeff();
+    packing.cell = Cell::open(lower, packing.positions.rowwise().maxCoeff() - lower);
+    packing.radii = Eigen::VectorXd::Ones(packing.size());
     return packing;
 }
 
 TEST(Finney, CoordinationOfTheInnerPart) {
     const Packing packing = finney();
-    if (packing.size() == 0) {
-        GTEST_SKIP() << "no Finney pack in " << shared_data;
-    }
     for (const auto& [tolerance, published] : {std::pair{0.01, 6.3}, {0.02, 6.9}, {0.05, 7.9}, {0.10, 9.0}}) {
         const Coordination coordination = measure_coordination(packing, {.contact_tolerance = tolerance});
         EXPECT_GT(coordination.inner_particles, 2000);
@@ -95,9 +85,6 @@ TEST(Finney, CoordinationOfTheInnerPart) {
 
 TEST(Finney, PoresOfTheInnerPart) {
     const Packing packing = finney();
-    if (packing.size() == 0) {
-        GTEST_SKIP() << "no Finney pack in " << shared_data;
-    }
     const PoreSizes pores = measure_pores(packing);
     EXPECT_GT(pores.inner_particles, 2000);
     EXPECT_NEAR(1 - pores.void_fraction, 0.64, 0.003);  // the density that Finney is known for: 0.6366

@@ -49,9 +49,6 @@ TEST(FrequencyResponse, StorageAndLossObeyKramersAndKronig) {
 }
 
 TEST(FrequencyResponse, WithoutLossesAReferenceStructureIsElastic) {
-    if (!have_shared_data("reference_structures")) {
-        GTEST_SKIP() << "the reference structures are not beside the repository";
-    }
     const Packing packing = reference_structure("vem_1-2");
     const auto bonds = find_contacts(packing, 0.01);
     const auto linear = solve_linear(packing, bonds);

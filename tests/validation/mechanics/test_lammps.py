@@ -1,6 +1,5 @@
 """The shear moduli of networks of central springs by LAMMPS (harmonic bonds, minimised energy) and by coagula."""
 
-import shutil
 import unittest
 
 import lammps_shear
@@ -9,7 +8,6 @@ from other_program import MODULUS_UNIT, OtherProgramTest
 STRAIN = 1e-7
 
 
-@unittest.skipUnless(shutil.which("lmp"), "LAMMPS (the program lmp) is not installed")
 class Lammps(OtherProgramTest):
     def check_rigid(self, tolerance, least_coordination):
         network = self.packing_bonded(tolerance)

@@ -13,11 +13,9 @@ namespace {
 
 using namespace coagula::testing;
 
-const std::string published = "../reference/published_structures.csv";
-
 /// doh_a and G_Pa: fields 4 and 6 of each row, after comments and a header.
 PowerLawData published_data() {
-    std::ifstream file(shared_data(published));
+    std::ifstream file = open_dataset(dataset("schenker2012/published_structures.csv"));
     std::vector<double> a, modulus;
     for (std::string line; std::getline(file, line);) {
         if (line.starts_with('#') || line.starts_with("generator")) {
@@ -35,16 +33,7 @@ PowerLawData published_data() {
     return {Eigen::VectorXd::Map(a.data(), count), Eigen::VectorXd::Map(modulus.data(), count), {}};
 }
 
-class PublishedPowerLaw : public ::testing::Test {
-protected:
-    void SetUp() override {
-        if (!have_shared_data(published)) {
-            GTEST_SKIP() << "the published table is not beside the repository";
-        }
-    }
-};
-
-TEST_F(PublishedPowerLaw, CriticalValueAndExponent) {
+TEST(PublishedPowerLaw, CriticalValueAndExponent) {
     const PowerLawData data = published_data();
     ASSERT_EQ(data.a.size(), 11);
     const PowerLawFit fit = fit_power_law(data).fit;
@@ -61,7 +50,7 @@ TEST_F(PublishedPowerLaw, CriticalValueAndExponent) {
 }
 
 /// Without the structure of the smallest a (brownian, 0 mV) nearly any critical value does.
-TEST_F(PublishedPowerLaw, RestsOnOneStructure) {
+TEST(PublishedPowerLaw, RestsOnOneStructure) {
     const PowerLawData data = published_data();
     const PowerLawAnalysis found = fit_power_law(data);
     Index lowest = 0;

@@ -27,9 +27,6 @@ class ReferenceStructure : public ::testing::TestWithParam<Published> {};
 
 TEST_P(ReferenceStructure, ShearModuli) {
     const Published expected = GetParam();
-    if (!have_shared_data("reference_structures")) {
-        GTEST_SKIP() << "the reference structures are not beside the repository";
-    }
     const Packing packing = reference_structure(expected.name);
     const auto response = solve_linear(packing, find_contacts(packing, 0.01));
     EXPECT_NEAR(response.shear_modulus(0, 1) / 1e6, expected.xy, 1e-4);

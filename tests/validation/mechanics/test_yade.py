@@ -13,7 +13,7 @@ SCRIPT = Path(os.environ["COAGULA_TEST_SUPPORT"]) / "yade_shear.py"
 SHEAR_STIFFNESS = 10.0  # of a particle [N/m]
 
 
-@unittest.skipUnless(shutil.which("yade"), "Yade is not installed")
+@unittest.skipUnless(shutil.which("yade"), "Yade is not installed: apt-get install yade")
 class Yade(OtherProgramTest):
     def check(self, tolerance, strain):
         network = self.packing_bonded(tolerance)
