@@ -123,14 +123,43 @@ COAGULA_VARIANTS void fill_block(Words& words, std::uint64_t seed, double* x, do
     }
 }
 
-}  // namespace
+/// Of the last ten bits of a word.
+inline __attribute__((always_inline)) double to_uniform(std::uint32_t word) {
+    constexpr double levels = 1024;
+    const double scale = std::sqrt(12 / (levels * levels - 1));
+    return scale * (static_cast<double>(static_cast<std::int32_t>(word & 1023U)) - 0.5 * (levels - 1));
+}
 
-void random_normals(std::uint64_t seed, RandomPurpose purpose, std::uint64_t step, std::span<const std::int32_t> particles,
-                    double* normals) {
-    Words words;
+COAGULA_VARIANTS void spread_block(const Words& words, double* x, double* y, double* z) {
+    for (std::size_t entry = 0; entry < block; ++entry) {
+        x[entry] = to_uniform(words.word[1][entry]);
+        y[entry] = to_uniform(words.word[1][entry] >> 10U);
+        z[entry] = to_uniform(words.word[3][entry]);
+    }
+}
+
+/// Numbers of one block of particles.
+struct Triples {
     alignas(64) double x[block];
     alignas(64) double y[block];
     alignas(64) double z[block];
+
+    void copy(std::size_t count, double* target) const {
+        for (std::size_t entry = 0; entry < count; ++entry) {
+            target[4 * entry] = x[entry];
+            target[4 * entry + 1] = y[entry];
+            target[4 * entry + 2] = z[entry];
+            target[4 * entry + 3] = 0;
+        }
+    }
+};
+
+}  // namespace
+
+void random_normals(std::uint64_t seed, RandomPurpose purpose, std::uint64_t step, std::span<const std::int32_t> particles,
+                    double* normals, double* uniforms) {
+    Words words;
+    Triples numbers;
     for (std::size_t begin = 0; begin < particles.size(); begin += block) {
         const std::size_t count = std::min(block, particles.size() - begin);
         for (std::size_t entry = 0; entry < block; ++entry) {
@@ -139,13 +168,11 @@ void random_normals(std::uint64_t seed, RandomPurpose purpose, std::uint64_t ste
             words.word[2][entry] = static_cast<std::uint32_t>(particles[begin + std::min(entry, count - 1)]);
             words.word[3][entry] = static_cast<std::uint32_t>(purpose);
         }
-        fill_block(words, seed, x, y, z);
-        for (std::size_t entry = 0; entry < count; ++entry) {
-            double* target = normals + 4 * (begin + entry);
-            target[0] = x[entry];
-            target[1] = y[entry];
-            target[2] = z[entry];
-            target[3] = 0;
+        fill_block(words, seed, numbers.x, numbers.y, numbers.z);
+        numbers.copy(count, normals + 4 * begin);
+        if (uniforms != nullptr) {
+            spread_block(words, numbers.x, numbers.y, numbers.z);
+            numbers.copy(count, uniforms + 4 * begin);
         }
     }
 }

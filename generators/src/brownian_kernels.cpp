@@ -21,20 +21,18 @@ struct Move {
     StageWeights weights;
     double scale;
 
-    COAGULA_INLINE void first(std::size_t slot, const Four& force) const {
-        Four position;
-        Four noise;
-        load(slots.before + 4 * slot, position);
-        load(slots.noise + 4 * slot, noise);
-        store(slots.target + 4 * slot, position + scale * slots.mobility[slot] * force + weights.noise * noise);
-    }
-
-    COAGULA_INLINE void later(std::size_t slot, const Four& force) const {
+    COAGULA_INLINE void operator()(std::size_t slot, const Four& force) const {
         Four latest;
         Four before;
+        Four noise;
+        Four second;
         load(slots.latest + 4 * slot, latest);
         load(slots.before + 4 * slot, before);
-        store(slots.target + 4 * slot, weights.current * latest + weights.previous * before + scale * slots.mobility[slot] * force);
+        load(slots.noise + 4 * slot, noise);
+        load(slots.second_noise + 4 * slot, second);
+        const Four kick = slots.noise_scale[slot] * (weights.noise * noise + weights.second_noise * second);
+        store(slots.target + 4 * slot,
+              weights.current * latest + weights.previous * before + scale * slots.mobility[slot] * force + kick);
     }
 };
 
@@ -108,16 +106,14 @@ COAGULA_VARIANTS double longest_squared_way(const double* one, const double* oth
     return std::max(std::max(longest[0], longest[1]), std::max(longest[2], longest[3]));
 }
 
-COAGULA_VARIANTS void scale_noise(const double* scale, const double* positions, double evaluation, std::size_t begin,
-                                  std::size_t end, double* noise, double* target) {
+COAGULA_VARIANTS void displace(const double* before, const double* noise, const double* noise_scale, double evaluation,
+                               std::size_t begin, std::size_t end, double* latest) {
     for (std::size_t slot = begin; slot < end; ++slot) {
         Four kick;
         Four position;
         load(noise + 4 * slot, kick);
-        load(positions + 4 * slot, position);
-        kick *= scale[slot];
-        store(noise + 4 * slot, kick);
-        store(target + 4 * slot, position + evaluation * kick);
+        load(before + 4 * slot, position);
+        store(latest + 4 * slot, position + evaluation * noise_scale[slot] * kick);
     }
 }
 
@@ -132,19 +128,11 @@ COAGULA_INLINE void sum_all(const PairLoop& loop, const ForceTable& table, const
 template <class Lanes>
 COAGULA_INLINE void move_all(const PairLoop& loop, const ForceTable& table, const NeighbourRows& rows, const Move& move) {
     const double* const others = move.slots.force;
-    if (move.slots.noise != nullptr) {
-        sum_rows<Lanes>(loop, table, rows, [&move, others](std::size_t slot, const Four& sum) COAGULA_INLINE_LAMBDA {
-            Four other;
-            load(others + 4 * slot, other);
-            move.first(slot, sum + other);
-        });
-    } else {
-        sum_rows<Lanes>(loop, table, rows, [&move, others](std::size_t slot, const Four& sum) COAGULA_INLINE_LAMBDA {
-            Four other;
-            load(others + 4 * slot, other);
-            move.later(slot, sum + other);
-        });
-    }
+    sum_rows<Lanes>(loop, table, rows, [&move, others](std::size_t slot, const Four& sum) COAGULA_INLINE_LAMBDA {
+        Four other;
+        load(others + 4 * slot, other);
+        move(slot, sum + other);
+    });
 }
 
 COAGULA_VARIANTS void sum_in_halves(const PairLoop& loop, const ForceTable& table, const NeighbourRows& rows, double* forces) {
@@ -195,11 +183,7 @@ COAGULA_VARIANTS void stage(const StageArrays& slots, std::size_t begin, std::si
     for (std::size_t slot = begin; slot < end; ++slot) {
         Four force;
         load(slots.force + 4 * slot, force);
-        if (slots.noise != nullptr) {
-            move.first(slot, force);
-        } else {
-            move.later(slot, force);
-        }
+        move(slot, force);
     }
 }
 

@@ -49,21 +49,24 @@ double longest_squared_way(const double* one, const double* other, std::size_t b
 
 /// Arrays of four numbers per slot, as above, of one stage of a step.
 struct StageArrays {
-    const double* before;    ///< K_(i-2); in the first stage X, the start of the step
-    const double* latest;    ///< K_(i-1), where the forces were taken
-    const double* noise;     ///< displacement by the noise of the step; null but in the first stage
-    const double* force;     ///< all forces, or those of other origin than the pairs
-    const double* mobility;  ///< one number per slot
-    double* target;          ///< K_i; may be `before`
+    const double* before;        ///< K_(i-2); in the first stage X, the start of the step
+    const double* latest;        ///< K_(i-1), where the forces were taken
+    const double* noise;         ///< of the step: independent numbers of variance 1
+    const double* second_noise;  ///< the same
+    const double* noise_scale;   ///< sqrt(2 kB T mobility dt), one number per slot
+    const double* force;         ///< all forces, or those of other origin than the pairs
+    const double* mobility;      ///< one number per slot
+    double* target;              ///< K_i; may be `before`
 };
 
-/// Weights of one stage: target <- force dt mobility F + current K_(i-1) + previous K_(i-2); in the first stage
-/// target <- X + force dt mobility F + noise Q.
+/// Weights of one stage: target <- force dt mobility F + current K_(i-1) + previous K_(i-2) + noise Q + second_noise R, where Q and
+/// R are the two noises times their scale.
 struct StageWeights {
     double force = 0;
     double current = 0;
     double previous = 0;
     double noise = 0;
+    double second_noise = 0;
 };
 
 void stage(const StageArrays& slots, std::size_t begin, std::size_t end, const StageWeights& weights, double time_step);
@@ -72,8 +75,8 @@ void stage(const StageArrays& slots, std::size_t begin, std::size_t end, const S
 void stage_with_pairs(const PairLoop& loop, const ForceTable& table, const NeighbourRows& rows, const StageArrays& slots,
                       const StageWeights& weights, double time_step);
 
-/// The noise of a step: noise <- scale noise, with one scale per slot, and target <- positions + evaluation noise.
-void scale_noise(const double* scale, const double* positions, double evaluation, std::size_t begin, std::size_t end, double* noise,
-                 double* target);
+/// Where the first stage takes its forces: latest <- before + evaluation Q.
+void displace(const double* before, const double* noise, const double* noise_scale, double evaluation, std::size_t begin,
+              std::size_t end, double* latest);
 
 }  // namespace coagula::generators

@@ -38,7 +38,7 @@ BrownianState initial_state(const Eigen::Matrix3Xd& positions) {
 }
 
 void BrownianSystem::Motion::resize(std::size_t slots) {
-    for (std::vector<double>* values : {&start, &noise, &force, &stages[0], &stages[1]}) {
+    for (std::vector<double>* values : {&start, &noise, &second_noise, &force, &stages[0], &stages[1]}) {
         values->assign(4 * slots, 0.0);
     }
     mobility.assign(slots, 0.0);
@@ -51,7 +51,9 @@ StageArrays BrownianSystem::Motion::arrays(std::size_t stage) {
     // The second stage still needs the start; the target of the others holds the stage before the latest.
     return {.before = stage < 2 ? start.data() : target.data(),
             .latest = latest.data(),
-            .noise = stage == 0 ? noise.data() : nullptr,
+            .noise = noise.data(),
+            .second_noise = second_noise.data(),
+            .noise_scale = noise_scale.data(),
             .force = force.data(),
             .mobility = mobility.data(),
             .target = target.data()};
@@ -226,9 +228,10 @@ PairLoop BrownianSystem::pair_loop(const std::vector<double>& positions) const {
 
 void BrownianSystem::draw_noise(Motion& motion, const Chunk& chunk, RandomPurpose purpose) const {
     random_normals(setup_.seed, purpose, static_cast<std::uint64_t>(step_),
-                   std::span(particle_).subspan(chunk.begin, chunk.end - chunk.begin), &motion.noise[4 * chunk.begin]);
-    scale_noise(motion.noise_scale.data(), motion.start.data(), setup_.scheme.evaluation, chunk.begin, chunk.end,
-                motion.noise.data(), motion.stages[0].data());
+                   std::span(particle_).subspan(chunk.begin, chunk.end - chunk.begin), &motion.noise[4 * chunk.begin],
+                   setup_.scheme.two_noises() ? &motion.second_noise[4 * chunk.begin] : nullptr);
+    displace(motion.start.data(), motion.noise.data(), motion.noise_scale.data(), setup_.scheme.evaluation, chunk.begin, chunk.end,
+             motion.stages[0].data());
 }
 
 /// Noise, the point where the first force is taken, the far forces and the contacts.

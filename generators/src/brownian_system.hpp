@@ -95,7 +95,7 @@ private:
 
     /// Arrays of the stages of one step. Four numbers per slot, but one per slot of mobility and noise_scale.
     struct Motion {
-        std::vector<double> start, noise, force, mobility, noise_scale;
+        std::vector<double> start, noise, second_noise, force, mobility, noise_scale;
         /// Forces of stage i are taken at [i % 2], which the stage before it left there; the first at the start with some noise.
         std::array<std::vector<double>, 2> stages;
 

@@ -16,11 +16,11 @@ inline constexpr double temperature = 293;
 inline constexpr double thermal = boltzmann_constant * temperature;
 inline constexpr PairRadii radii{radius, radius};
 
-/// The suspension of Schenker et al. 2012; contact 4e5 kB T/R^2, at rest at 0.004 R.
-inline PairPotential dlvo(double surface_potential, std::vector<PairLaw> more = {}) {
+/// The suspension of Schenker et al. 2012; contact 4e5 kB T/R^2 (by default), at rest at 0.004 R.
+inline PairPotential dlvo(double surface_potential, std::vector<PairLaw> more = {}, double stiffness = 4e5) {
     more.emplace_back(HamakerAttraction(4.76e-20, radii));
     more.emplace_back(LinearSuperposition({surface_potential, 10e-9, 81, temperature, 1}, radii));
-    return {more, {4e5 * thermal / (radius * radius), 0.004 * radius}};
+    return {more, {stiffness * thermal / (radius * radius), 0.004 * radius}};
 }
 
 inline double diffusion_time() {

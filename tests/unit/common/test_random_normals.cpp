@@ -86,5 +86,52 @@ TEST(RandomNormals, HaveTheMomentsOfANormalDistribution) {
     }
 }
 
+TEST(RandomNormals, ComeWithUniformNumbersThatDoNotDependOnThem) {
+    constexpr std::size_t count = 300000;
+    std::vector<std::int32_t> particles(count);
+    std::iota(particles.begin(), particles.end(), 0);
+    std::vector<double> alone(4 * count);
+    std::vector<double> normals(4 * count);
+    std::vector<double> uniforms(4 * count, 7.0);
+    random_normals(seed, RandomPurpose::test, 0, particles, alone.data());
+    random_normals(seed, RandomPurpose::test, 0, particles, normals.data(), uniforms.data());
+    EXPECT_EQ(normals, alone);
+    const double root = std::sqrt(static_cast<double>(count));
+    // Five standard errors; the products of two numbers, and of their squares less 1, vanish on average.
+    const auto expect_apart = [&](const std::vector<double>& others, std::size_t part, std::size_t other, double kurtosis) {
+        double product = 0;
+        double squares = 0;
+        for (std::size_t entry = 0; entry < count; ++entry) {
+            const double one = uniforms[4 * entry + part];
+            const double two = others[4 * entry + other];
+            product += one * two / count;
+            squares += (one * one - 1) * (two * two - 1) / count;
+        }
+        EXPECT_NEAR(product, 0, 5 / root) << part << ' ' << other;
+        EXPECT_NEAR(squares, 0, 5 * std::sqrt(0.8 * (kurtosis - 1)) / root) << part << ' ' << other;
+    };
+    for (std::size_t part = 0; part < 3; ++part) {
+        double moments[5] = {};
+        for (std::size_t entry = 0; entry < count; ++entry) {
+            double power = 1;
+            for (double& moment : moments) {
+                moment += power / count;
+                power *= uniforms[4 * entry + part];
+            }
+            ASSERT_EQ(uniforms[4 * entry + 3], 0);
+        }
+        EXPECT_NEAR(moments[1], 0, 5 / root);
+        EXPECT_NEAR(moments[2], 1, 5 * std::sqrt(0.8) / root);
+        EXPECT_NEAR(moments[3], 0, 5 * std::sqrt(27.0 / 7) / root);
+        EXPECT_NEAR(moments[4], 1.8, 5 * std::sqrt(9 - 1.8 * 1.8) / root);
+        for (std::size_t other = 0; other < 3; ++other) {
+            expect_apart(normals, part, other, 3);
+            if (other != part) {
+                expect_apart(uniforms, part, other, 1.8);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace coagula

@@ -117,7 +117,8 @@ TEST(BrownianPhysics, StabilisedSuspensionHasItsHeterogeneity) {
 TEST(BrownianPhysics, ContactsRestAtTheirGapAndTemperature) {
     for (const double surface_potential : {0.0, 0.015}) {
         const PairPotential potential = dlvo(surface_potential);
-        const std::vector<double> gaps = watch_pairs(potential, 12, 0.004, {}, 30, 2e-5);
+        // Ten steps apart at 0 mV: from one step to the next the gap keeps nine tenths.
+        const std::vector<double> gaps = watch_pairs(potential, 12, 0.004, {}, 30, 2e-4);
         double mean = 0;
         for (const double gap : gaps) {
             mean += gap / static_cast<double>(gaps.size());

@@ -38,7 +38,10 @@ Eigen::Vector3d random_normal(std::uint64_t seed, RandomPurpose purpose, std::ui
 /// 4x32-10 and Box-Muller, 32 random bits per uniform number (so at most 6.7 standard deviations). The same bits on every
 /// processor.
 /// @param particles their numbers, which key the noise. @param normals four for each: the three numbers and a zero.
+/// @param uniforms null, or the same of three numbers that cost next to nothing more: of 1024 equally probable and equally spaced
+/// values each, with mean 0 and variance 1, from the last bits of the words of the angles. The upper bits alone spread the angles
+/// over 4096 equal turns, so that normal numbers are the same in distribution whatever these are.
 void random_normals(std::uint64_t seed, RandomPurpose purpose, std::uint64_t step, std::span<const std::int32_t> particles,
-                    double* normals);
+                    double* normals, double* uniforms = nullptr);
 
 }  // namespace coagula

@@ -20,7 +20,8 @@
 namespace coagula::generators {
 
 enum class Integrator {
-    stabilised,  ///< SK-ROCK (Abdulle, Almuslimani, Vilmart 2018) with as many stages as the contacts need, and its postprocessor
+    stabilised,  ///< after SK-ROCK (Abdulle, Almuslimani, Vilmart 2018) with as many stages as the contacts need, and its
+                 ///< postprocessor
     euler,       ///< Euler-Maruyama
 };
 
