@@ -6,6 +6,8 @@
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/generators/void_expansion.hpp>
 
+#include "stored_simulations.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -15,7 +17,24 @@
 
 namespace coagula::diagnose {
 
-inline Packing structure(Index particles, std::uint64_t seed, double target_coordination = unset, double volume_fraction = 0.4) {
+/// A periodic packing of spheres of one radius as numbers: edges, radius, centres.
+inline std::vector<double> numbers_of(const Packing& packing) {
+    const Eigen::Vector3d edges = packing.cell.lengths();
+    std::vector<double> numbers{edges[0], edges[1], edges[2], packing.radii[0]};
+    numbers.insert(numbers.end(), packing.positions.data(), packing.positions.data() + packing.positions.size());
+    return numbers;
+}
+
+inline Packing packing_of(const std::vector<double>& numbers) {
+    Packing packing;
+    packing.cell = Cell::periodic({numbers[0], numbers[1], numbers[2]});
+    const auto particles = static_cast<Index>(numbers.size() / 3 - 1);
+    packing.positions = Eigen::Map<const Eigen::Matrix3Xd>(numbers.data() + 4, 3, particles);
+    packing.radii = Eigen::VectorXd::Constant(particles, numbers[3]);
+    return packing;
+}
+
+inline Packing made_structure(Index particles, std::uint64_t seed, double target_coordination, double volume_fraction) {
     generators::VoidExpansionOptions options;
     options.particles = particles;
     options.voids = particles / 2;
@@ -28,10 +47,19 @@ inline Packing structure(Index particles, std::uint64_t seed, double target_coor
     return generators::expand_voids(options).packing;
 }
 
+/// By void expansion, with half as many voids as particles.
+inline Packing structure(Index particles, std::uint64_t seed, double target_coordination = unset, double volume_fraction = 0.4) {
+    static StoredSimulations structures("structures");
+    const std::string key = std::to_string(particles) + " " + std::to_string(seed) + " " + std::to_string(target_coordination) + " " +
+                            std::to_string(volume_fraction);
+    return packing_of(structures.result(
+        key, [&] { return numbers_of(made_structure(particles, seed, target_coordination, volume_fraction)); }));
+}
+
 /// Two structures that the diagnosis knows, and what it has simulated of them.
 inline Simulator& simulator() {
-    static SimulationCache cache;
-    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, cache);
+    static StoredSimulations stored("two_structures");
+    static Simulator made({structure(200, 1), structure(200, 2)}, {"first", "second"}, stored.results());
     return made;
 }
 

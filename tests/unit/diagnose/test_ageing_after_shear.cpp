@@ -41,8 +41,8 @@ Experiment build_up(bool sheared_before) {
 }
 
 Diagnosis diagnosis_of(const Experiment& experiment) {
-    static SimulationCache cache;
-    static Simulator simulator({structure(200, 1)}, {"first"}, cache);
+    static StoredSimulations stored("ageing_after_shear");
+    static Simulator simulator({structure(200, 1)}, {"first"}, stored.results());
     DiagnosisOptions options;
     options.bootstrap = 199;
     return diagnose(experiment, simulator, options);

@@ -21,8 +21,8 @@ const Packing& known() {
 }
 
 Simulator& simulator() {
-    static SimulationCache cache;
-    static Simulator made({known()}, {"one"}, cache);
+    static StoredSimulations stored("one_structure");
+    static Simulator made({known()}, {"one"}, stored.results());
     return made;
 }
 

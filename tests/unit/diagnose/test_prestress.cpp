@@ -103,7 +103,7 @@ TEST(Prestress, ExtendedModelRunsToTheSamePrediction) {
 
 /// Structures enough for the level of the modulus to say something.
 Simulator& many_structures() {
-    static SimulationCache cache;
+    static StoredSimulations stored("four_structures");
     static Simulator made = [] {
         std::vector<Packing> packings;
         std::vector<std::string> names;
@@ -111,7 +111,7 @@ Simulator& many_structures() {
             packings.push_back(structure(300, seed));
             names.push_back(std::to_string(seed));
         }
-        return Simulator(std::move(packings), std::move(names), cache);
+        return Simulator(std::move(packings), std::move(names), stored.results());
     }();
     return made;
 }

@@ -20,7 +20,7 @@ constexpr double radius = 0.25e-6;
 
 /// The structures that the diagnosis has, some for each row.
 struct Known {
-    explicit Known(std::vector<Index> sizes) {
+    Known(const std::string& name, std::vector<Index> sizes) : stored(name) {
         std::vector<Packing> packings;
         std::vector<std::string> names;
         for (std::size_t row = 0; row < coordinations.size(); ++row) {
@@ -31,16 +31,16 @@ struct Known {
                 names.push_back(std::to_string(names.size()));
             }
         }
-        simulator.emplace(packings, names, cache, Progress{}, groups);
+        simulator.emplace(packings, names, stored.results(), Progress{}, groups);
     }
-    SimulationCache cache;
+    StoredSimulations stored;
     std::vector<std::size_t> groups;
     std::vector<std::size_t> particles;
     std::optional<Simulator> simulator;
 };
 
 Known& known() {
-    static Known made({200});
+    static Known made("structure_series", {200});
     return made;
 }
 

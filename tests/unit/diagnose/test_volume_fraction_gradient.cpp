@@ -23,7 +23,7 @@ struct Known {
     std::vector<Packing> packings;
     std::vector<std::string> names;
     std::vector<double> fractions;
-    SimulationCache cache;
+    StoredSimulations stored{"two_volume_fractions"};
     std::optional<Simulator> simulator;
 
     Known() {
@@ -32,7 +32,7 @@ struct Known {
             names.push_back(std::to_string(k));
             fractions.push_back(volume_fraction(packings.back()));
         }
-        simulator.emplace(packings, names, cache);
+        simulator.emplace(packings, names, stored.results());
     }
 };
 
