@@ -1,5 +1,6 @@
 #include "interruption.hpp"
 
+#include <array>
 #include <csignal>
 
 namespace coagula::tools {
@@ -8,8 +9,14 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
+constexpr std::array stopping = {SIGINT, SIGTERM};
+
+/// The next signal, whichever of them it is, finds the default action and ends the program.
 void request_stop(int /*signal*/) {
     stop_requested = 1;
+    for (const int number : stopping) {
+        std::signal(number, SIG_DFL);
+    }
 }
 
 }  // namespace
@@ -17,11 +24,11 @@ void request_stop(int /*signal*/) {
 void install_signal_handlers() {
     struct sigaction action {};
     action.sa_handler = request_stop;
-    // SA_RESETHAND: the second signal finds the default action. SA_RESTART: a write in progress is not cut short.
-    action.sa_flags = static_cast<int>(SA_RESETHAND | static_cast<unsigned>(SA_RESTART));
+    action.sa_flags = SA_RESTART;  // a write in progress is not cut short
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (const int number : stopping) {
+        sigaction(number, &action, nullptr);
+    }
     std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -7,8 +7,9 @@
 
 namespace coagula::tools {
 
-/// Files are first written into a hidden folder inside the target, whatever fails meanwhile leaves the target as it was; `publish`
-/// then renames them into place. The key file goes first and comes last, so that where it stands, all files are of one run.
+/// Files are first written into the hidden folder .new inside the target, whatever fails meanwhile leaves the target as it was;
+/// `publish` then renames them into place. The key file goes first and comes last, so that where it stands, all files are of one
+/// run. From the first file on the target is locked: another run waits, then removes what a killed one left.
 class ResultFolder {
 public:
     /// Throws InputError when `folder` is a file, or one of the files is a folder, or is there already and `force` is not given.
@@ -28,9 +29,15 @@ public:
     void publish();
 
 private:
+    void refuse_existing() const;
+    void begin();
+
     std::filesystem::path folder_;
     std::string key_file_;
+    std::vector<std::string> others_;
+    bool force_;
     std::filesystem::path staging_;
+    int lock_ = -1;      ///< descriptor of the folder
     bool made_ = false;  ///< the folder itself, by this run
     std::vector<std::string> names_;
     std::vector<std::string> withdrawn_;

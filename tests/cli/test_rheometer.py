@@ -38,7 +38,7 @@ class Rheometer(ProgramTest):
         with h5py.File(self.folder / "out.h5") as file:
             samples = file["mechanics/dem/samples/stress"]
             self.assertEqual(samples.shape, (2, 200))
-            self.assertEqual(samples.attrs["unit"], "Pa")
+            self.assertEqual(samples.attrs["unit"], b"Pa")
 
     def test_plates(self):
         found = self.succeed_json("shear", "packing.h5", "-o", "out.h5", "--method", "dem", "--orientation", "yz", "--oscillations",

@@ -2,15 +2,23 @@
 
 #include <coagula/common/checks.hpp>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <functional>
 #include <numeric>
+
+#include "utf8.hpp"
 
 namespace coagula::io::hdf5 {
 
 namespace {
 
-constexpr std::size_t largest_array = std::size_t{1} << 34;  // values; more is taken for a damaged header
+/// More bytes than that for each byte of the file are taken for a damaged header: deflate makes at most 1032 of one.
+constexpr std::size_t largest_growth = 2048;
+constexpr std::size_t always_plausible = std::size_t{1} << 20;
 
 Handle file_access() {
     Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -23,6 +31,16 @@ herr_t append_name(hid_t /*group*/, const char* name, const H5L_info_t* /*info*/
     return 0;
 }
 
+/// By HDF5 in another program, which writes there.
+bool is_locked(const std::string& path) {
+    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const bool locked = descriptor >= 0 && flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (descriptor >= 0) {
+        close(descriptor);
+    }
+    return locked;
+}
+
 std::string why_not_opened(const std::string& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -31,6 +49,9 @@ std::string why_not_opened(const std::string& path) {
     }
     if (!std::filesystem::is_regular_file(status)) {
         return "is not a regular file";
+    }
+    if (is_locked(path)) {
+        return "is open for writing in another program";
     }
     const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
     if (is_hdf5 == 0) {
@@ -46,47 +67,24 @@ Shape extent_of(const Handle& space) {
     return {extent.begin(), extent.end()};
 }
 
-/// Texts of a dataset or attribute of strings, of fixed or variable length. `read(type, buffer)` fills the buffer.
-template <class Read>
-std::vector<std::string> read_texts(const Handle& type, const Handle& space, Read&& read) {
-    const std::size_t number = File::count(extent_of(space));
-    std::vector<std::string> texts;
-    if (H5Tget_class(type.get()) != H5T_STRING) {
-        return texts;
-    }
-    if (H5Tis_variable_str(type.get()) > 0) {
-        std::vector<char*> pointers(number, nullptr);
-        if (read(type.get(), pointers.data()) < 0) {
-            return texts;
-        }
-        for (const char* pointer : pointers) {
-            texts.emplace_back(pointer == nullptr ? "" : pointer);
-        }
-        H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, pointers.data());
-        return texts;
-    }
-    const std::size_t length = H5Tget_size(type.get());
-    std::vector<char> characters(number * length);
-    if (read(type.get(), characters.data()) < 0) {
-        return texts;
-    }
-    for (std::size_t i = 0; i < number; ++i) {
-        const std::string padded(characters.data() + i * length, length);
-        const std::string text = padded.substr(0, padded.find('\0'));
-        texts.push_back(text.substr(0, text.find_last_not_of(' ') + 1));
-    }
-    return texts;
-}
-
 }  // namespace
 
+void silence_errors() {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 File File::open(const std::string& path) {
-    const SilentErrors silent;
-    Handle id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access().get()), H5Fclose);
+    silence_errors();
+    std::error_code error;
+    const bool regular = std::filesystem::is_regular_file(path, error);  // HDF5 would wait for a pipe
+    Handle id(regular ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access().get()) : H5I_INVALID_HID, H5Fclose);
     if (!id) {
         throw InputError(path + " " + why_not_opened(path));
     }
-    return {path, nullptr, std::move(id)};
+    File file{path, nullptr, std::move(id)};
+    file.length_ = std::filesystem::file_size(path);
+    file.inspect();
+    return file;
 }
 
 void File::fail(const std::string& object, const std::string& rule) const {
@@ -184,15 +182,20 @@ Shape File::shape(const std::string& dataset) const {
     if (H5Sget_simple_extent_type(space.get()) == H5S_NULL) {
         fail(dataset, "is empty");
     }
+    const Handle type(H5Dget_type(opened.get()), H5Tclose);
     Shape shape = extent_of(space);
-    std::size_t room = largest_array;
+    std::size_t bytes = std::max(H5Tget_size(type.get()), sizeof(double));  // as they are read
     for (const std::size_t length : shape) {
-        if (length > room) {
-            fail(dataset, "has an impossible size: the file is damaged");
-        }
-        room /= std::max<std::size_t>(length, 1);
+        bytes = length > 0 && bytes > SIZE_MAX / length ? SIZE_MAX : bytes * length;
     }
+    require_plausible(dataset, bytes);
     return shape;
+}
+
+void File::require_plausible(const std::string& object, std::size_t bytes) const {
+    if (bytes > always_plausible && bytes / largest_growth > length_) {
+        fail(object, "has an impossible size: the file is damaged");
+    }
 }
 
 Handle File::slice_of(const std::string& dataset, std::size_t frame) const {
@@ -231,11 +234,54 @@ void File::read_numbers(const std::string& dataset, hid_t memory_type, void* val
     }
 }
 
+/// Texts of a dataset or attribute of strings, of fixed or variable length. `read(type, buffer)` fills the buffer.
+template <class Read>
+std::vector<std::string> File::read_texts(const std::string& object, const Handle& type, const Handle& space, Read&& read) const {
+    std::vector<std::string> texts;
+    if (H5Tget_class(type.get()) != H5T_STRING) {
+        return texts;
+    }
+    const auto number = static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0));
+    const std::size_t length = H5Tget_size(type.get());
+    require_plausible(object, length > 0 && number > SIZE_MAX / length ? SIZE_MAX : number * length);
+    if (H5Tis_variable_str(type.get()) > 0) {
+        std::vector<char*> pointers(number, nullptr);
+        if (read(type.get(), pointers.data()) < 0) {
+            fail(object, "cannot be read: the file is damaged");
+        }
+        for (const char* pointer : pointers) {
+            texts.emplace_back(pointer == nullptr ? "" : pointer);
+        }
+        H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, pointers.data());
+    } else {
+        std::vector<char> characters(number * length);
+        if (read(type.get(), characters.data()) < 0) {
+            fail(object, "cannot be read: the file is damaged");
+        }
+        const bool blanks_fill = H5Tget_strpad(type.get()) == H5T_STR_SPACEPAD;
+        for (std::size_t i = 0; i < number; ++i) {
+            const std::string padded(characters.data() + i * length, length);
+            const std::string text = padded.substr(0, padded.find('\0'));
+            texts.push_back(blanks_fill ? text.substr(0, text.find_last_not_of(' ') + 1) : text);
+        }
+    }
+    for (const std::string& text : texts) {
+        require_text(object, text);
+    }
+    return texts;
+}
+
+void File::require_text(const std::string& object, const std::string& text) const {
+    if (!is_utf8(text)) {
+        fail(object, "holds a text that is not UTF-8: the file is damaged");
+    }
+}
+
 std::string File::read_text(const std::string& dataset) const {
     const Handle opened = open_dataset(dataset);
     const Handle type(H5Dget_type(opened.get()), H5Tclose);
     const Handle space(H5Dget_space(opened.get()), H5Sclose);
-    const auto texts = read_texts(type, space, [&](hid_t memory, void* buffer) {
+    const auto texts = read_texts(dataset, type, space, [&](hid_t memory, void* buffer) {
         return H5Dread(opened.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
     });
     if (texts.size() != 1) {
@@ -246,13 +292,18 @@ std::string File::read_text(const std::string& dataset) const {
 
 std::vector<std::string> File::texts_attribute(const std::string& object, const std::string& name) const {
     const Handle opened = open_object(object);
-    if (!opened || H5Aexists(opened.get(), name.c_str()) <= 0) {
+    const htri_t exists = opened ? H5Aexists(opened.get(), name.c_str()) : 0;
+    if (exists == 0) {
         return {};
     }
-    const Handle attribute(H5Aopen(opened.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
+    const Handle attribute(exists > 0 ? H5Aopen(opened.get(), name.c_str(), H5P_DEFAULT) : H5I_INVALID_HID, H5Aclose);
+    if (!attribute) {
+        fail(object + " attribute " + name, "cannot be read: the file is damaged");
+    }
     const Handle type(H5Aget_type(attribute.get()), H5Tclose);
     const Handle space(H5Aget_space(attribute.get()), H5Sclose);
-    return read_texts(type, space, [&](hid_t memory, void* buffer) { return H5Aread(attribute.get(), memory, buffer); });
+    return read_texts(object + " attribute " + name, type, space,
+                      [&](hid_t memory, void* buffer) { return H5Aread(attribute.get(), memory, buffer); });
 }
 
 std::string File::attribute(const std::string& object, const std::string& name) const {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,21 +42,8 @@ private:
     Close close_ = nullptr;
 };
 
-/// Keeps HDF5 from printing its error stack while it lives.
-class SilentErrors {
-public:
-    SilentErrors() {
-        H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    }
-    ~SilentErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-    SilentErrors(const SilentErrors&) = delete;
-    SilentErrors& operator=(const SilentErrors&) = delete;
-
-private:
-    H5E_auto2_t print_ = nullptr;
-    void* data_ = nullptr;
-};
+/// Keeps HDF5 from printing its error stack, for good: what it would say is said in sentences.
+void silence_errors();
 
 /// The type of a number in memory and (little endian) in the file.
 template <class T>
@@ -93,14 +81,15 @@ using MemoryImage = std::unique_ptr<char, decltype(&std::free)>;
 enum class Content { real, integer, text, other };
 
 /// An open file. What cannot be read throws InputError ("FILE: OBJECT rule"); a new file is built in memory, so that neither a full
-/// disk nor an interruption can leave a part of it behind, and reaches the disk by save().
+/// disk nor an interruption can leave a part of it behind, and is written as a whole.
 class File {
 public:
+    /// Opens and inspects a file. HDF5 crashes on some damaged files, so this belongs into run_in_child.
     static File open(const std::string& path);
     static File create(const std::string& path);
 
-    /// Closes a created file and writes it to its path by temporary file and rename.
-    void save(bool overwrite);
+    /// Closes a created file; its bytes, which last as long as this object.
+    std::span<const char> close();
 
     [[noreturn]] void fail(const std::string& object, const std::string& rule) const;
 
@@ -144,9 +133,9 @@ public:
     }
     void write_text(const std::string& dataset, const std::string& text);
     void describe(const std::string& object, const std::string& unit, const std::string& description);
+    /// Texts have a fixed length. Below /h5md and /particles the length is variable: MDAnalysis compares these with Python texts,
+    /// and h5py makes byte strings of those of fixed length.
     void set_attribute(const std::string& object, const std::string& name, const std::string& text);
-    /// The same with a text of fixed length, which is what the VTK reader wants.
-    void set_fixed_attribute(const std::string& object, const std::string& name, const std::string& text);
     void set_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts);
     /// Small vectors; one value without brackets is a scalar.
     void set_attribute(const std::string& object, const std::string& name, std::int64_t value);
@@ -162,6 +151,11 @@ public:
 private:
     File(std::string path, std::unique_ptr<MemoryImage> image, Handle id)
         : path_(std::move(path)), image_(std::move(image)), id_(std::move(id)) {}
+    void inspect() const;
+    void require_plausible(const std::string& object, std::size_t bytes) const;
+    void require_text(const std::string& object, const std::string& text) const;
+    template <class Read>
+    std::vector<std::string> read_texts(const std::string& object, const Handle& type, const Handle& space, Read&& read) const;
     void make_room(const std::string& object);
     Handle open_object(const std::string& object) const;
     Handle open_dataset(const std::string& dataset) const;
@@ -170,8 +164,8 @@ private:
     void write_numbers(const std::string& dataset, const Shape& shape, hid_t file_type, hid_t memory_type, const void* values);
     void write_attribute(const std::string& object, const std::string& name, hid_t type, const Handle& space, const void* values);
 
-    SilentErrors silent_;
     std::string path_;
+    std::size_t length_ = 0;              ///< of an opened file [byte]
     std::unique_ptr<MemoryImage> image_;  ///< of a created file, filled when it is closed; outlives the handle
     Handle id_;
 };

@@ -4,8 +4,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "atomic_file.hpp"
 #include "hdf5_file.hpp"
+#include "layout.hpp"
 
 namespace coagula::io::hdf5 {
 
@@ -56,10 +56,20 @@ Handle file_access_in_memory(MemoryImage& image) {
 Handle text_type(std::size_t length) {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type.get(), length);
-    if (length == H5T_VARIABLE) {
-        H5Tset_cset(type.get(), H5T_CSET_UTF8);
+    if (length != H5T_VARIABLE) {
+        H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
     }
+    H5Tset_cset(type.get(), H5T_CSET_UTF8);
     return type;
+}
+
+/// HDF5 has no texts of length zero.
+Handle fixed_text_type(const std::string& text) {
+    return text_type(std::max<std::size_t>(text.size(), 1));
+}
+
+bool is_read_as_python_text(const std::string& object) {
+    return object.starts_with(layout::metadata) || object.starts_with(layout::particles);
 }
 
 Handle scalar_space() {
@@ -132,7 +142,7 @@ void require_written(bool done, const std::string& path, const std::string& obje
 }  // namespace
 
 File File::create(const std::string& path) {
-    const SilentErrors silent;
+    silence_errors();
     auto image = std::make_unique<MemoryImage>(nullptr, std::free);
     const Handle access = file_access_in_memory(*image);
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
@@ -142,7 +152,7 @@ File File::create(const std::string& path) {
     return {path, std::move(image), std::move(id)};
 }
 
-void File::save(bool overwrite) {
+std::span<const char> File::close() {
     require_written(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL) >= 0, path_, "to flush");
     id_ = Handle();
     require_written(static_cast<bool>(*image_), path_, "to close");
@@ -150,7 +160,7 @@ void File::save(bool overwrite) {
     // H5Fget_file_image is of no use: the superblock that it gives has a wrong checksum in HDF5 1.10.
     std::uint64_t size = 0;
     std::memcpy(&size, image_->get() + 28, sizeof size);
-    write_file(path_, {image_->get(), size}, overwrite);
+    return {image_->get(), size};
 }
 
 void File::create_group(const std::string& group) {
@@ -180,14 +190,12 @@ void File::write_numbers(const std::string& dataset, const Shape& shape, hid_t f
 
 void File::write_text(const std::string& dataset, const std::string& text) {
     make_room(dataset);
-    const Handle type = text_type(H5T_VARIABLE);
-    const char* pointer = text.c_str();
+    const Handle type = fixed_text_type(text);
     const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), type.get(), scalar_space().get(), H5P_DEFAULT,
                                     creation_properties({}, 1).get(), H5P_DEFAULT),
                          H5Dclose);
-    require_written(
-        created && H5Dwrite(created.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<const void*>(&pointer)) >= 0,
-        path_, dataset);
+    require_written(created && H5Dwrite(created.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0, path_,
+                    dataset);
 }
 
 void File::write_attribute(const std::string& object, const std::string& name, hid_t type, const Handle& space,
@@ -206,12 +214,12 @@ void File::describe(const std::string& object, const std::string& unit, const st
 }
 
 void File::set_attribute(const std::string& object, const std::string& name, const std::string& text) {
-    const char* pointer = text.c_str();
-    write_attribute(object, name, text_type(H5T_VARIABLE).get(), scalar_space(), static_cast<const void*>(&pointer));
-}
-
-void File::set_fixed_attribute(const std::string& object, const std::string& name, const std::string& text) {
-    write_attribute(object, name, text_type(text.size()).get(), scalar_space(), text.data());
+    if (is_read_as_python_text(object)) {
+        const char* pointer = text.c_str();
+        write_attribute(object, name, text_type(H5T_VARIABLE).get(), scalar_space(), static_cast<const void*>(&pointer));
+    } else {
+        write_attribute(object, name, fixed_text_type(text).get(), scalar_space(), text.c_str());
+    }
 }
 
 void File::set_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts) {

@@ -1,6 +1,7 @@
 #include "measured_text.hpp"
 
 #include "text_reader.hpp"
+#include "utf8.hpp"
 
 #include <algorithm>
 #include <array>
@@ -52,36 +53,6 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
         i += paired ? 2 : 0;
     }
     return text;
-}
-
-/// Number of bytes of the UTF-8 sequence at `i`; 0 when it is none.
-std::size_t sequence_length(std::string_view bytes, std::size_t i) {
-    const auto lead = static_cast<unsigned char>(bytes[i]);
-    const std::size_t length = lead < 0x80                   ? 1
-                               : lead >= 0xc2 && lead < 0xe0 ? 2
-                               : lead >= 0xe0 && lead < 0xf0 ? 3
-                               : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                             : 0;
-    if (length == 0 || i + length > bytes.size()) {
-        return 0;
-    }
-    for (std::size_t k = 1; k < length; ++k) {
-        if ((static_cast<unsigned char>(bytes[i + k]) & 0xc0) != 0x80) {
-            return 0;
-        }
-    }
-    return length;
-}
-
-bool is_utf8(std::string_view bytes) {
-    for (std::size_t i = 0; i < bytes.size();) {
-        const std::size_t length = sequence_length(bytes, i);
-        if (length == 0) {
-            return false;
-        }
-        i += length;
-    }
-    return true;
 }
 
 /// Windows-1252 but for its 27 printable characters between 0x80 and 0x9f, of which the trade mark sign alone is of interest here.

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "child_process.hpp"
 #include "layout.hpp"
+#include "packed.hpp"
 
 namespace coagula::io {
 
@@ -170,17 +172,8 @@ Packing read_packing(const File& file, const std::string& group) {
         require_shape(file, id, {particles});
     }
     const auto number = static_cast<Index>(particles);
-    const Packing packing{read_cell(file, group + "/box"), Eigen::Matrix3Xd::Map(coordinates.data(), 3, number),
-                          Eigen::VectorXd::Map(radii.data(), number)};
-    try {
-        check(packing, file.path() + ": " + group);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(error.what());
-    }
-    if (const double fraction = volume_fraction(packing); fraction > 1) {
-        file.fail(group, "is overfull: its spheres take " + to_text(fraction) + " of the volume of the box");
-    }
-    return packing;
+    return {read_cell(file, group + "/box"), Eigen::Matrix3Xd::Map(coordinates.data(), 3, number),
+            Eigen::VectorXd::Map(radii.data(), number)};
 }
 
 Eigen::Matrix3Xd read_branches(const File& file, const Packing& packing, const ContactNetwork& bonds) {
@@ -248,8 +241,25 @@ Structure read_structure(const File& file) {
     return {packing, read_bonds(file, packing)};
 }
 
+// The checks run in the calling process: they use threads, and their sentences come from values alone.
 Structure read_structure(const std::string& path) {
-    return read_structure(File::open(path));
+    Unpacker found(run_in_child(path, [&](ReadingLimits& /*limits*/) {
+        const File file = File::open(path);
+        Packer packer;
+        packer(particles_group(file), read_structure(file));
+        return packer.take();
+    }));
+    const auto group = found.take<std::string>();
+    const auto structure = found.take<Structure>();
+    try {
+        check(structure.packing, path + ": " + group);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(error.what());
+    }
+    if (const double fraction = volume_fraction(structure.packing); fraction > 1) {
+        throw InputError(path + ": " + group + " is overfull: its spheres take " + to_text(fraction) + " of the volume of the box");
+    }
+    return structure;
 }
 
 }  // namespace coagula::io

@@ -10,7 +10,7 @@ namespace coagula::io {
 /// The group of /particles that holds the packing: "trajectory", or the only one. Throws InputError when the file is not H5MD.
 std::string particles_group(const hdf5::File& file);
 
-/// The last frame. Throws InputError naming file and object.
+/// The last frame as it stands there, not checked yet. Throws InputError naming file and object.
 Structure read_structure(const hdf5::File& file);
 
 }  // namespace coagula::io

@@ -4,8 +4,12 @@
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
+#include "atomic_file.hpp"
+#include "child_process.hpp"
 #include "layout.hpp"
+#include "packed.hpp"
 
 namespace coagula::io {
 
@@ -44,14 +48,37 @@ std::string provenance_name(const File& file, std::string stage) {
     return number.data() + stage;
 }
 
-std::string text_or_nothing(const File& file, const std::string& path) {
-    return file.has(path) ? file.read_text(path) : "";
+std::vector<Dataset> results_in(const File& file, const std::string& group) {
+    std::vector<Dataset> results;
+    for (const std::string& name : file.datasets_below(group)) {
+        Dataset dataset{name, file.shape(name), {}, file.attribute(name, "unit"), file.attribute(name, "description")};
+        const Content content = file.content(name);
+        if (content == Content::real) {
+            dataset.values = file.read<double>(name);
+        } else if (content == Content::integer) {
+            dataset.values = file.read<std::int64_t>(name);
+        } else if (content == Content::text && dataset.shape.empty()) {
+            dataset.values = file.read_text(name);
+        } else {
+            continue;  // not one of ours
+        }
+        results.push_back(std::move(dataset));
+    }
+    return results;
 }
 
-template <class T>
-T number_or(const File& file, const std::string& path, T otherwise) {
-    const auto values = file.has(path) ? file.read<T>(path) : std::vector<T>{};
-    return values.size() == 1 ? values[0] : otherwise;
+/// Sets the field of an entry of the history that a dataset holds, if there is one of this name and type.
+void set_field(Provenance& entry, const std::string& name, const Dataset& dataset) {
+    const std::map<std::string, std::string*> texts = {{"stage", &entry.stage},     {"command_line", &entry.command_line},
+                                                       {"options", &entry.options}, {"version", &entry.version},
+                                                       {"time", &entry.time},       {"positions_sha256", &entry.positions_sha256}};
+    if (const auto* text = std::get_if<std::string>(&dataset.values); text != nullptr && texts.contains(name)) {
+        *texts.at(name) = *text;
+    } else if (const auto* whole = std::get_if<std::vector<std::int64_t>>(&dataset.values); whole != nullptr && name == "seed") {
+        entry.seed = whole->size() == 1 ? whole->front() : entry.seed;
+    } else if (const auto* real = std::get_if<std::vector<double>>(&dataset.values); real != nullptr && name == "seconds") {
+        entry.seconds = real->size() == 1 ? real->front() : entry.seconds;
+    }
 }
 
 }  // namespace
@@ -121,46 +148,33 @@ void write_datasets(const std::string& path, const std::vector<Dataset>& dataset
     for (const Dataset& dataset : datasets) {
         write_dataset(file, dataset);
     }
-    file.save(overwrite);
+    write_file(path, file.close(), overwrite);
 }
 
 std::vector<Dataset> read_results(const std::string& path, const std::string& group) {
-    const File file = File::open(path);
-    std::vector<Dataset> results;
-    for (const std::string& name : file.datasets_below(group)) {
-        Dataset dataset{name, file.shape(name), {}, file.attribute(name, "unit"), file.attribute(name, "description")};
-        const Content content = file.content(name);
-        if (content == Content::real) {
-            dataset.values = file.read<double>(name);
-        } else if (content == Content::integer) {
-            dataset.values = file.read<std::int64_t>(name);
-        } else if (content == Content::text && dataset.shape.empty()) {
-            dataset.values = file.read_text(name);
-        } else {
-            continue;  // not one of ours
-        }
-        results.push_back(std::move(dataset));
-    }
-    return results;
+    return Unpacker(run_in_child(path,
+                                 [&](ReadingLimits& /*limits*/) {
+                                     Packer packer;
+                                     packer(results_in(File::open(path), group));
+                                     return packer.take();
+                                 }))
+        .take<std::vector<Dataset>>();
 }
 
 std::vector<Provenance> read_provenance(const std::string& path) {
-    const File file = File::open(path);
-    std::vector<Provenance> history;
-    for (const std::string& name : file.children(layout::provenance)) {
-        const std::string group = std::string(layout::provenance) + "/" + name + "/";
-        Provenance entry;
-        entry.stage = text_or_nothing(file, group + "stage");
-        entry.command_line = text_or_nothing(file, group + "command_line");
-        entry.options = text_or_nothing(file, group + "options");
-        entry.seed = number_or<std::int64_t>(file, group + "seed", -1);
-        entry.version = text_or_nothing(file, group + "version");
-        entry.time = text_or_nothing(file, group + "time");
-        entry.seconds = number_or<double>(file, group + "seconds", unset);
-        entry.positions_sha256 = text_or_nothing(file, group + "positions_sha256");
-        history.push_back(std::move(entry));
+    std::map<std::string, Provenance> history;  // by the name of the entry, which begins with its number
+    const std::string prefix = std::string(layout::provenance) + "/";
+    for (Dataset& dataset : read_results(path, layout::provenance)) {
+        const std::size_t slash = dataset.path.find('/', prefix.size());
+        if (slash != std::string::npos) {
+            set_field(history[dataset.path.substr(prefix.size(), slash - prefix.size())], dataset.path.substr(slash + 1), dataset);
+        }
     }
-    return history;
+    std::vector<Provenance> entries;
+    for (auto& [name, entry] : history) {
+        entries.push_back(std::move(entry));
+    }
+    return entries;
 }
 
 }  // namespace coagula::io

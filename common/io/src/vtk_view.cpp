@@ -76,7 +76,7 @@ void write_view(File& file, const Packing& packing, const std::optional<ContactN
     file.remove(layout::view);
     file.create_group(in_view("PointData"));
     file.set_attribute(layout::view, "Version", std::vector<std::int64_t>{1, 0});
-    file.set_fixed_attribute(layout::view, "Type", "UnstructuredGrid");
+    file.set_attribute(layout::view, "Type", "UnstructuredGrid");
     const auto particles = static_cast<std::size_t>(packing.size());
     write_size(file, "NumberOfPoints", particles);
     const Eigen::Matrix3Xf points = packing.positions.cast<float>();

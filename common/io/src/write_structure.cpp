@@ -5,6 +5,8 @@
 #include <array>
 #include <filesystem>
 
+#include "atomic_file.hpp"
+#include "child_process.hpp"
 #include "hdf5_file.hpp"
 #include "layout.hpp"
 #include "read_structure.hpp"
@@ -101,9 +103,69 @@ void write_bonds(File& file, const std::string& particles_group, const ContactNe
     file.describe(layout::branch_vectors, "m", "from the first to the second centre of each bond, through the periodic boundary");
 }
 
-void check_structure(const Packing& packing, const std::optional<ContactNetwork>& bonds) {
-    check(packing);
-    require(!bonds || bonds->particles == packing.size(), "the bonds are those of another packing");
+/// What add_results adds.
+struct Additions {
+    const std::vector<std::string>& replaced;
+    const std::optional<ContactNetwork>& bonds;
+    const std::vector<ParticleField>& fields;
+    const std::vector<Dataset>& results;
+    const Provenance& provenance;
+    const std::vector<BondField>& bond_fields;
+};
+
+/// The file may have been replaced since its packing was read.
+void check_same_packing(const std::string& source, const Packing& packing, const Additions& added) {
+    const std::string& expected = added.provenance.positions_sha256;
+    if (!expected.empty() && expected != positions_sha256(packing)) {
+        throw std::runtime_error(source + " holds another packing than when this run began; its results are not written");
+    }
+    require(!added.bonds || added.bonds->particles == packing.size(), "the bonds are those of another packing");
+    require(added.bonds || added.bond_fields.empty(), "fields of bonds need bonds");
+}
+
+bool are_equal(const ContactNetwork& one, const ContactNetwork& other) {
+    return one.size() == other.size() && one.ends == other.ends && one.branch == other.branch;
+}
+
+/// Results of the old list of bonds keep it: a second name of the same data.
+void keep_bonds_of_results(File& file) {
+    for (const std::string& method : file.children(layout::mechanics)) {
+        const std::string group = std::string(layout::mechanics) + "/" + method;
+        const std::string own = group + layout::connectivity;
+        if (!file.is_group(group) || file.has(own)) {
+            continue;
+        }
+        for (const std::string& name : file.children(layout::connectivity)) {
+            file.link(layout::connectivity + ("/" + name), own + "/" + name);
+        }
+    }
+}
+
+void add_to(File& file, const Structure& structure, const std::string& particles_group, const Additions& added) {
+    for (const std::string& group : added.replaced) {
+        file.remove(group);
+    }
+    if (added.bonds && structure.bonds && !are_equal(*added.bonds, *structure.bonds)) {
+        keep_bonds_of_results(file);
+    }
+    if (added.bonds) {
+        write_bonds(file, particles_group, *added.bonds);
+    }
+    if (!file.has(layout::view)) {
+        write_view(file, structure.packing, added.bonds ? added.bonds : structure.bonds);
+    } else if (added.bonds) {
+        write_view_bonds(file, structure.packing, added.bonds);
+    }
+    for (const ParticleField& field : added.fields) {
+        write_view_field(file, structure.packing.size(), field);
+    }
+    for (const BondField& field : added.bond_fields) {
+        write_view_bond_field(file, structure.packing, *added.bonds, field);
+    }
+    for (const Dataset& dataset : added.results) {
+        write_dataset(file, dataset);
+    }
+    write_provenance(file, added.provenance);
 }
 
 }  // namespace
@@ -111,7 +173,8 @@ void check_structure(const Packing& packing, const std::optional<ContactNetwork>
 void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
                      const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite) {
     check_output(path, overwrite);
-    check_structure(structure.packing, structure.bonds);
+    check(structure.packing);
+    require(!structure.bonds || structure.bonds->particles == structure.packing.size(), "the bonds are those of another packing");
     for (const Frame& frame : structure.earlier) {
         require(frame.positions.cols() == structure.packing.size(), "a frame of the trajectory has another number of particles");
     }
@@ -129,7 +192,7 @@ void write_structure(const std::string& path, const Structure& structure, const 
         write_dataset(file, dataset);
     }
     write_provenance(file, provenance);
-    file.save(overwrite);
+    write_file(path, file.close(), overwrite);
 }
 
 void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
@@ -138,35 +201,20 @@ void add_results(const std::string& source, const std::string& target, const std
                  const std::vector<BondField>& bond_fields) {
     std::error_code missing;
     const bool in_place = std::filesystem::equivalent(source, target, missing);
-    check_output(target, overwrite || in_place);
-    const File old = File::open(source);
-    const Structure structure = read_structure(old);
-    check_structure(structure.packing, bonds);
-    File file = File::create(target);
-    file.copy_all_from(old);
-    for (const std::string& group : replaced) {
-        file.remove(group);
-    }
-    if (bonds) {
-        write_bonds(file, particles_group(old), *bonds);
-    }
-    if (!file.has(layout::view)) {
-        write_view(file, structure.packing, bonds ? bonds : structure.bonds);
-    } else if (bonds) {
-        write_view_bonds(file, structure.packing, bonds);
-    }
-    for (const ParticleField& field : fields) {
-        write_view_field(file, structure.packing.size(), field);
-    }
-    require(bonds || bond_fields.empty(), "fields of bonds need bonds");
-    for (const BondField& field : bond_fields) {
-        write_view_bond_field(file, structure.packing, *bonds, field);
-    }
-    for (const Dataset& dataset : results) {
-        write_dataset(file, dataset);
-    }
-    write_provenance(file, provenance);
-    file.save(overwrite || in_place);
+    OutputFile output(target, overwrite || in_place);  // from here on nobody else adds to the file
+    const Additions added{replaced, bonds, fields, results, provenance, bond_fields};
+    run_in_child(source, [&](ReadingLimits& limits) {
+        const File old = File::open(source);
+        const Structure structure = read_structure(old);
+        check_same_packing(source, structure.packing, added);
+        File file = File::create(target);
+        file.copy_all_from(old);
+        limits.lift();
+        add_to(file, structure, particles_group(old), added);
+        output.write(file.close());
+        return std::string();
+    });
+    output.publish();
 }
 
 std::string positions_sha256(const Packing& packing) {

@@ -60,7 +60,7 @@ def check_h5py():
         same(file["connectivity/branch_vectors"], branch)
         assert file[connectivity.attrs["particles_group"]] == group
         same(file["mechanics/linear/matrix"], [[1, 2], [3, 4]])
-        assert file["mechanics/linear/modulus"][()] == 1.5e6 and file["mechanics/linear/modulus"].attrs["unit"] == "Pa"
+        assert file["mechanics/linear/modulus"][()] == 1.5e6 and file["mechanics/linear/modulus"].attrs["unit"] == b"Pa"
         assert file["provenance/0001_generate_test/stage"][()].decode() == "generate test"
         for name in all_datasets(file):
             if name.split("/")[0] != "VTKHDF" or name.split("/")[1] == "PointData":

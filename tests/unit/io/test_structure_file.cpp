@@ -13,7 +13,7 @@ namespace coagula::io {
 namespace {
 
 Provenance example_provenance(const std::string& stage) {
-    return {stage, "coagula " + stage + " --seed 3", R"({"seed": 3})", 3, "0.1.0+abc", "2000-01-01T00:00:00Z", 1.25, "abc"};
+    return {stage, "coagula " + stage + " --seed 3", R"({"seed": 3})", 3, "0.1.0+abc", "2000-01-01T00:00:00Z", 1.25, ""};
 }
 
 using StructureFile = TemporaryFolder;
@@ -220,7 +220,9 @@ TEST_F(StructureFile, AddResultsKeepsWhatItDoesNotKnow) {
 }
 
 TEST_F(StructureFile, ProvenanceIsAHistory) {
-    write_structure(file("a.h5"), {example_packing(3, true), std::nullopt}, {}, {}, example_provenance("generate vem"), false);
+    Provenance first = example_provenance("generate vem");
+    first.positions_sha256 = "abc";
+    write_structure(file("a.h5"), {example_packing(3, true), std::nullopt}, {}, {}, first, false);
     for (int i = 0; i < 11; ++i) {
         add_results(file("a.h5"), file("a.h5"), {}, std::nullopt, {}, {}, example_provenance("stage " + std::to_string(i)), false);
     }
