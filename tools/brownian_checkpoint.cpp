@@ -97,7 +97,7 @@ void write_checkpoint(const std::string& path, const std::string& signature, con
         times.push_back(snapshot.time);
     }
     put(all, "/snapshots/time", std::move(times));
-    io::write_datasets(path, all, true);
+    write_checkpoint_file(path, std::move(all));
 }
 
 BrownianCheckpoint read_brownian_checkpoint(const std::string& path, const std::string& signature) {

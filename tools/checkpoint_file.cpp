@@ -1,6 +1,25 @@
 #include "checkpoint_file.hpp"
 
+#include <algorithm>
+
 namespace coagula::tools {
+
+namespace {
+
+const std::string checksum = "/checksum";
+
+/// Removes the checksum from the datasets; empty when there is none.
+std::string take_checksum(std::vector<io::Dataset>& all) {
+    const auto place = std::find_if(all.begin(), all.end(), [](const io::Dataset& dataset) { return dataset.path == checksum; });
+    if (place == all.end() || !std::holds_alternative<std::string>(place->values)) {
+        return "";
+    }
+    const std::string sum = std::get<std::string>(place->values);
+    all.erase(place);
+    return sum;
+}
+
+}  // namespace
 
 std::vector<io::Dataset> checkpoint_head(const std::string& kind, const std::string& signature) {
     return {io::text("/kind", kind, "what this file is"), io::text("/signature", signature, "options and structure of the run")};
@@ -16,13 +35,26 @@ void put(std::vector<io::Dataset>& all, const std::string& path, Integers values
     all.push_back({path, {count}, std::move(values), "1", "state of the run"});
 }
 
+void write_checkpoint_file(const std::string& path, std::vector<io::Dataset> all) {
+    std::sort(all.begin(), all.end(), [](const io::Dataset& one, const io::Dataset& other) { return one.path < other.path; });
+    const std::string sum = io::datasets_sha256(all);
+    all.push_back(io::text(checksum, sum, "SHA-256 of all other values"));
+    io::write_datasets(path, all, true);
+}
+
 CheckpointReader::CheckpointReader(const std::string& path, std::string kind, const std::string& signature)
     : path_(path), kind_(std::move(kind)) {
-    for (io::Dataset& dataset : io::read_results(path, "/")) {
+    std::vector<io::Dataset> all = io::read_results(path, "/");
+    const std::string stored = take_checksum(all);
+    const std::string found = io::datasets_sha256(all);
+    for (io::Dataset& dataset : all) {
         datasets_.emplace(dataset.path, std::move(dataset));
     }
     if (get<std::string>("/kind") != kind_) {
         fail("is no " + kind_);
+    }
+    if (stored != found) {
+        fail("is damaged: its values do not have the checksum that was written with them; remove it to begin anew");
     }
     if (get<std::string>("/signature") != signature) {
         fail("is the checkpoint of a run with other options or another structure: remove it, or repeat the call that wrote it");

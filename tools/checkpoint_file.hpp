@@ -24,10 +24,13 @@ std::vector<io::Dataset> checkpoint_head(const std::string& kind, const std::str
 void put(std::vector<io::Dataset>& all, const std::string& path, Numbers values);
 void put(std::vector<io::Dataset>& all, const std::string& path, Integers values);
 
+/// Writes the data sets and a checksum of them by temporary file and rename.
+void write_checkpoint_file(const std::string& path, std::vector<io::Dataset> all);
+
 /// Data sets by path, with a sentence for what is missing.
 class CheckpointReader {
 public:
-    /// Throws InputError when the file is no checkpoint of this kind or belongs to another run.
+    /// Throws InputError when the file is no checkpoint of this kind, is damaged or belongs to another run.
     CheckpointReader(const std::string& path, std::string kind, const std::string& signature);
 
     bool has(const std::string& name) const { return datasets_.contains(name); }

@@ -5,6 +5,7 @@
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>
 
+#include <map>
 #include <sstream>
 
 namespace coagula::tools {
@@ -99,6 +100,18 @@ Table structure_table(const io::Structure& structure) {
             {"bonds", structure.bonds ? std::to_string(structure.bonds->size()) : "none"}};
 }
 
+/// Numbers of bonds of the results that were found with another list of bonds than that in /connectivity, by group.
+std::map<std::string, std::size_t> own_bonds(const Results& results) {
+    const std::string ending = "/connectivity/bonds";
+    std::map<std::string, std::size_t> found;
+    for (const io::Dataset& dataset : results) {
+        if (dataset.path.ends_with(ending) && !dataset.shape.empty()) {
+            found[dataset.path.substr(0, dataset.path.size() - ending.size())] = dataset.shape[0];
+        }
+    }
+    return found;
+}
+
 void run(const Arguments& arguments) {
     const std::string path = arguments.input();
     const io::Structure structure = io::read_structure(path);
@@ -106,10 +119,15 @@ void run(const Arguments& arguments) {
     const std::vector<io::Provenance> history = io::read_provenance(path);
 
     Json json = structure_json(structure);
+    const std::map<std::string, std::size_t> own = own_bonds(results);
+    json["own_bonds"] = own;
     json["results"] = results_json(results);
     json["provenance"] = provenance_json(history);
 
     Table table = structure_table(structure);
+    for (const auto& [group, bonds] : own) {
+        table.emplace_back(group, "found with " + std::to_string(bonds) + " other bonds, which are in " + group + "/connectivity");
+    }
     for (const io::Dataset& dataset : results) {
         table.emplace_back(dataset.path, value_text(dataset) + "   (" + dataset.description + ")");
     }

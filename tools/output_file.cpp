@@ -33,6 +33,7 @@ void check_output(const std::string& path, bool force) {
 }
 
 std::string checked_target(const Arguments& arguments) {
+    io::check_source(arguments.input());
     if (!arguments.has("output")) {
         check_folder(arguments.input());
         return arguments.input();

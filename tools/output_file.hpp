@@ -11,7 +11,7 @@ namespace coagula::tools {
 /// or `force` is set.
 void check_output(const std::string& path, bool force);
 
-/// The file that the results of a stage are added to: --output, or else the input file itself. Checked.
+/// The file that the results of a stage are added to: --output, or else the input file itself. Both are checked.
 std::string checked_target(const Arguments& arguments);
 
 }  // namespace coagula::tools

@@ -210,7 +210,7 @@ void write_checkpoint(const std::string& path, const std::string& signature, con
     }
     put_run(all, "/current/", checkpoint.current);
     put_state(all, checkpoint.state);
-    io::write_datasets(path, all, true);
+    write_checkpoint_file(path, std::move(all));
 }
 
 RheometerCheckpoint read_checkpoint(const std::string& path, const std::string& signature) {

@@ -1,7 +1,9 @@
 """Ctrl-C: a sentence, exit code 1, nothing left behind; a second one ends at once."""
 
+import fcntl
 import os
 import signal
+import struct
 import subprocess
 import time
 import unittest
@@ -56,6 +58,19 @@ class Interruption(ProgramTest):
         process.communicate(timeout=10)
         self.assertIn(process.returncode, (-signal.SIGINT, -signal.SIGTERM, 1))
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_second_signal_ends_what_does_not_answer(self):
+        self.copy_of_packing()
+        for first, second in ((signal.SIGTERM, signal.SIGINT), (signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGTERM)):
+            with open(self.folder / ".packing.csv.tmp", "w") as held:  # the program waits for this lock
+                fcntl.fcntl(held, fcntl.F_OFD_SETLK, struct.pack("hhqqi", fcntl.F_WRLCK, os.SEEK_SET, 0, 0, 0))
+                process = self.start("export", "packing.h5", "--format", "csv")
+                process.send_signal(first)
+                time.sleep(0.2)
+                self.assertIsNone(process.poll())
+                process.send_signal(second)
+                process.communicate(timeout=10)
+                self.assertEqual(process.returncode, -second)
 
 
 if __name__ == "__main__":

@@ -61,6 +61,60 @@ class Outputs(ProgramTest):
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.data", "a.h5"])
 
 
+class ListsOfBonds(ProgramTest):
+    def test_results_keep_the_bonds_they_were_found_with(self):
+        self.copy_of_packing()
+        linear = self.succeed_json("shear", "packing.h5")["contacts"]
+        before = self.succeed_json("info", "packing.h5")
+        self.assertEqual((before["bonds"], before["own_bonds"]), (linear, {}))
+        self.succeed("shear", "packing.h5", "--frequency", "1Hz", "--bond-tolerance", "0.05")
+        after = self.succeed_json("info", "packing.h5")
+        self.assertGreater(after["bonds"], linear)
+        self.assertEqual(after["own_bonds"], {"/mechanics/linear": linear})
+        own = after["results"]["/mechanics/linear/connectivity/bonds"]
+        self.assertEqual(own.get("shape", [len(own["value"] or [])])[0], linear)
+        self.assertIn("/mechanics/linear/connectivity/branch_vectors", after["results"])
+        self.assertEqual(after["results"]["/mechanics/linear/storage_modulus/mean"],
+                         before["results"]["/mechanics/linear/storage_modulus/mean"])
+        self.assertRegex(self.succeed("info", "packing.h5"), rf"/mechanics/linear +found with {linear} other bonds")
+        # The same list once more: nothing changes its list. The linear result made anew: it has that of /connectivity again.
+        self.succeed("shear", "packing.h5", "--frequency", "2Hz", "--bond-tolerance", "0.05")
+        self.assertEqual(self.succeed_json("info", "packing.h5")["own_bonds"], {"/mechanics/linear": linear})
+        self.succeed("shear", "packing.h5", "--bond-tolerance", "0.05")
+        self.assertEqual(self.succeed_json("info", "packing.h5")["own_bonds"], {})
+
+
+class SeveralWriters(ProgramTest):
+    def start(self, *words):
+        return subprocess.Popen([PROGRAM, *map(str, words), "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.PIPE, text=True)
+
+    def test_both_results_are_kept(self):
+        for _ in range(5):
+            self.copy_of_packing()
+            runs = [self.start("characterize", "packing.h5", "--only", "coordination"), self.start("shear", "packing.h5")]
+            for run in runs:
+                self.assertEqual(run.wait(), 0, run.stderr.read())
+                run.stderr.close()
+            found = self.succeed_json("info", "packing.h5")
+            self.assertEqual({path.split("/")[1] for path in found["results"]}, {"characterization", "mechanics"})
+            self.assertEqual(len(found["provenance"]), 3)
+
+    def test_one_of_two_makes_the_file(self):
+        words = ["generate", "vem", "--particles", "60", "--volume-fraction", "0.3", "--radius", "1um", "-o", "new.h5"]
+        runs = [self.start(*words, "--seed", seed) for seed in (1, 2)]
+        told = [run.communicate()[1] for run in runs]
+        self.assertEqual(sorted(run.returncode for run in runs), [0, 2], told)
+        self.check_sentence("".join(told), says=["new.h5", "exists already"])
+        self.assertEqual(os.listdir(self.folder), ["new.h5"])
+
+    def test_mode_is_kept(self):
+        path = self.copy_of_packing()
+        path.chmod(0o600)
+        self.succeed("characterize", "packing.h5", "--only", "coordination")
+        self.assertEqual(path.stat().st_mode & 0o777, 0o600)
+
+
 class FullDisk(ProgramTest):
     def test_new_file(self):
         self.fail_with(1, *VEM, "-o", "out.h5", says="out.h5", preexec_fn=small_files_only)
@@ -85,8 +139,6 @@ class FullDisk(ProgramTest):
         self.check_sentence(done.stderr, "standard output")
 
     def run_to(self, stream, *words):
-        import subprocess
-        from support import PROGRAM
         return subprocess.run([PROGRAM, *words], cwd=self.folder, stdout=stream, stderr=subprocess.PIPE, text=True, timeout=60)
 
 

@@ -172,7 +172,11 @@ class Report(ProgramTest):
         failed = self.run_program("diagnose", "experiment.toml", "-o", "fresh", preexec_fn=limit_files)
         self.assertEqual(failed.returncode, 1, failed.stderr)
         self.assertFalse((self.folder / "fresh").exists())
+        # What a killed run left is removed.
+        (self.folder / "results" / ".new").mkdir()
+        (self.folder / "results" / ".new" / "report.html").write_text("half a page")
         self.succeed("diagnose", "experiment.toml", "-o", "results", "--force", "--quiet", "--seed", "2")
+        self.assertFalse((self.folder / "results" / ".new").exists())
         self.assertEqual(json.loads((self.folder / "results" / "diagnosis.json").read_text())["verdict"], "named")
 
 

@@ -93,10 +93,17 @@ Structure read_structure(const std::string& path);
 /// Copies `source` to `target` (may be the same file) with the groups in `replaced` removed, then adds bonds (if given), fields,
 /// results and a provenance entry; by temporary file and rename. What coagula does not know in the source is kept.
 /// With target != source an existing target needs `overwrite`. `bond_fields` belong to `bonds`.
+///
+/// Several processes may add to one file: each waits for the one before and adds to what it wrote. When `provenance` names the
+/// positions that went in and `source` no longer holds them, std::runtime_error says so. Results below /mechanics that were found
+/// with other bonds than `bonds` keep theirs in a group "connectivity" of their own.
 void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
                  const std::optional<ContactNetwork>& bonds, const std::vector<ParticleField>& fields,
                  const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
                  const std::vector<BondField>& bond_fields = {});
+
+/// Throws InputError when `source` is damaged in such a way that add_results could not copy it. Asking before long work saves it.
+void check_source(const std::string& source);
 
 /// Writes a file of these datasets and nothing else, as write_structure does.
 void write_datasets(const std::string& path, const std::vector<Dataset>& datasets, bool overwrite);
@@ -109,5 +116,8 @@ std::vector<Provenance> read_provenance(const std::string& path);
 
 /// SHA-256 of the positions as stored (hexadecimal).
 std::string positions_sha256(const Packing& packing);
+
+/// SHA-256 of datasets, their paths and values (hexadecimal).
+std::string datasets_sha256(const std::vector<Dataset>& datasets);
 
 }  // namespace coagula::io

@@ -1,0 +1,39 @@
+"""A short form of kill_campaign.py."""
+
+import shutil
+import unittest
+
+try:
+    from kill_campaign import CALLS, RESUMED, Campaign
+except ImportError:
+    Campaign = None
+from support import PROGRAM
+
+
+@unittest.skipIf(Campaign is None or shutil.which("cc") is None, "needs python3-h5py and a C compiler")
+class Kills(unittest.TestCase):
+    def setUp(self):
+        self.campaign = Campaign(PROGRAM)
+        self.addCleanup(self.campaign.close)
+
+    def test_every_moment_of_a_write(self):
+        for name in ("characterize", "shear", "export"):
+            with self.subTest(verb=name):
+                self.assertIn(name, CALLS)
+                self.campaign.kill_everywhere(name)
+                self.assertGreaterEqual(self.campaign.kills[name], 9)
+
+    def test_new_files(self):
+        self.campaign.kill_a_new_file("import")
+        self.assertEqual(self.campaign.kills["import"], 9)
+
+    def test_resumed_runs(self):
+        for name in RESUMED:
+            with self.subTest(verb=name):
+                self.campaign.kill_and_resume(name)
+                self.campaign.require_clean()
+                self.assertGreater(self.campaign.kills[name], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
