@@ -8,6 +8,7 @@ Cell::Cell(const Eigen::Vector3d& origin, const Eigen::Vector3d& lengths, bool p
     for (const double length : lengths) {
         require_positive(length, "the edge length of the box", "m");
     }
+    require_positive(volume(), "the volume of the box", "m^3");
 }
 
 Cell Cell::periodic(const Eigen::Vector3d& lengths) {

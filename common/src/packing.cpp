@@ -1,10 +1,13 @@
 #include <coagula/common/packing.hpp>
 
 #include <coagula/common/checks.hpp>
-#include <coagula/common/contact_network.hpp>
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
+#include <vector>
 
 namespace coagula {
 
@@ -33,11 +36,55 @@ void check_one(const Packing& packing, Index particle, const std::string& name) 
     }
 }
 
+/// A particle and a box of a fine grid that the cube around its centre touches.
+struct Touched {
+    std::array<double, 3> box;
+    Index particle;
+};
+
+/// The boxes that the cube of edge `reach` around each centre touches, at most two along each axis; sorted. Cubes of centres that
+/// are nearer to each other than `reach` have a box in common.
+std::vector<Touched> touched_boxes(const Packing& packing, double reach) {
+    constexpr double reaches_per_box = 16;
+    const Cell& cell = packing.cell;
+    Eigen::Vector3d edge = Eigen::Vector3d::Constant(reaches_per_box * reach);
+    if (cell.is_periodic()) {
+        edge = cell.lengths().array() / (cell.lengths().array() / edge.array()).floor().max(1.0).min(1e15);
+    }
+    std::vector<Touched> all;
+    all.reserve(static_cast<std::size_t>(packing.size()));
+    for (Index particle = 0; particle < packing.size(); ++particle) {
+        const Eigen::Array3d half = Eigen::Array3d::Constant(0.5 * reach);
+        const Eigen::Array3d centre = packing.positions.col(particle);
+        const Eigen::Array3d low = (cell.wrap(centre - half).array() / edge.array()).floor();
+        const Eigen::Array3d high = (cell.wrap(centre + half).array() / edge.array()).floor();
+        for (int corner = 0; corner < 8; ++corner) {
+            const auto is_upper = [&](int axis) { return (corner >> axis & 1) != 0; };
+            const auto is_again = [&](int axis) { return is_upper(axis) && low[axis] == high[axis]; };
+            const auto side = [&](int axis) { return is_upper(axis) ? high[axis] : low[axis]; };
+            if (!is_again(0) && !is_again(1) && !is_again(2)) {
+                all.push_back({{side(0), side(1), side(2)}, particle});
+            }
+        }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Touched& a, const Touched& b) { return std::tie(a.box, a.particle) < std::tie(b.box, b.particle); });
+    return all;
+}
+
+/// Sorts the centres into boxes so small that few distinct ones fit into one, wherever the particles lie: a cell list takes the
+/// square of their number where one of them is far away from all others.
 void check_distinct_centres(const Packing& packing, const std::string& name) {
-    const ContactNetwork coincident = find_pairs(packing, 1e-6 * packing.radii.minCoeff());
-    if (coincident.size() > 0) {
-        throw std::invalid_argument(name + ": particles " + std::to_string(coincident.ends(0, 0)) + " and " +
-                                    std::to_string(coincident.ends(1, 0)) + " have the same centre");
+    const double reach = 1e-6 * packing.radii.minCoeff();
+    const std::vector<Touched> touched = touched_boxes(packing, reach);
+    for (auto one = touched.begin(); one != touched.end(); ++one) {
+        for (auto other = one + 1; other != touched.end() && other->box == one->box; ++other) {
+            const Eigen::Vector3d separation = packing.positions.col(other->particle) - packing.positions.col(one->particle);
+            if (packing.cell.minimum_image(separation).norm() < reach) {
+                throw std::invalid_argument(name + ": particles " + std::to_string(one->particle) + " and " +
+                                            std::to_string(other->particle) + " have the same centre");
+            }
+        }
     }
 }
 
@@ -50,6 +97,7 @@ void check(const Packing& packing, const std::string& name) {
     for (Index particle = 0; particle < packing.size(); ++particle) {
         check_one(packing, particle, name);
     }
+    require_positive(solid_volume(packing), name + ": the volume of the spheres", "m^3");
     check_distinct_centres(packing, name);
 }
 
