@@ -1,6 +1,9 @@
 #include "csv_reader.hpp"
 
+#include "measured_text.hpp"
+
 #include <algorithm>
+#include <utility>
 
 namespace coagula::io {
 
@@ -27,11 +30,8 @@ void split_fields(std::string_view line, char separator, std::vector<std::string
 }
 
 CsvReader::Column parse_heading(std::string_view field, std::size_t index) {
-    const std::size_t open = field.find_first_of("[(");
-    if (open == std::string_view::npos || field.size() < open + 2) {
-        return {lower_case(trim(field)), "", index};
-    }
-    return {lower_case(trim(field.substr(0, open))), std::string(trim(field.substr(open + 1, field.size() - open - 2))), index};
+    HeadingWithUnit parts = split_heading(field);
+    return {lower_case(parts.heading), std::move(parts.unit), index};
 }
 
 char separator_of(std::string_view header) {

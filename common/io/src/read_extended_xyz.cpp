@@ -35,6 +35,8 @@ struct Layout {
     std::size_t width = 0;
 };
 
+constexpr std::size_t most_columns = 1000;  ///< of a property
+
 /// Properties=species:S:1:pos:R:3:radius:R:1; plain XYZ is species and position.
 Layout parse_properties(const LineReader& file, const std::string& properties) {
     if (properties.empty()) {
@@ -55,6 +57,10 @@ Layout parse_properties(const LineReader& file, const std::string& properties) {
     for (std::size_t i = 0; i < parts.size(); i += 3) {
         const std::string name = lower_case(parts[i]);
         const std::size_t columns = file.count_in(parts[i + 2], "the number of columns of " + parts[i]);
+        if (columns > most_columns) {
+            file.fail("the number of columns of " + parts[i] + " is " + parts[i + 2] + ", but must be at most " +
+                      std::to_string(most_columns));
+        }
         if (name == "pos" && columns == 3) {
             layout.position = layout.width;
         } else if ((name == "radius" || name == "radii") && columns == 1) {

@@ -90,6 +90,9 @@ LineReader::LineReader(const std::string& path) : path_(path) {
     if (rest_.starts_with("\xef\xbb\xbf")) {
         rest_.remove_prefix(3);
     }
+    if (contents_.find('\0') != std::string::npos) {
+        throw InputError(path + " is not a text file");
+    }
 }
 
 bool LineReader::next() {
