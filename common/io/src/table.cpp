@@ -57,6 +57,9 @@ std::vector<Eigen::VectorXd> read_table(const std::string& path, const std::vect
         for (std::size_t k = 0; k < columns.size(); ++k) {
             if (found[k]) {
                 values[k].push_back(table.number(*found[k]) * units[k]);
+                if (!std::isfinite(values[k].back())) {
+                    file.fail(columns[k].name + " is too large a number in " + columns[k].unit);
+                }
             }
         }
     }

@@ -82,6 +82,9 @@ bool same_dimension(const ut_unit* from, const ut_unit* to) {
 /// @param what names the text in messages.
 Conversion conversion(const std::string& from, const std::string& to, const std::string& what) {
     UnitSystem& units = unit_system();
+    if (from.find('\0') != std::string::npos) {  // UDUNITS would read up to it
+        throw InputError("a text with a NUL character is not a unit (expected: a unit such as " + to + ")");
+    }
     const std::lock_guard lock(units.mutex);
     const Unit target(ut_parse(units.system.get(), to.c_str(), UT_UTF8), ut_free);
     require(target != nullptr, "'" + to + "' is not a unit");
@@ -97,7 +100,11 @@ Conversion conversion(const std::string& from, const std::string& to, const std:
         throw InputError(what + ": '" + from + "' cannot be converted into the expected unit " + to);
     }
     const double offset = cv_convert_double(converter.get(), 0.0);
-    return {cv_convert_double(converter.get(), 1.0) - offset, offset};
+    const double factor = cv_convert_double(converter.get(), 1.0) - offset;
+    if (!(std::isfinite(offset) && std::isnormal(factor))) {
+        throw InputError(what + ": '" + from + "' is too large or too small a unit for " + to);
+    }
+    return {factor, offset};
 }
 
 /// `value` if it is a whole number but for the rounding UDUNITS made, otherwise 0.
@@ -156,7 +163,13 @@ double unit_factor(const std::string& from, const std::string& to) {
 std::vector<double> convert(const std::vector<double>& values, const std::string& from, const std::string& to) {
     const Conversion found = conversion(std::string(trim(from)), to, "'" + from + "' is not a unit of the dimension of " + to);
     std::vector<double> converted(values.size());
-    std::transform(values.begin(), values.end(), converted.begin(), [&](double value) { return apply(found, value); });
+    std::transform(values.begin(), values.end(), converted.begin(), [&](double value) {
+        const double result = apply(found, value);
+        if (std::isfinite(value) && !std::isfinite(result)) {
+            throw InputError(to_text(value) + " " + from + " is too large a number in " + to);
+        }
+        return result;
+    });
     return converted;
 }
 

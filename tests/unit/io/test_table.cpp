@@ -40,6 +40,8 @@ TEST_F(Table, NamesFileLineAndRule) {
          ", line 1: column modulus: 'm' is not a unit of the dimension of Pa: 'm' has another dimension than the expected unit Pa"},
         {"a,modulus [Pa]\n1\n", ", line 2: there are 1 fields, but the header names 2"},
         {"a,modulus [Pa]\n1,2\n\n1,two\n", ", line 4: modulus is 'two', which is not a number"},
+        {"a,modulus [kPa]\n1,1e307\n", ", line 2: Modulus is too large a number in Pa"},
+        {std::string("a,modulus [Pa]\n1,2\0\n", 20), " is not a text file"},
         {"a,modulus [Pa]\n1,inf\n", ", line 2: modulus is 'inf', but must be finite"},
     };
     for (const auto& [contents, rule] : files) {

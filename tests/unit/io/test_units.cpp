@@ -70,6 +70,19 @@ TEST(Units, RejectsWithTheTextAndTheExpectedUnit) {
     }
 }
 
+TEST(Units, RefusesWhatUdunitsTakesInPart) {
+    const std::string nul = std::string("1 m") + '\0' + "garbage";
+    EXPECT_EQ(sentence_of(nul, "m"), "a text with a NUL character is not a unit (expected: a unit such as m)");
+}
+
+TEST(Units, RefusesUnitsAndNumbersBeyondTheRange) {
+    EXPECT_EQ(sentence_of("1 Ym20", "m20"), "'1 Ym20' is not a quantity in m20: 'Ym20' is too large or too small a unit for m20");
+    EXPECT_THROW(unit_factor("Ym20", "m20"), InputError);
+    EXPECT_THROW(unit_factor("ym20", "m20"), InputError);
+    EXPECT_EQ(convert({1, 2}, "km", "m"), (std::vector<double>{1000, 2000}));
+    EXPECT_THROW(convert({1, 1e307}, "km", "m"), InputError);
+}
+
 TEST(Units, ReciprocalsAndAnglesAreOtherDimensions) {
     EXPECT_THROW(parse_quantity("5 Hz", "s"), InputError);
     EXPECT_THROW(parse_quantity("5 rad/s", "Hz"), InputError);
