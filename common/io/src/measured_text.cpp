@@ -268,24 +268,34 @@ PlainTable TableBuilder::take(std::string title, int section) {
     PlainTable kept;
     kept.title = std::move(title);
     kept.section = section;
+    std::vector<std::optional<std::size_t>> place(table_.columns.size());  // of a column among those kept
     for (std::size_t column = 0; column < table_.columns.size(); ++column) {
         PlainColumn& from = table_.columns[column];
         const bool numeric = std::any_of(from.values.begin(), from.values.end(), [](double value) { return !std::isnan(value); });
         if (!numeric && from.quantity.empty()) {
             continue;
         }
-        for (UnreadableCell& cell : table_.unreadable) {
-            if (cell.column == column) {
-                kept.unreadable.push_back({kept.columns.size(), cell.row, cell.text, cell.reason});
-            }
-        }
+        place[column] = kept.columns.size();
         kept.columns.push_back(std::move(from));
+    }
+    for (UnreadableCell& cell : table_.unreadable) {
+        if (place[cell.column]) {
+            kept.unreadable.push_back({*place[cell.column], cell.row, std::move(cell.text), std::move(cell.reason)});
+        }
     }
     return kept;
 }
 
 void MeasuredText::fail(std::size_t line, const std::string& rule) const {
     throw InputError(path + ", line " + std::to_string(line + 1) + ": " + rule);
+}
+
+void MissingCells::add(const MeasuredText& text, std::size_t line, std::size_t headings, std::size_t cells) {
+    constexpr std::size_t most_missing = 1000000;
+    missing_ += headings - std::min(headings, cells);
+    if (missing_ > most_missing) {
+        text.fail(line, "the rows up to here lack " + std::to_string(missing_) + " cells that the headings name; write every cell");
+    }
 }
 
 }  // namespace coagula::io

@@ -72,6 +72,16 @@ struct MeasuredText {
     [[noreturn]] void fail(std::size_t line, const std::string& rule) const;
 };
 
+/// Counts the cells that the rows of a file lack: short rows under long headings would fill the memory with empty cells.
+class MissingCells {
+public:
+    /// Throws InputError when a file lacks too many. `line` counts from 0.
+    void add(const MeasuredText& text, std::size_t line, std::size_t headings, std::size_t cells);
+
+private:
+    std::size_t missing_ = 0;
+};
+
 bool looks_like_rheocompass(const MeasuredText& text);
 bool looks_like_trios(const MeasuredText& text);
 MeasuredFile read_rheocompass(const MeasuredText& text);

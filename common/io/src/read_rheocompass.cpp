@@ -77,6 +77,8 @@ IntervalHead read_head(const MeasuredText& text, std::size_t line, char separato
     text.fail(line, "no line with units in brackets follows the headings of this interval");
 }
 
+constexpr std::size_t longest_title = 1000;  ///< every table of a result carries it
+
 /// The cells of the columns for which `waveform` is `wanted`.
 template <class Item>
 std::vector<Item> select(const std::vector<Item>& items, const std::vector<bool>& waveform, bool wanted) {
@@ -92,8 +94,9 @@ std::vector<Item> select(const std::vector<Item>& items, const std::vector<bool>
 /// Reads the tables of one interval, the points first, then the waveforms.
 class IntervalReader {
 public:
-    IntervalReader(const MeasuredText& text, IntervalHead head, char separator, bool decimal_comma)
+    IntervalReader(const MeasuredText& text, IntervalHead head, char separator, bool decimal_comma, MissingCells& missing)
         : text_(text),
+          missing_(missing),
           head_(std::move(head)),
           separator_(separator),
           decimal_comma_(decimal_comma),
@@ -128,6 +131,7 @@ private:
     void add(const std::vector<std::string>& row, std::size_t line) {
         const std::vector<std::string> cells(row.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(2, row.size())),
                                              row.end());
+        missing_.add(text_, line, head_.headings.size(), cells.size());
         const bool new_point = row.size() > 1 && !row[1].empty();
         if (!new_point && points_.rows() == 0) {
             text_.fail(line, "the first line of an interval has no number of a point");
@@ -150,6 +154,7 @@ private:
     }
 
     const MeasuredText& text_;
+    MissingCells& missing_;
     IntervalHead head_;
     char separator_;
     bool decimal_comma_;
@@ -194,12 +199,13 @@ MeasuredFile read_rheocompass(const MeasuredText& text) {
     }
     const char separator = separator_in(*first_table);
     file.decimal_comma = find_decimal_comma(text, separator);
+    MissingCells missing;
     std::string title;
     std::pair<int, int> section_and_points{1, 0};
     for (std::size_t line = 0; line < text.lines.size();) {
         const std::string& content = text.lines[line];
         if (begins_table(content)) {
-            IntervalReader interval(text, read_head(text, line, separator), separator, file.decimal_comma);
+            IntervalReader interval(text, read_head(text, line, separator), separator, file.decimal_comma, missing);
             line = interval.read();
             interval.move_tables(file.tables, title, section_and_points.first, section_and_points.second);
             continue;
@@ -210,6 +216,10 @@ MeasuredFile read_rheocompass(const MeasuredText& text) {
         } else if (cells.size() > 1 && cells[0].ends_with(':')) {
             file.metadata.emplace_back(cells[0].substr(0, cells[0].size() - 1), cells[1]);
             title = begins_with_any(cells[0], {"Result:", "Ergebnis:"}) ? cells[1] : title;
+            if (title.size() > longest_title) {
+                text.fail(line, "the name of the result has " + std::to_string(title.size()) +
+                                    " characters, but must have at most " + std::to_string(longest_title));
+            }
         }
         ++line;
     }

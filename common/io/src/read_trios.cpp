@@ -45,7 +45,7 @@ StepHead read_head(const MeasuredText& text, std::size_t step) {
             head.title = cells[1];
         } else if (key == "number of points" && cells.size() > 1) {
             const CellNumber points = read_cell(cells[1], false);
-            head.announced_points = points.value && *points.value < 1e9 ? static_cast<int>(*points.value) : 0;
+            head.announced_points = points.value && *points.value > 0 && *points.value < 1e9 ? static_cast<int>(*points.value) : 0;
         } else if (cells.size() > 1 && std::any_of(cells.begin(), cells.end(),
                                                    [](const std::string& cell) { return !quantity_of_heading(cell).empty(); })) {
             head.headings = line;
@@ -100,6 +100,7 @@ bool looks_like_trios(const MeasuredText& text) {
 
 MeasuredFile read_trios(const MeasuredText& text) {
     MeasuredFile file{text.path, MeasuredFormat::trios, find_decimal_comma(text), {}, {}};
+    MissingCells missing;
     for (std::size_t line = 0; line < text.lines.size();) {
         if (!is_step(text.lines[line])) {
             const std::vector<std::string> cells = split_cells(text.lines[line], tab);
@@ -110,10 +111,14 @@ MeasuredFile read_trios(const MeasuredText& text) {
             continue;
         }
         const StepHead head = read_head(text, line);
-        TableBuilder table(headings_of(text, head), file.decimal_comma);
+        std::vector<HeadingWithUnit> headings = headings_of(text, head);
+        const std::size_t columns = headings.size();
+        TableBuilder table(std::move(headings), file.decimal_comma);
         for (line = head.headings + 2; line < text.lines.size() && !trim(text.lines[line]).empty() && !is_section(text.lines[line]);
              ++line) {
-            table.add_row(row_of(text.lines[line], head.labelled));
+            const std::vector<std::string> row = row_of(text.lines[line], head.labelled);
+            missing.add(text, line, columns, row.size());
+            table.add_row(row);
         }
         file.tables.push_back(table.take(head.title, static_cast<int>(file.tables.size()) + 1));
         file.tables.back().announced_points = head.announced_points;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <ctime>
 #include <numbers>
 
 namespace coagula::io {
@@ -196,6 +197,62 @@ TEST_F(MeasuredFiles, NeverGuessesAnAmbiguousNumber) {
         EXPECT_TRUE(std::isnan(column(table, "stress").values[2])) << bad;
         EXPECT_EQ(table.unreadable.size(), 1u) << bad;
     }
+}
+
+TEST_F(MeasuredFiles, CountsOfPointsThatCannotBeAreNoCounts) {
+    for (const std::string points : {"-1e300", "-3", "1e300", "many"}) {
+        const std::string text = "[step]\nStep name\tA\nNumber of points\t" + points + "\nVariables\ttime\n\ts\nData point\t1\n";
+        EXPECT_EQ(read_measured_file(write("t.txt", text)).tables.front().announced_points, 0) << points;
+    }
+}
+
+/// A line `cell` repeated `count` times.
+std::string repeated(const std::string& cell, std::size_t count) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) {
+        text += cell;
+    }
+    return text;
+}
+
+TEST_F(MeasuredFiles, RefusesShortRowsUnderManyHeadings) {
+    // A megabyte would become a table of 10^10 empty cells.
+    const std::string headings = repeated("\ttime", 100000) + "\n";
+    const std::string units = repeated("\t[s]", 100000) + "\n";
+    const std::string trios = write("t.txt", "[step]\n" + headings + units + repeated("1\n", 100000));
+    EXPECT_EQ(sentence<InputError>([&] { read_measured_file(trios); }),
+              trios + ", line 14: the rows up to here lack 1100000 cells that the headings name; write every cell");
+    const std::string rheocompass = write("r.csv", "Interval and data points:\t1\t3\nInterval data:\tPoint No." + headings + "\t" +
+                                                       units + repeated("\t1\n", 100000));
+    EXPECT_NE(sentence<InputError>([&] { read_measured_file(rheocompass); }).find("cells that the headings name"),
+              std::string::npos);
+}
+
+TEST_F(MeasuredFiles, TakesNoSquareOfTheColumns) {
+    // 50 000 columns, each with a cell that is no number.
+    const std::string path =
+        write("w.csv", repeated("time,", 50000) + "\n" + repeated("1,", 50000) + "\n" + repeated("x,", 50000) + "\n");
+    const std::clock_t start = std::clock();
+    const PlainTable table = read_measured_file(path).tables.front();
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1);
+    ASSERT_EQ(table.unreadable.size(), 50000u);
+    EXPECT_EQ(table.unreadable[49999].column, 49999u);
+}
+
+TEST_F(MeasuredFiles, RefusesANameOfAResultThatEveryTableWouldCarry) {
+    const std::string path = write("r.csv", "Result:\t" + std::string(2000, 'x') + "\n" + german.substr(german.find("Abschnitt")));
+    EXPECT_EQ(sentence<InputError>([&] { read_measured_file(path); }),
+              path + ", line 1: the name of the result has 2000 characters, but must have at most 1000");
+}
+
+TEST_F(MeasuredFiles, TakesForUtf8OnlyWhatIsUtf8) {
+    // An overlong form, a surrogate and what lies beyond the last code point are Windows-1252.
+    for (const std::string bytes : {"\xe0\x80\x80", "\xf0\x80\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80"}) {
+        const auto file = read_measured_file(write("u.csv", "time [" + bytes + "]\n1\n"));
+        EXPECT_NE(file.tables.front().columns.front().unit, bytes);
+    }
+    const auto file = read_measured_file(write("u.csv", "time [\xe2\x82\xac]\n1\n"));
+    EXPECT_EQ(file.tables.front().columns.front().unit, "\xe2\x82\xac");
 }
 
 TEST_F(MeasuredFiles, RefusesWhatHoldsNoTable) {
