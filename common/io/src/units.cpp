@@ -35,6 +35,8 @@ UnitSystem& unit_system() {
     return units;
 }
 
+constexpr std::size_t longest_unit = 100;  ///< characters
+
 /// value * factor + offset.
 struct Conversion {
     double factor;
@@ -84,6 +86,10 @@ Conversion conversion(const std::string& from, const std::string& to, const std:
     UnitSystem& units = unit_system();
     if (from.find('\0') != std::string::npos) {  // UDUNITS would read up to it
         throw InputError("a text with a NUL character is not a unit (expected: a unit such as " + to + ")");
+    }
+    if (from.size() > longest_unit) {
+        throw InputError("a text of " + std::to_string(from.size()) + " characters is not a unit (expected: a unit such as " + to +
+                         ")");
     }
     const std::lock_guard lock(units.mutex);
     const Unit target(ut_parse(units.system.get(), to.c_str(), UT_UTF8), ut_free);

@@ -75,6 +75,12 @@ TEST(Units, RefusesWhatUdunitsTakesInPart) {
     EXPECT_EQ(sentence_of(nul, "m"), "a text with a NUL character is not a unit (expected: a unit such as m)");
 }
 
+TEST(Units, RefusesWhatIsTooLongForAUnit) {
+    // The checks below it take the square of the length: seven minutes for this one.
+    EXPECT_EQ(sentence_of("1 m" + std::string(500000, '9'), "m"),
+              "a text of 500001 characters is not a unit (expected: a unit such as m)");
+}
+
 TEST(Units, RefusesUnitsAndNumbersBeyondTheRange) {
     EXPECT_EQ(sentence_of("1 Ym20", "m20"), "'1 Ym20' is not a quantity in m20: 'Ym20' is too large or too small a unit for m20");
     EXPECT_THROW(unit_factor("Ym20", "m20"), InputError);
