@@ -14,6 +14,10 @@ function(coagula_warnings target)
     target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
+  if(COAGULA_FUZZ)
+    target_compile_options(${target} PUBLIC
+      -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  endif()
 endfunction()
 
 # coagula_precompile(<target> <header>...): what nearly every source of the target includes is parsed once. Sources with compile options
