@@ -81,12 +81,16 @@ bool same_dimension(const ut_unit* from, const ut_unit* to) {
     return length >= 0 && std::string_view(text.data()).find("rad") == std::string_view::npos;
 }
 
+/// UDUNITS would read up to a NUL character, and a message would end there.
+void refuse_nul(const std::string& text, const std::string& unit) {
+    if (text.find('\0') != std::string::npos) {
+        throw InputError("a text with a NUL character is not a quantity or unit (expected: one in " + unit + ")");
+    }
+}
+
 /// @param what names the text in messages.
 Conversion conversion(const std::string& from, const std::string& to, const std::string& what) {
     UnitSystem& units = unit_system();
-    if (from.find('\0') != std::string::npos) {  // UDUNITS would read up to it
-        throw InputError("a text with a NUL character is not a unit (expected: a unit such as " + to + ")");
-    }
     if (from.size() > longest_unit) {
         throw InputError("a text of " + std::to_string(from.size()) + " characters is not a unit (expected: a unit such as " + to +
                          ")");
@@ -136,6 +140,7 @@ std::string_view trim(std::string_view text) {
 }  // namespace
 
 double parse_quantity(const std::string& text, const std::string& unit) {
+    refuse_nul(text, unit);
     const std::string what = "'" + text + "' is not a quantity in " + unit;
     std::string_view rest = trim(text);
     if (rest.starts_with('+') && !rest.starts_with("+-")) {
@@ -158,6 +163,7 @@ double parse_quantity(const std::string& text, const std::string& unit) {
 }
 
 double unit_factor(const std::string& from, const std::string& to) {
+    refuse_nul(from, to);
     const std::string what = "'" + from + "' is not a unit of the dimension of " + to;
     const Conversion found = conversion(std::string(trim(from)), to, what);
     if (found.offset != 0) {
@@ -167,6 +173,7 @@ double unit_factor(const std::string& from, const std::string& to) {
 }
 
 std::vector<double> convert(const std::vector<double>& values, const std::string& from, const std::string& to) {
+    refuse_nul(from, to);
     const Conversion found = conversion(std::string(trim(from)), to, "'" + from + "' is not a unit of the dimension of " + to);
     std::vector<double> converted(values.size());
     std::transform(values.begin(), values.end(), converted.begin(), [&](double value) {

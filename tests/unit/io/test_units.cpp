@@ -72,7 +72,11 @@ TEST(Units, RejectsWithTheTextAndTheExpectedUnit) {
 
 TEST(Units, RefusesWhatUdunitsTakesInPart) {
     const std::string nul = std::string("1 m") + '\0' + "garbage";
-    EXPECT_EQ(sentence_of(nul, "m"), "a text with a NUL character is not a unit (expected: a unit such as m)");
+    for (const std::string& text : {nul, std::string(3, '\0')}) {
+        EXPECT_EQ(sentence_of(text, "m"), "a text with a NUL character is not a quantity or unit (expected: one in m)");
+    }
+    EXPECT_THROW(unit_factor(nul.substr(2), "m"), InputError);
+    EXPECT_THROW(convert({1}, nul.substr(2), "m"), InputError);
 }
 
 TEST(Units, RefusesWhatIsTooLongForAUnit) {
