@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "support/lattices.hpp"
@@ -84,6 +85,24 @@ TEST(Rheometer, ConvergesToTheLinearSolverAsTheRateFalls) {
     EXPECT_LT(std::abs(error[1]), 0.2 * std::abs(error[0]));
     EXPECT_LT(std::abs(error[2]), 0.2 * std::abs(error[1]));
     EXPECT_LT(std::abs(error[2]), 1e-4);
+}
+
+/// Local damping holds back what becomes faster more than what becomes slower. The unbalanced force, m a / (1 - alpha) or m a / (1
+/// + alpha), therefore has a part in phase with the velocity, in proportion to the scaled mass, that is to steps^-2.
+TEST(Rheometer, OwesThePhaseOfSpringsToScaledMassAndLocalDamping) {
+    const auto phase = [](int steps, double damping) {
+        RheometerOptions options = gentle();
+        options.boundary = RheometerBoundary::plates;
+        options.oscillations = 2;
+        options.steps_per_oscillation = steps;
+        options.damping = damping;
+        return run(options).runs[0].oscillations.back().phase;
+    };
+    const double coarse = phase(2400, 0.9);
+    const double fine = phase(9600, 0.9);
+    EXPECT_NEAR(std::log(coarse / fine) / std::log(4), 2, 0.3);
+    EXPECT_LT(std::abs(phase(2400, 0)), 0.05 * coarse);
+    EXPECT_LT(fine, 1e-4 * std::numbers::pi);  // the bound of the paper, sec. 3.1
 }
 
 TEST(Rheometer, HasTheComplexModulusOfTheFrequencySolver) {
