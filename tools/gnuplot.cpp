@@ -55,8 +55,8 @@ private:
     int descriptor_;
 };
 
-/// Runs gnuplot on the commands. @return its exit status, or -1 when it could not be started.
-int run_gnuplot(const MemoryFile& commands, const MemoryFile& picture, const MemoryFile& complaints) {
+/// @return the exit status, or -1 when gnuplot could not be started.
+int spawn_gnuplot(const MemoryFile& commands, const MemoryFile& picture, const MemoryFile& complaints) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, commands.descriptor(), STDIN_FILENO);
@@ -101,23 +101,35 @@ std::string as_element(std::string svg, int number, const std::string& title) {
 
 }  // namespace
 
+GnuplotOutput run_gnuplot(const std::string& commands) {
+    const MemoryFile script;
+    const MemoryFile picture;
+    const MemoryFile complaints;
+    script.fill(commands);
+    const int status = spawn_gnuplot(script, picture, complaints);
+    GnuplotOutput output;
+    if (status < 0 || status == 127) {
+        output.problem = "gnuplot is not installed (Debian: apt-get install gnuplot-nox)";
+    } else if (output.picture = status == 0 ? picture.text() : ""; output.picture.empty()) {
+        const std::string said = complaints.text();
+        output.problem = "gnuplot failed: " + said.substr(0, said.find('\n', 1));
+    }
+    return output;
+}
+
 std::string Gnuplot::draw(const std::string& commands, int width, int height, const std::string& title) {
     if (!problem_.empty()) {
         return {};
     }
-    const MemoryFile script;
-    const MemoryFile picture;
-    const MemoryFile complaints;
-    script.fill("set encoding utf8\nset terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
-                " dynamic enhanced font \"sans-serif,13\" linewidth 1.2\n" + commands + "\nunset output\n");
-    const int status = run_gnuplot(script, picture, complaints);
-    std::string svg = status == 0 ? as_element(picture.text(), ++drawn_, title) : std::string{};
-    if (svg.empty()) {
-        const std::string said = complaints.text();
-        problem_ = status < 0 || status == 127
-                       ? "the plots are missing because gnuplot is not installed (Debian: apt-get install gnuplot-nox)"
-                       : "the plots are missing because gnuplot failed: " + said.substr(0, said.find('\n', 1));
+    const GnuplotOutput output =
+        run_gnuplot("set encoding utf8\nset terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
+                    " dynamic enhanced font \"sans-serif,13\" linewidth 1.2\n" + commands + "\nunset output\n");
+    if (!output.problem.empty()) {
+        problem_ = "the plots are missing because " + output.problem;
+        return {};
     }
+    const std::string svg = as_element(output.picture, ++drawn_, title);
+    problem_ = svg.empty() ? "the plots are missing because gnuplot did not draw an SVG" : "";
     return svg;
 }
 

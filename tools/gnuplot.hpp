@@ -5,6 +5,16 @@
 
 namespace coagula::tools {
 
+struct GnuplotOutput {
+    std::string picture;
+    std::string problem;  ///< why there is no picture, one clause; empty while there is one
+};
+
+/// What gnuplot writes for these commands. All goes through memory: no file is named in the commands, so that no name is read as
+/// one.
+/// @param commands beginning with those that set the terminal.
+GnuplotOutput run_gnuplot(const std::string& commands);
+
 /// Draws with gnuplot, if it is installed; asks for it once.
 class Gnuplot {
 public:

@@ -159,8 +159,9 @@ void report_potential(const Arguments& arguments, const PairPotential& potential
                        {"contact_stiffness", potential.contact().stiffness},
                        {"curve", {{"gap", curve.gap}, {"energy_kT", curve.energy}, {"force", curve.force}}}};
     if (arguments.has("picture")) {
+        check_picture_name(arguments.text("picture"));
         check_output(arguments.text("picture"), arguments.flag("force"));
-        draw_potential(arguments.text("picture"), curve);
+        draw_potential(arguments.text("picture"), curve, arguments.flag("force"));
     }
     Table table = {{"barrier height", with_unit(potential.barrier_height(farthest) / thermal, "kT")},
                    {"barrier", described(potential.barrier(farthest))},

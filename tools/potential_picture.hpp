@@ -12,8 +12,11 @@ struct PotentialCurve {
     std::vector<double> force;   ///< [N]
 };
 
-/// Draws the energy over the gap with gnuplot; the ending of the name (.png, .svg) says how. Throws InputError for another ending,
-/// std::runtime_error when gnuplot cannot be run.
-void draw_potential(const std::string& path, const PotentialCurve& curve);
+/// Throws InputError unless the name ends in .png or .svg, which says how the picture is drawn.
+void check_picture_name(const std::string& path);
+
+/// Draws the energy over the gap with gnuplot. Throws as check_picture_name and io::write_file do, and std::runtime_error when
+/// gnuplot cannot draw.
+void draw_potential(const std::string& path, const PotentialCurve& curve, bool overwrite);
 
 }  // namespace coagula::tools

@@ -1,4 +1,4 @@
-#include "atomic_file.hpp"
+#include <coagula/io/atomic_file.hpp>
 
 #include <coagula/io/structure_file.hpp>
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "atomic_file.hpp"
+#include <coagula/io/atomic_file.hpp>
 #include "csv_reader.hpp"
 
 namespace coagula::io {

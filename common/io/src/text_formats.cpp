@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "atomic_file.hpp"
+#include <coagula/io/atomic_file.hpp>
 #include "text_reader.hpp"
 
 namespace coagula::io {
