@@ -5,9 +5,10 @@
 
 #include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/common/checks.hpp>
+#include <coagula/io/input_file.hpp>
 #include <coagula/io/structure_file.hpp>
 
-#include <fstream>
+#include <sstream>
 
 namespace coagula::tools {
 
@@ -98,11 +99,11 @@ std::vector<std::string> structure_sentences(const diagnose::Experiment& experim
 }
 
 diagnose::SimulationCache read_cache(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path)) {
-        throw InputError(path.string() + " is a folder, but the cache of simulations is to be written there");
-    }
     diagnose::SimulationCache cache;
-    std::ifstream file(path);
+    if (!std::filesystem::exists(path)) {
+        return cache;
+    }
+    std::istringstream file(io::read_file(path.string()));
     for (std::string line; std::getline(file, line);) {
         const std::size_t tab = line.find('\t');
         if (tab == std::string::npos) {

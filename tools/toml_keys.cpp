@@ -1,33 +1,15 @@
 #include "toml_keys.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
 
 #include <cmath>
-#include <fstream>
 
 namespace coagula::tools {
 
-namespace {
-
-/// TOML is text of at most this size; a device or a data file is not read to its end.
-constexpr std::streamsize largest_file = 1 << 20;
-
-}  // namespace
-
 toml::table parse_toml(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(static_cast<std::size_t>(largest_file), '\0');
-    if (stream) {
-        stream.read(text.data(), largest_file);
-    }
-    if (!stream && !stream.eof()) {
-        throw InputError(path + " cannot be read");
-    }
-    if (stream.gcount() == largest_file) {
-        throw InputError(path + " is too large to be an experiment file");
-    }
-    text.resize(static_cast<std::size_t>(stream.gcount()));
+    const std::string text = io::read_toml_text(path);
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {

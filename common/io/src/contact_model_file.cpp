@@ -1,37 +1,17 @@
 #include <coagula/io/contact_model_file.hpp>
+#include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
 
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace coagula::io {
 
 namespace {
 
-/// TOML is text of at most this size; a device or a data file is not read to its end.
-constexpr std::streamsize largest_file = 1 << 20;
-
-std::string read_text(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(static_cast<std::size_t>(largest_file), '\0');
-    if (stream) {
-        stream.read(text.data(), largest_file);
-    }
-    if (!stream && !stream.eof()) {
-        throw InputError(path + " cannot be read");
-    }
-    if (stream.gcount() == largest_file) {
-        throw InputError(path + " is too large to be a contact model");
-    }
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    return text;
-}
-
 toml::table parse(const std::string& path) {
-    const std::string text = read_text(path);
+    const std::string text = read_toml_text(path);
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {

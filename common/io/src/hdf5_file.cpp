@@ -1,6 +1,7 @@
 #include "hdf5_file.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/input_file.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -74,10 +75,9 @@ void silence_errors() {
 }
 
 File File::open(const std::string& path) {
+    check_input(path);
     silence_errors();
-    std::error_code error;
-    const bool regular = std::filesystem::is_regular_file(path, error);  // HDF5 would wait for a pipe
-    Handle id(regular ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access().get()) : H5I_INVALID_HID, H5Fclose);
+    Handle id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access().get()), H5Fclose);
     if (!id) {
         throw InputError(path + " " + why_not_opened(path));
     }

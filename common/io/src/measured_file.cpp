@@ -1,30 +1,15 @@
 #include <coagula/common/checks.hpp>
+#include <coagula/io/input_file.hpp>
 #include <coagula/io/measured_file.hpp>
 
 #include "measured_text.hpp"
 #include "text_reader.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace coagula::io {
 
 namespace {
-
-std::string read_bytes(const std::string& path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) {
-        throw InputError(path + " does not exist");
-    }
-    std::ifstream stream(path, std::ios::binary);
-    if (!std::filesystem::is_regular_file(status) || !stream) {
-        throw InputError(path + " cannot be read");
-    }
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 bool is_skipped(const std::string& line) {
     return trim(line).empty() || trim(line).starts_with('#');
@@ -77,7 +62,7 @@ MeasuredFile read_measured_csv(const MeasuredText& text) {
 }
 
 MeasuredFile read_measured_file(const std::string& path) {
-    const std::string bytes = read_bytes(path);
+    const std::string bytes = read_file(path);
     const MeasuredText text{path, split_lines(to_utf8(bytes))};
     if (std::any_of(text.lines.begin(), text.lines.end(), [](const std::string& line) { return line.find('\0') != line.npos; })) {
         throw InputError(path + " is not a text file");

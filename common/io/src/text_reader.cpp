@@ -1,13 +1,11 @@
 #include "text_reader.hpp"
 
+#include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
 
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace coagula::io {
 
@@ -75,17 +73,7 @@ void wrap_positions(const std::string& path, const RawPacking& raw, Packing& pac
 
 }  // namespace
 
-LineReader::LineReader(const std::string& path) : path_(path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) {
-        throw InputError(path + " does not exist");
-    }
-    std::ifstream stream(path, std::ios::binary);
-    if (std::filesystem::is_directory(status) || !stream) {
-        throw InputError(path + " cannot be read");
-    }
-    contents_.assign(std::istreambuf_iterator<char>(stream), {});
+LineReader::LineReader(const std::string& path) : path_(path), contents_(read_file(path)) {
     rest_ = contents_;
     if (rest_.starts_with("\xef\xbb\xbf")) {
         rest_.remove_prefix(3);
