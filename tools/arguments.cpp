@@ -1,5 +1,7 @@
 #include "arguments.hpp"
 
+#include "printable.hpp"
+
 #include <coagula/common/checks.hpp>
 #include <coagula/io/units.hpp>
 
@@ -94,11 +96,16 @@ double parse_bytes(std::string word) {
     return io::parse_quantity(word, "byte");
 }
 
-void check_range(const Option& option, double value, const std::string& word) {
-    if (!option.range.holds(value)) {
-        throw InputError("'" + word + "' is out of range: must be " + option.range.text() +
-                         (option.unit.empty() || option.unit == "1" ? "" : " " + option.unit));
+void check_range(const Range& range, const std::string& unit, double value, const std::string& word) {
+    if (!range.holds(value)) {
+        throw InputError("'" + word + "' is out of range: must be " + range.text() +
+                         (unit.empty() || unit == "1" ? "" : " " + unit));
     }
+}
+
+/// Whether the text is a number and nothing else.
+bool is_bare(const std::string& word) {
+    return word.find_first_not_of("+-.0123456789eE \t") == std::string::npos;
 }
 
 /// A word as a shell would have to read it.
@@ -204,6 +211,12 @@ Option quantity(std::string name, std::string unit, std::string meaning, std::st
             .range = range};
 }
 
+Option particle_radius(std::string meaning) {
+    Option option = quantity("radius", "m", std::move(meaning), "", physical::length);
+    option.largest_bare = 0.1;
+    return option;
+}
+
 Option text(std::string name, std::string placeholder, std::string meaning, std::string fallback) {
     return {.kind = Option::Kind::text,
             .name = std::move(name),
@@ -232,6 +245,9 @@ Option output(std::string meaning) {
 Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : verb_(verb.name) {
     command_line_ = "coagula " + verb.name;
     for (const std::string& word : words) {
+        if (!is_utf8(word)) {
+            throw InputError("'" + word + "' is not UTF-8 text, which every option and every name of a file must be");
+        }
         command_line_ += ' ' + quoted(word);
     }
     const std::vector<Option> options = all_options(verb);
@@ -269,14 +285,12 @@ void Arguments::store(const Option& option, const std::string& word) {
             return;
         case Option::Kind::count: {
             const std::int64_t value = parse_count(word);
-            check_range(option, static_cast<double>(value), word);
+            check_range(option.range, "", static_cast<double>(value), word);
             values_[option.name] = value;
             return;
         }
         case Option::Kind::quantity: {
-            const double value = option.unit == "byte" ? parse_bytes(word) : io::parse_quantity(word, option.unit);
-            check_range(option, value, word);
-            values_[option.name] = value;
+            values_[option.name] = parse_quantity(word, option.unit, option.range, option.largest_bare);
             return;
         }
         case Option::Kind::text:
@@ -342,6 +356,16 @@ std::string help_text(const Verb& verb) {
         text << (note == verb.notes.front() ? "\n" : "") << note << '\n';
     }
     return text.str();
+}
+
+double parse_quantity(const std::string& word, const std::string& unit, const Range& range, double largest_bare) {
+    const double value = unit == "byte" ? parse_bytes(word) : io::parse_quantity(word, unit);
+    if (value > largest_bare && is_bare(word)) {
+        throw InputError("'" + word + "' has no unit and would be " + to_text(value) + " " + unit +
+                         ": give it with its unit, such as " + word + "um or " + word + unit);
+    }
+    check_range(range, unit, value, word);
+    return value;
 }
 
 std::vector<std::string> split(const std::string& list, char separator) {

@@ -32,6 +32,19 @@ Range between(double low, double high);
 /// Both ends included.
 Range within(double low, double high);
 
+/// What a quantity can be in any laboratory and far beyond: wide enough for colloids and granulates, narrow enough that no product
+/// of some of them leaves the range of numbers.
+namespace physical {
+inline constexpr Range length{1e-12, 1e3};      // m
+inline constexpr Range stiffness{1e-12, 1e15};  // N/m
+inline constexpr Range friction{0, 1e6};
+inline constexpr Range time{1e-15, 1e12};       // s
+inline constexpr Range duration{0, 1e12};       // s
+inline constexpr Range frequency{1e-12, 1e12};  // Hz
+inline constexpr Range modulus{1e-9, 1e18};     // Pa
+inline constexpr Range strain{1e-15, 10};
+}  // namespace physical
+
 struct Option {
     enum class Kind { flag, count, quantity, text };
 
@@ -45,6 +58,8 @@ struct Option {
     std::vector<std::string> choices = {};  ///< of a text; empty: any
     bool required = false;
     char letter = 0;  ///< short name
+    /// Of a length: a number above this without a unit is more likely a unit forgotten than what is meant, and refused.
+    double largest_bare = std::numeric_limits<double>::infinity();
 };
 
 Option flag(std::string name, std::string meaning);
@@ -52,6 +67,8 @@ Option flag(std::string name, std::string meaning);
 Option count(std::string name, std::string meaning, std::string fallback, Range range);
 /// A number with a unit.
 Option quantity(std::string name, std::string unit, std::string meaning, std::string fallback, Range range);
+/// A radius of particles. Metres without a unit are taken up to a decimetre only.
+Option particle_radius(std::string meaning);
 Option text(std::string name, std::string placeholder, std::string meaning, std::string fallback = {});
 Option choice(std::string name, std::vector<std::string> choices, std::string meaning, std::string fallback);
 Option required(Option option);
@@ -120,6 +137,11 @@ private:
 
 /// The help text of a verb: one line per option with unit, default and range.
 std::string help_text(const Verb& verb);
+
+/// A quantity in `unit` from a text, such as one of a list. Throws InputError unless it is within the range, and for a length above
+/// `largest_bare` without a unit.
+double parse_quantity(const std::string& word, const std::string& unit, const Range& range,
+                      double largest_bare = std::numeric_limits<double>::infinity());
 
 /// The parts of a list "a,b,c".
 std::vector<std::string> split(const std::string& list, char separator = ',');

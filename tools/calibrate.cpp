@@ -72,9 +72,8 @@ Moduli measured_moduli(const Arguments& arguments) {
     }
     Eigen::VectorXd moduli(static_cast<Index>(words.size()));
     try {
-        std::transform(words.begin(), words.end(), moduli.begin(), [](const std::string& word) {
-            return require_positive(io::parse_quantity(word, "Pa"), "a measured modulus", "Pa");
-        });
+        std::transform(words.begin(), words.end(), moduli.begin(),
+                       [](const std::string& word) { return parse_quantity(word, "Pa", physical::modulus); });
     } catch (const std::exception& error) {
         throw InputError(std::string("--measured: ") + error.what());
     }
@@ -245,6 +244,7 @@ void run(const Arguments& arguments) {
         json["calibration"] = to_json(*found, *measured);
         append_calibration(table, structures, *found, *measured);
     }
+    check_finite(json);
     if (arguments.has("output")) {
         write_csv(arguments.text("output"), structures, force);
         json["output"] = arguments.text("output");
@@ -263,10 +263,10 @@ Verb calibrate_verb() {
         .input = "FILE.h5 ...",
         .options = {choice("method", {"linear", "quasistatic", "dem"}, "how each modulus is found, as coagula shear does",
                            "linear"),
-                    quantity("from", "N/m", "smallest normal stiffness of a particle", "50N/m", above(0)),
-                    quantity("to", "N/m", "largest normal stiffness of a particle", "150N/m", above(0)),
+                    quantity("from", "N/m", "smallest normal stiffness of a particle", "50N/m", physical::stiffness),
+                    quantity("to", "N/m", "largest normal stiffness of a particle", "150N/m", physical::stiffness),
                     count("steps", "number of stiffnesses, equally spaced", "5", within(2, 1000)),
-                    quantity("stiffness-ratio", "1", "normal over shear stiffness, the same for all", "10", above(0)),
+                    quantity("stiffness-ratio", "1", "normal over shear stiffness, the same for all", "10", within(1e-6, 1e6)),
                     quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
                     text("measured", "LIST", "measured shear modulus of each structure, such as 1.5MPa,480kPa"),
                     output("write the table as CSV"), flag("force", "replace an existing output file")},

@@ -65,6 +65,7 @@ void run(const Arguments& arguments) {
 
     const Characterization found = measure(packing, arguments, progress);
     const Results results = datasets_of(found, packing);
+    check_finite(results);
     progress.update("writing", 1.0);
     io::add_results(arguments.input(), target, {"/characterization"}, std::nullopt, fields_of(found), results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));

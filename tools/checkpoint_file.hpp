@@ -2,10 +2,13 @@
 #pragma once
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/progress.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -62,5 +65,18 @@ private:
     std::string kind_;
     std::map<std::string, io::Dataset> datasets_;
 };
+
+/// Runs `work`, which saves its state under `path` (empty: nowhere). Whoever interrupts it reads where that is.
+template <class Work>
+auto with_checkpoint(const std::string& path, const Work& work) {
+    try {
+        return work();
+    } catch (const Cancelled&) {
+        if (!path.empty() && std::filesystem::exists(path)) {
+            throw std::runtime_error("interrupted: the state of the run is in " + path + ", and the same call goes on from it");
+        }
+        throw;
+    }
+}
 
 }  // namespace coagula::tools

@@ -93,7 +93,7 @@ std::vector<std::string> notes_on(const Experiment& experiment, double radius, s
 
 std::vector<Option> diagnosis_options() {
     return {output("folder for report.html, diagnosis.json, diagnosis.h5, extended_model.toml and the cache of simulations"),
-            quantity("level", "1", "of the test whether anything is wrong", "0.05", between(0, 1)),
+            quantity("level", "1", "of the test whether anything is wrong", "0.05", within(1e-6, 0.5)),
             count("bootstrap", "data sets drawn for the test", "999", within(99, 1000000)),
             count("seed", "of the random numbers", "1", at_least(0)), flag("force", "replace an existing diagnosis")};
 }

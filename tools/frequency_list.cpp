@@ -3,7 +3,6 @@
 #include "logarithmic_sweep.hpp"
 
 #include <coagula/common/checks.hpp>
-#include <coagula/io/units.hpp>
 
 namespace coagula::tools {
 
@@ -12,11 +11,7 @@ namespace {
 constexpr std::size_t most_frequencies = 10000;
 
 double parse_frequency(const std::string& word) {
-    const double value = io::parse_quantity(word, "Hz");
-    if (!(value > 0)) {
-        throw InputError("'" + word + "' is out of range: a frequency must be > 0 Hz");
-    }
-    return value;
+    return parse_quantity(word, "Hz", physical::frequency);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // coagula generate brownian: coagulation of a stabilised suspension by Brownian dynamics.
 #include "brownian_checkpoint.hpp"
 #include "brownian_results.hpp"
+#include "checkpoint_file.hpp"
 #include "generate.hpp"
 #include "output_file.hpp"
 #include "potential_options.hpp"
@@ -12,7 +13,6 @@
 
 #include <coagula/generators/brownian_dynamics.hpp>
 #include <coagula/io/structure_file.hpp>
-#include <coagula/io/units.hpp>
 
 #include <filesystem>
 
@@ -47,7 +47,7 @@ BrownianOptions brownian_options(const Arguments& arguments) {
     options.contact_tolerance = arguments.quantity("contact-tolerance");
     options.sample_interval = arguments.optional_quantity("sample-interval").value_or(unset);
     for (const std::string& time : split(arguments.text("snapshots", ""))) {
-        options.snapshot_times.push_back(io::parse_quantity(time, "s"));
+        options.snapshot_times.push_back(parse_quantity(time, "s", physical::duration));
     }
     options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
     return options;
@@ -118,7 +118,7 @@ BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, cons
         write_checkpoint(path, signature, checkpoint);
         since = Stopwatch();
     };
-    return simulate_brownian(start, potential, options, progress, control);
+    return with_checkpoint(path, [&] { return simulate_brownian(start, potential, options, progress, control); });
 }
 
 void run(const Arguments& arguments) {
@@ -169,6 +169,7 @@ void run(const Arguments& arguments) {
         const Results measured = heterogeneity_of(made, *start, options, progress);
         results.insert(results.end(), measured.begin(), measured.end());
     }
+    check_finite(results);
     io::write_structure(output, structure, {}, results, describe_call(arguments, input ? &*input : nullptr, clock),
                         arguments.flag("force"));
     Json json = to_json(results, "/generation/brownian");
@@ -215,40 +216,40 @@ Verb generate_brownian_verb() {
         count("particles", "number of particles", "8000", within(2, 1e8)),
         quantity("volume-fraction", "1", "volume of the spheres over that of the box; required without --start", "",
                  between(0, 0.55)),
-        quantity("radius", "m", "mean radius of the particles; required, unless a table or a file gives the radii", "", above(0)),
+        particle_radius("mean radius of the particles; required, unless a table or a file gives the radii"),
         text("size-distribution", "NAME", "monodisperse, normal:S, lognormal:S or FILE.csv", "monodisperse"),
         text("start", "FILE", "go on from the packing in this file instead of a suspension in equilibrium"),
         quantity("equilibration-potential", "V", "surface potential at which the suspension is brought to equilibrium", "50mV",
-                 above(0)),
-        quantity("equilibration-time", "s", "of that, a quarter of R^2/D when not given", "", at_least(0))};
+                 within(1e-6, 1)),
+        quantity("equilibration-time", "s", "of that, a quarter of R^2/D when not given", "", physical::duration)};
     for (Option& option : potential_options()) {
         options.push_back(std::move(option));
     }
     const std::vector<Option> rest = {
-        quantity("viscosity", "Pa s", "of the liquid", "1e-3", above(0)),
-        quantity("slowing", "1", "share of the free diffusion that hydrodynamics leave on average", "1", within(0, 1)),
+        quantity("viscosity", "Pa s", "of the liquid", "1e-3", within(1e-9, 1e9)),
+        quantity("slowing", "1", "share of the free diffusion that hydrodynamics leave on average", "1", within(1e-6, 1)),
         choice("hydrodynamics", {"none", "mean-field"}, "mean-field: slowed by (1 - 1.56 phi)(1 - 0.27 phi) besides", "none"),
-        quantity("tangential-stiffness", "N/m", "of contacts; they slide freely when not given", "", above(0)),
+        quantity("tangential-stiffness", "N/m", "of contacts; they slide freely when not given", "", physical::stiffness),
         quantity("friction", "1", "contacts slip beyond this times their elastic normal force; never when not given", "",
-                 at_least(0)),
-        quantity("rolling-stiffness", "N/m", "of contacts; they roll freely when not given", "", above(0)),
-        quantity("rolling-friction", "1", "the same limit of the rolling resistance; none when not given", "", at_least(0)),
-        quantity("gravity", "m/s2", "particles settle towards a floor; not when not given", "", above(0)),
-        quantity("density-difference", "kg/m3", "of particles and liquid, with --gravity", "", Range{}),
+                 physical::friction),
+        quantity("rolling-stiffness", "N/m", "of contacts; they roll freely when not given", "", physical::stiffness),
+        quantity("rolling-friction", "1", "the same limit of the rolling resistance; none when not given", "", physical::friction),
+        quantity("gravity", "m/s2", "particles settle towards a floor; not when not given", "", within(1e-9, 1e9)),
+        quantity("density-difference", "kg/m3", "of particles and liquid, with --gravity", "", within(-1e6, 1e6)),
         choice("integrator", {"stabilised", "euler"}, "SK-ROCK or Euler-Maruyama", "stabilised"),
-        quantity("time-step", "s", "chosen from the potential when not given", "", above(0)),
-        quantity("stop-time", "s", "simulated time at the end", "", at_least(0)),
+        quantity("time-step", "s", "chosen from the potential when not given", "", physical::time),
+        quantity("stop-time", "s", "simulated time at the end", "", physical::duration),
         quantity("stop-coordination", "1", "or mean number of contacts at the end, at a sample", "", between(0, 12)),
         choice("stop-plateau", {"none", "coordination", "mean-gap"}, "or as soon as this is level", "none"),
         quantity("plateau-time", "s", "its means over the two halves of this time are compared; R^2/D/10 when not given", "",
-                 above(0)),
-        quantity("plateau-change", "1", "relative difference below which it is level", "0.01", above(0)),
+                 physical::time),
+        quantity("plateau-change", "1", "relative difference below which it is level", "0.01", within(1e-12, 1)),
         quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01", within(0, 0.1)),
-        quantity("sample-interval", "s", "of the time series; stop time/200 when not given", "", above(0)),
+        quantity("sample-interval", "s", "of the time series; stop time/200 when not given", "", physical::time),
         text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),
         flag("heterogeneity", "measure the degree of heterogeneity at the start, at the snapshots and at the end"),
         text("checkpoint", "FILE", "state of the run; a run that finds the file goes on from it"),
-        quantity("checkpoint-interval", "s", "between checkpoints, of wall-clock time", "60s", at_least(0)),
+        quantity("checkpoint-interval", "s", "between checkpoints, of wall-clock time", "60s", physical::duration),
         count("seed", "of the random numbers", "1", at_least(0)),
         output("HDF5 file to write"),
         flag("force", "replace an existing file")};

@@ -7,7 +7,6 @@
 
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/text_formats.hpp>
-#include <coagula/io/units.hpp>
 
 namespace coagula::tools {
 
@@ -23,8 +22,8 @@ io::TextFormat chosen_format(const Arguments& arguments) {
 
 double parse_edge(const std::string& text) {
     try {
-        return require_positive(io::parse_quantity(text, "m"), "the edge length of the box", "m");
-    } catch (const std::exception& error) {
+        return parse_quantity(text, "m", physical::length, 1.0);
+    } catch (const InputError& error) {
         throw InputError(std::string("--box: ") + error.what());
     }
 }
@@ -86,17 +85,18 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Verb import_verb() {
-    return {.name = "import",
-            .summary = "take over coordinates from CSV, extended XYZ or LAMMPS data",
-            .input = "FILE",
-            .options = {required(output("HDF5 file to write")), flag("force", "replace an existing file"),
-                        choice("format", {"csv", "extxyz", "lammps"}, "format of the file; by its ending when not given", ""),
-                        quantity("radius", "m", "radius of every particle; a column of the file when not given", "", above(0)),
-                        text("box", "L|LX,LY,LZ", "edge lengths of the periodic box [unit m; range > 0]"),
-                        flag("open", "the set has a free surface: no periodic box"),
-                        quantity("length-unit", "m", "length of one unit of columns that name no unit", "", above(0)),
-                        flag("wrap", "bring particles outside the periodic box back in; otherwise they are an error")},
-            .run = run};
+    return {
+        .name = "import",
+        .summary = "take over coordinates from CSV, extended XYZ or LAMMPS data",
+        .input = "FILE",
+        .options = {required(output("HDF5 file to write")), flag("force", "replace an existing file"),
+                    choice("format", {"csv", "extxyz", "lammps"}, "format of the file; by its ending when not given", ""),
+                    particle_radius("radius of every particle; a column of the file when not given"),
+                    text("box", "L|LX,LY,LZ", "edge lengths of the periodic box [unit m; range " + physical::length.text() + "]"),
+                    flag("open", "the set has a free surface: no periodic box"),
+                    quantity("length-unit", "m", "length of one unit of columns that name no unit", "", physical::length),
+                    flag("wrap", "bring particles outside the periodic box back in; otherwise they are an error")},
+        .run = run};
 }
 
 }  // namespace coagula::tools

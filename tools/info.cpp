@@ -58,13 +58,26 @@ Json results_json(const Results& results) {
     return json;
 }
 
-Json provenance_json(const std::vector<io::Provenance>& history) {
+/// The options of a stage, which are no deeper than this; a text that is no JSON stays a text.
+Json options_json(const std::string& path, const std::string& text) {
+    constexpr int deepest = 16;
+    const auto refuse_deep = [&](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
+        if (depth > deepest) {
+            throw InputError(path + ": the options in its provenance are JSON nested deeper than " + std::to_string(deepest) +
+                             " levels");
+        }
+        return true;
+    };
+    const Json options = Json::parse(text, refuse_deep, false);
+    return options.is_discarded() ? Json(text) : options;
+}
+
+Json provenance_json(const std::string& path, const std::vector<io::Provenance>& history) {
     Json list = Json::array();
     for (const io::Provenance& entry : history) {
-        const Json options = Json::parse(entry.options, nullptr, false);
         list.push_back({{"stage", entry.stage},
                         {"command_line", entry.command_line},
-                        {"options", options.is_discarded() ? Json(entry.options) : options},
+                        {"options", options_json(path, entry.options)},
                         {"seed", entry.seed},
                         {"version", entry.version},
                         {"time", entry.time},
@@ -122,7 +135,7 @@ void run(const Arguments& arguments) {
     const std::map<std::string, std::size_t> own = own_bonds(results);
     json["own_bonds"] = own;
     json["results"] = results_json(results);
-    json["provenance"] = provenance_json(history);
+    json["provenance"] = provenance_json(path, history);
 
     Table table = structure_table(structure);
     for (const auto& [group, bonds] : own) {

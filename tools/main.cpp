@@ -1,16 +1,20 @@
 // coagula: generate, characterize and shear random sphere packings. Chooses the verb and turns exceptions into exit codes.
 #include "arguments.hpp"
 #include "interruption.hpp"
+#include "printable.hpp"
 #include "provenance.hpp"
+#include "report.hpp"
 #include "verbs.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/progress.hpp>
 
+#include <fcntl.h>
 #include <omp.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -72,16 +76,19 @@ void run(std::vector<std::string> words) {
         words.size() == 2 && (words[0] == "generate" || words[0] == "fit") && (words[1] == "--help" || words[1] == "-h");
     if (words.front() == "--help" || words.front() == "-h" || words.front() == "help" || lists_names) {
         print_program_help();
+        flush_output();
         return;
     }
     if (words.front() == "--version") {
         std::cout << "coagula " << version_text() << '\n';
+        flush_output();
         return;
     }
     const Verb verb = take_verb(words);
     const Arguments arguments(verb, words);
     if (arguments.help_wanted()) {
         std::cout << help_text(verb);
+        flush_output();
         return;
     }
     if (arguments.has("threads")) {
@@ -100,8 +107,21 @@ void limit_spinning(char** argv) {
     }
 }
 
+/// A file that is opened shall never become a standard stream that the caller has closed: what is printed would go into it.
+void open_missing_streams() {
+    while (true) {
+        const int descriptor = open("/dev/null", O_RDONLY);  // the lowest that is free
+        if (descriptor > STDERR_FILENO) {
+            close(descriptor);
+        }
+        if (descriptor < 0 || descriptor > STDERR_FILENO) {
+            return;
+        }
+    }
+}
+
 int complain(const std::string& sentence, int code) {
-    std::cerr << "coagula: " << sentence << std::endl;
+    std::cerr << "coagula: " << printable(sentence) << std::endl;
     return code;
 }
 
@@ -111,6 +131,7 @@ int complain(const std::string& sentence, int code) {
 
 int main(int argc, char** argv) {
     using namespace coagula::tools;
+    open_missing_streams();
     limit_spinning(argv);
     install_signal_handlers();
     try {
@@ -122,6 +143,8 @@ int main(int argc, char** argv) {
         return complain(error.what(), wrong_usage);
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory for this", failed);
+    } catch (const std::filesystem::filesystem_error& error) {
+        return complain(error.path1().string() + " cannot be used: " + error.code().message(), failed);
     } catch (const std::exception& error) {
         return complain(error.what(), failed);
     }

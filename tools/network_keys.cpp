@@ -56,10 +56,10 @@ void append_contact_stiffness(Results& results, const std::string& group, const 
                                            [&](double all, const ContactTangent& tangent) { return all + tangent.*part; });
         return tangents.empty() ? unset : sum / static_cast<double>(tangents.size());
     };
-    results.push_back(io::scalar(group + "contact_stiffness/normal", mean(&ContactTangent::normal), "N/m",
-                                 "of a contact as found, mean: two particles in series"));
-    results.push_back(io::scalar(group + "contact_stiffness/shear", mean(&ContactTangent::shear), "N/m",
-                                 "of a contact as found, mean: two particles in series"));
+    const std::string description =
+        tangents.empty() ? "NaN: there are no contacts" : "of a contact as found, mean: two particles in series";
+    results.push_back(io::scalar(group + "contact_stiffness/normal", mean(&ContactTangent::normal), "N/m", description));
+    results.push_back(io::scalar(group + "contact_stiffness/shear", mean(&ContactTangent::shear), "N/m", description));
 }
 
 }  // namespace coagula::tools

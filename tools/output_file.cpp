@@ -13,8 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A file is written beside its place under its name, the number of the process and an ending: NAME_MAX bytes in all.
+constexpr std::size_t longest_name = 255 - 20;
+
 /// Files are replaced by a rename, so what must be writable is the folder.
 void check_folder(const std::string& path) {
+    const std::string name = fs::path(path).filename().string();
+    if (name.size() > longest_name) {
+        throw InputError("cannot write " + path + ": the name has " + std::to_string(name.size()) + " bytes, and " +
+                         std::to_string(longest_name) + " are possible");
+    }
     const fs::path parent = fs::path(path).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     if (!fs::is_directory(folder)) {

@@ -4,10 +4,11 @@
 #include "potential_picture.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
 
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 namespace coagula::tools {
 
@@ -36,11 +37,9 @@ double screening_length(const Arguments& arguments) {
 
 /// Two columns with a unit each: "gap [nm],energy [J]".
 TabulatedLaw read_table(const std::string& path) {
-    std::ifstream file(path);
+    std::istringstream file(io::read_file(path));
     std::string line;
-    if (!file || !std::getline(file, line)) {
-        throw InputError("--potential-table: cannot read " + path);
-    }
+    std::getline(file, line);
     const std::vector<std::string> names = split(line);
     const auto unit_of = [&](std::size_t column, const std::string& name, const std::string& unit) {
         const std::string text = column < names.size() ? names[column] : "";
@@ -89,20 +88,21 @@ std::vector<PairLaw> dlvo_laws(const Arguments& arguments, const PairRadii& radi
 
 std::vector<Option> potential_options() {
     return {quantity("surface-potential", "V", "of the particles; required, unless a table gives the potential", "", within(-1, 1)),
-            quantity("debye-length", "m", "of the double layer, 10 nm when not given", "", above(0)),
-            quantity("ionic-strength", "mol/m3", "of a z:z electrolyte, instead of the Debye length", "", above(0)),
+            quantity("debye-length", "m", "of the double layer, 10 nm when not given", "", physical::length),
+            quantity("ionic-strength", "mol/m3", "of a z:z electrolyte, instead of the Debye length", "", within(1e-9, 1e5)),
             choice("double-layer", {"superposition", "hogg-healy-fuerstenau"}, "law of the double layers", "superposition"),
-            quantity("hamaker-constant", "J", "of the van der Waals attraction", "4.76e-20J", at_least(0)),
-            quantity("permittivity", "1", "of the liquid, relative", "81", above(0)),
+            quantity("hamaker-constant", "J", "of the van der Waals attraction", "4.76e-20J", within(0, 1e-15)),
+            quantity("permittivity", "1", "of the liquid, relative", "81", within(1, 1e4)),
             count("valency", "of the electrolyte", "1", within(1, 10)),
-            quantity("yukawa-energy", "J", "of a Yukawa force besides, at contact", "", Range{}),
-            quantity("yukawa-length", "m", "screening length of the Yukawa force", "", above(0)),
+            quantity("yukawa-energy", "J", "of a Yukawa force besides, at contact", "", within(-1e-15, 1e-15)),
+            quantity("yukawa-length", "m", "screening length of the Yukawa force", "", physical::length),
             text("potential-table", "FILE", "CSV with columns 'gap [unit],energy [unit]' instead of these laws"),
             quantity("contact-stiffness", "N/m", "of the elastic contact below a cut-off gap; 4e5 kB T/R^2 when not given", "",
-                     Range{}),
-            quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "", above(0)),
-            quantity("cutoff-gap", "m", "no forces beyond; R when not given", "", above(0)),
-            quantity("temperature", "K", "of the suspension", "293K", above(0)),
+                     physical::stiffness),
+            quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "",
+                     physical::length),
+            quantity("cutoff-gap", "m", "no forces beyond; R when not given", "", physical::length),
+            quantity("temperature", "K", "of the suspension", "293K", within(1, 1e4)),
             flag("potential-curve", "print the potential over the gap instead of a run"),
             text("picture", "FILE", "with --potential-curve: draw it with gnuplot, .png or .svg")};
 }
@@ -158,6 +158,7 @@ void report_potential(const Arguments& arguments, const PairPotential& potential
                        {"cut_gap", potential.cut_gap()},
                        {"contact_stiffness", potential.contact().stiffness},
                        {"curve", {{"gap", curve.gap}, {"energy_kT", curve.energy}, {"force", curve.force}}}};
+    check_finite(json);
     if (arguments.has("picture")) {
         check_picture_name(arguments.text("picture"));
         check_output(arguments.text("picture"), arguments.flag("force"));

@@ -6,7 +6,6 @@
 #include "orientation_list.hpp"
 
 #include <coagula/io/contact_model_file.hpp>
-#include <coagula/io/units.hpp>
 #include <coagula/mechanics/quasistatic.hpp>
 
 #include <algorithm>
@@ -31,11 +30,7 @@ struct Test {
 };
 
 double parse_strain(const std::string& word) {
-    const double value = io::parse_quantity(word, "1");
-    if (!(value > 0)) {
-        throw InputError("'" + word + "' is out of range: an amplitude of strain must be > 0");
-    }
-    return value;
+    return parse_quantity(word, "1", physical::strain);
 }
 
 /// "1e-4,1e-3" or "1e-4:1e-2:10".
@@ -190,9 +185,12 @@ void append_ramps(Results& results, const std::vector<Test>& tests) {
         results.push_back(io::scalar(path + "peak_strain", peak->strain, "1", "strain of the largest stress"));
         results.push_back(io::scalar(path + "peak_stress", stress(*peak), "Pa", "largest stress"));
     }
-    append_modulus(results, "storage_modulus", tests, first, "secant modulus of the first step");
-    append_modulus(results, "loss_modulus", tests, Eigen::MatrixXd::Constant(first.rows(), 1, unset), "not measured on a ramp");
-    results.push_back(io::scalar(group + "phase", unset, "rad", "not measured on a ramp"));
+    append_modulus(
+        results, "storage_modulus", tests, first,
+        first.hasNaN() ? "secant modulus of the first step; NaN: the network failed there" : "secant modulus of the first step");
+    append_modulus(results, "loss_modulus", tests, Eigen::MatrixXd::Constant(first.rows(), 1, unset),
+                   "NaN: not measured on a ramp");
+    results.push_back(io::scalar(group + "phase", unset, "rad", "NaN: not measured on a ramp"));
 }
 
 /// @param amplitudes asked for; what was not reached because the network failed is NaN.
@@ -200,6 +198,9 @@ void append_sweeps(Results& results, const std::vector<Test>& tests, const std::
     const auto count = static_cast<Index>(amplitudes.size());
     results.push_back(io::vector(group + "amplitude", Eigen::VectorXd::Map(amplitudes.data(), count), "1",
                                  "of the strain, in the order of the run"));
+    const bool all_reached = std::all_of(tests.begin(), tests.end(),
+                                         [&](const Test& test) { return test.sweep.amplitudes.size() == amplitudes.size(); });
+    const std::string not_reached = all_reached ? "" : "; NaN: not reached, the network failed before";
     Eigen::MatrixXd storage(static_cast<Index>(tests.size()), count);
     Eigen::MatrixXd loss = storage;
     for (std::size_t k = 0; k < tests.size(); ++k) {
@@ -213,7 +214,7 @@ void append_sweeps(Results& results, const std::vector<Test>& tests, const std::
         loss.row(static_cast<Index>(k)) = column([](const auto& a) { return a.loss_modulus; });
         const std::string path = group + "sweep/" + name_of(tests[k].orientation) + "/";
         const auto add = [&](const std::string& name, const auto& value, const std::string& unit, const std::string& description) {
-            results.push_back(io::vector(path + name, column(value), unit, description));
+            results.push_back(io::vector(path + name, column(value), unit, description + not_reached));
         };
         using Entry = mechanics::AmplitudeResponse;
         add(
@@ -229,11 +230,11 @@ void append_sweeps(Results& results, const std::vector<Test>& tests, const std::
         append_broken(results, path, tests[k].sweep.broken);
         append_failure(results, path, tests[k].sweep.failure);
     }
-    append_modulus(results, "storage_modulus", tests, storage, "fundamental in phase, per amplitude");
-    append_modulus(results, "loss_modulus", tests, loss, "fundamental ahead of the strain, per amplitude");
+    append_modulus(results, "storage_modulus", tests, storage, "fundamental in phase, per amplitude" + not_reached);
+    append_modulus(results, "loss_modulus", tests, loss, "fundamental ahead of the strain, per amplitude" + not_reached);
     const Eigen::VectorXd phase = loss.colwise().mean().binaryExpr(
         storage.colwise().mean(), [](double lost, double stored) { return std::atan2(lost, stored); });
-    results.push_back(io::vector(group + "phase", phase, "rad", "of the mean moduli"));
+    results.push_back(io::vector(group + "phase", phase, "rad", "of the mean moduli" + not_reached));
 }
 
 Table table_of(const std::vector<Test>& tests, bool sweep) {
@@ -267,7 +268,7 @@ std::vector<Option> quasistatic_options() {
             flag("down", "quasistatic: the amplitudes once more, downwards"),
             count("cycles", "quasistatic: cycles per amplitude, the last is measured", "1", within(1, 1000)),
             count("steps-per-cycle", "quasistatic: equilibria in a cycle, a multiple of 4", "32", within(4, 100000)),
-            quantity("ramp", "1", "quasistatic: shear to this strain instead of cycles", "", Range{}),
+            quantity("ramp", "1", "quasistatic: shear to this strain instead of cycles", "", within(-10, 10)),
             count("ramp-steps", "quasistatic: equally spaced equilibria on the ramp", "50", within(1, 100000))};
 }
 

@@ -1,5 +1,8 @@
 #include "report.hpp"
 
+#include "printable.hpp"
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +19,23 @@ Json to_value(const T& value) {
         return std::isfinite(value) ? Json(value) : Json(nullptr);
     } else {
         return Json(value);
+    }
+}
+
+[[noreturn]] void refuse_number(const std::string& name) {
+    throw std::runtime_error("the result " + name +
+                             " is not a finite number, and nothing is written: an option or a parameter of this call lies far "
+                             "outside physical values");
+}
+
+void check_finite_below(const Json& json, const std::string& path) {
+    if (json.is_number_float() && !std::isfinite(json.get<double>())) {
+        refuse_number(path.substr(1));
+    }
+    if (json.is_structured()) {
+        for (const auto& [key, value] : json.items()) {
+            check_finite_below(value, path + "/" + key);
+        }
     }
 }
 
@@ -83,6 +103,21 @@ Json to_json(const Results& results, const std::string& group) {
     return json;
 }
 
+void check_finite(const Results& results) {
+    const auto finite = [](double value) { return std::isfinite(value); };
+    for (const io::Dataset& dataset : results) {
+        const auto* numbers = std::get_if<std::vector<double>>(&dataset.values);
+        const bool may_be_missing = dataset.description.find("NaN") != std::string::npos;
+        if (numbers != nullptr && !may_be_missing && !std::all_of(numbers->begin(), numbers->end(), finite)) {
+            refuse_number(dataset.path);
+        }
+    }
+}
+
+void check_finite(const Json& json) {
+    check_finite_below(json, "");
+}
+
 std::string with_unit(double value, const std::string& unit) {
     if (unit == "1" || unit.empty()) {
         return digits(value);
@@ -101,6 +136,13 @@ std::string describe(const Cell& cell) {
     return text + (cell.is_periodic() ? ", periodic" : ", open");
 }
 
+void flush_output() {
+    std::cout.flush();
+    if (!std::cout) {
+        throw std::runtime_error("standard output cannot be written");
+    }
+}
+
 void report(const Arguments& arguments, const Json& json, const Table& table) {
     if (arguments.flag("json")) {
         print(std::cout, json, "");
@@ -111,13 +153,10 @@ void report(const Arguments& arguments, const Json& json, const Table& table) {
             width = std::max(width, label.size());
         }
         for (const auto& [label, text] : table) {
-            std::cout << label << std::string(width + 3 - label.size(), ' ') << text << '\n';
+            std::cout << label << std::string(width + 3 - label.size(), ' ') << printable(text) << '\n';
         }
     }
-    std::cout.flush();
-    if (!std::cout) {
-        throw std::runtime_error("standard output cannot be written");
-    }
+    flush_output();
 }
 
 }  // namespace coagula::tools

@@ -23,6 +23,13 @@ Json to_json(const io::Dataset& dataset);
 /// Data sets below `group` as nested objects: "/characterization/doh/a" is {"doh": {"a": ...}}.
 Json to_json(const Results& results, const std::string& group);
 
+/// To be asked before anything is written: throws std::runtime_error for a number that is not finite, unless the description of its
+/// data set says what "NaN" means there.
+void check_finite(const Results& results);
+
+/// The same of results that are printed only. What may be missing is null in `json` already.
+void check_finite(const Json& json);
+
 /// A physical value for people: five digits, SI prefix for metres, pascals and newtons, "1.4123 MPa".
 std::string with_unit(double value, const std::string& unit);
 
@@ -31,6 +38,9 @@ std::string describe(const Cell& cell);
 
 /// Label and text of each line.
 using Table = std::vector<std::pair<std::string, std::string>>;
+
+/// Throws std::runtime_error when standard output takes no more.
+void flush_output();
 
 /// Prints the JSON object (--json), nothing (--quiet) or the table. Throws std::runtime_error when standard output takes no more.
 void report(const Arguments& arguments, const Json& json, const Table& table);

@@ -1,5 +1,6 @@
 #include "rheometer_run.hpp"
 
+#include "checkpoint_file.hpp"
 #include "network_keys.hpp"
 #include "orientation_list.hpp"
 #include "rheometer_checkpoint.hpp"
@@ -28,12 +29,13 @@ std::string fingerprint(const Arguments& arguments, const Packing& packing, cons
 
 std::vector<Option> rheometer_options() {
     return {choice("boundary", {"plates", "periodic"}, "dem: plates of three layers, or a periodic cell that is sheared", "plates"),
-            quantity("amplitude", "1", "dem: strain of the last oscillation; they grow linearly", "0.001", Range{0, 1, false}),
+            quantity("amplitude", "1", "dem: strain of the last oscillation; they grow linearly", "0.001", within(1e-15, 1)),
             flag("constant-amplitude", "dem: all oscillations have that strain"),
             count("oscillations", "dem: number of oscillations", "10", within(1, 100000)),
             count("steps-per-oscillation", "dem: time steps, a multiple of 100", "24000", within(100, 100000000)),
-            quantity("damping", "1", "dem: coefficient of the local damping", "0.9", Range{0, 0.999, true}),
-            quantity("density", "kg/m3", "dem: of the particles, to tell by how much masses are scaled", "3690kg/m3", above(0)),
+            quantity("damping", "1", "dem: coefficient of the local damping", "0.9", within(0, 0.999)),
+            quantity("density", "kg/m3", "dem: of the particles, to tell by how much masses are scaled", "3690kg/m3",
+                     within(1e-3, 1e6)),
             choice("rest-length", {"found", "radii"},
                    "dem, quasistatic: bonds are unstressed as found, or at a distance of r_i + r_j", "found"),
             text("orientation", "LIST", "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all", "all"),
@@ -78,7 +80,8 @@ Findings rheometer_response(const Arguments& arguments, const Packing& packing, 
             write_checkpoint(path, signature, checkpoint);
         };
     }
-    const mechanics::RheometerResult result = mechanics::run_rheometer(packing, bonds, options, orientations, progress, control);
+    const mechanics::RheometerResult result =
+        with_checkpoint(path, [&] { return mechanics::run_rheometer(packing, bonds, options, orientations, progress, control); });
     Findings found{.group = "/mechanics/dem",
                    .results = datasets_of(result, options, arguments.quantity("bond-tolerance")),
                    .table = table_of(result, options)};

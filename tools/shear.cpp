@@ -178,6 +178,7 @@ void run(const Arguments& arguments) {
     progress.update("writing", 1.0);
     Json json = to_json(found.results, found.group);
     std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
+    check_finite(found.results);
     io::add_results(arguments.input(), target, {found.group}, bonds, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"), found.bond_fields);
 
@@ -199,8 +200,8 @@ Verb shear_verb() {
         .input = "FILE.h5",
         .options = {choice("method", {"linear", "quasistatic", "dem"}, "how the response is computed", "linear"),
                     quantity("normal-stiffness", "N/m", "normal stiffness of a particle, two in series make a contact", "100N/m",
-                             above(0)),
-                    quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", at_least(0)),
+                             physical::stiffness),
+                    quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", within(0, 1e15)),
                     quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
                     text("frequency", "LIST", "response to harmonic strain at these frequencies instead, such as 1Hz,10Hz"),
                     text("frequency-sweep", "FROM:TO:N", "the same at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
@@ -209,7 +210,8 @@ Verb shear_verb() {
                            "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero",
                            "none"),
                     choice("solver", {"auto", "direct", "iterative"}, "of the linear equations", "auto"),
-                    quantity("memory-limit", "byte", "memory of the direct solver; beyond it 'auto' iterates", "4GB", above(0)),
+                    quantity("memory-limit", "byte", "memory of the direct solver; beyond it 'auto' iterates", "4GB",
+                             within(1, 1e18)),
                     quantity("tolerance", "1", "direct solver: relative residual of every strain", "1e-10", within(1e-14, 1e-2)),
                     quantity("modulus-tolerance", "1", "iterative solver: estimated relative error of the moduli", "1e-5",
                              within(1e-12, 1e-2)),

@@ -3,10 +3,11 @@
 #include "arguments.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
 
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 
 namespace coagula::tools {
 
@@ -50,9 +51,9 @@ Columns read_header(const std::string& line, const std::string& path) {
 
 double positive_number(const std::string& text, const std::string& unit, const std::string& place) {
     try {
-        return require_positive(io::parse_quantity(text + (unit == "1" ? "" : " " + unit), unit == "1" ? "1" : "m"), "the value",
-                                "");
-    } catch (const std::exception& error) {
+        return unit == "1" ? parse_quantity(text, "1", within(1e-12, 1e12))
+                           : parse_quantity(text + " " + unit, "m", physical::length);
+    } catch (const InputError& error) {
         throw InputError(place + ": " + error.what());
     }
 }
@@ -69,15 +70,21 @@ SizeDistribution parse_spread(SizeKind kind, const std::string& text, std::size_
     return sizes;
 }
 
+std::string table_text(const std::string& path) {
+    try {
+        return io::read_file(path);
+    } catch (const InputError& error) {
+        throw InputError(std::string("--size-distribution: ") + error.what() +
+                         "; give monodisperse, normal:S, lognormal:S or a CSV file");
+    }
+}
+
 }  // namespace
 
 SizeDistribution read_size_table(const std::string& path) {
-    std::ifstream file(path);
+    std::istringstream file(table_text(path));
     std::string line;
-    if (!file || !std::getline(file, line)) {
-        throw InputError("--size-distribution: " + path +
-                         " is neither a table that can be read nor one of monodisperse, normal:S, " + "lognormal:S");
-    }
+    std::getline(file, line);
     const Columns columns = read_header(line, path);
     std::vector<double> radius;
     std::vector<double> fraction;

@@ -26,6 +26,7 @@ constexpr double longest_run = 1e15;              // steps
 constexpr double default_sample_interval = 5e-4;  // in units of R^2/D, when no stop time is given
 constexpr double default_plateau_time = 0.1;      // in units of R^2/D
 constexpr int plateau_samples = 16;               // at least, over the time of the plateau
+constexpr double farthest_fall = 0.1;             // in a time step, in mean radii
 
 void check(const Packing& start, const BrownianOptions& options) {
     coagula::check(start);
@@ -105,7 +106,11 @@ BrownianSetup make_setup(const Packing& start, const PairPotential& potential, c
                smooth_switch(gap, 0.8 * ranges.cutoff, ranges.cutoff);
     };
     const double weight_unit = 4 * std::numbers::pi / 3 * std::pow(units.length, 4) / units.energy;
-    const Sedimentation& weight = options.sedimentation;
+    const Sedimentation& sedimentation = options.sedimentation;
+    const double weight = settles(options) ? sedimentation.gravity * sedimentation.density_difference * weight_unit : 0;
+    const double fall = std::abs(weight) * time_step.time_step / units.time;
+    require(fall <= farthest_fall, "the particles would fall by " + to_text(fall) +
+                                       " mean radii in a time step: take a smaller gravity or density difference");
     return {.period = start.cell.lengths() / units.length,
             .radii = start.radii / units.length,
             // The first intervals of the one are elastic contact, that of the other is without force.
@@ -116,7 +121,7 @@ BrownianSetup make_setup(const Packing& start, const PairPotential& potential, c
             .far_interval = time_step.far_interval,
             .seed = options.seed,
             .noise = options.noise,
-            .weight = settles(options) ? weight.gravity * weight.density_difference * weight_unit : 0,
+            .weight = weight,
             .ceiling = settles(options) ? start.cell.lengths()[2] / units.length - ranges.cutoff : 0,
             .wall_stiffness = potential.contact().stiffness * units.length * units.length / units.energy,
             .springs = spring_rules(potential, options.resistance, units)};

@@ -37,6 +37,9 @@ PairPotential::PairPotential(std::vector<PairLaw> laws, const ElasticContact& co
     cut_gap_ = solve_cut_gap();
     cut_force_ = sum_force(cut_gap_);
     cut_energy_ = sum_energy(cut_gap_);
+    require(std::isfinite(cut_gap_) && std::isfinite(cut_force_) && std::isfinite(cut_energy_),
+            "the pair potential is beyond the range of numbers at the contact: at a gap of " + to_text(cut_gap_) +
+                " m its force is " + to_text(cut_force_) + " N and its energy " + to_text(cut_energy_) + " J");
 }
 
 double PairPotential::sum_energy(double gap) const {

@@ -21,6 +21,8 @@ constexpr double barrier_share = 1.0 / 28;  // of the square of the length of th
 constexpr double largest_cut = 0.1;         // gap up to which contacts may be elastic
 constexpr int most_stages = 30;
 constexpr double impassable = 25;  // height of a barrier in kB T
+constexpr double longest_cutoff = 1000;
+constexpr double shortest_time_step = 1e-15;
 // Largest eigenvalue of the stiffness matrix of a contact network over the stiffness of one contact: 8 in a close-packed crystal,
 // less in random packings.
 constexpr double network_factor = 8;
@@ -113,6 +115,11 @@ double force_slope(const PairPotential& potential, const ReducedUnits& units, do
 ForceRanges choose_ranges(const PairPotential& potential, const ReducedUnits& units, const BrownianOptions& options) {
     constexpr double width = 0.06;
     const double cutoff = std::isnan(options.cutoff_gap) ? 1.0 : options.cutoff_gap / units.length;
+    require(cutoff <= longest_cutoff, "the cut-off gap is " + to_text(options.cutoff_gap) + " m, which is " + to_text(cutoff) +
+                                          " mean radii: it may be " + to_text(longest_cutoff) + " at most");
+    require(cutoff > potential.cut_gap() / units.length, "the cut-off gap is " + to_text(options.cutoff_gap) +
+                                                             " m, but contacts are elastic up to a gap of " +
+                                                             to_text(potential.cut_gap()) + " m: take a longer cut-off");
     double start = 0.1;
     for (double gap = cutoff; gap > start; gap -= 1e-3) {
         if (std::abs(force_slope(potential, units, gap)) > far_steepness) {
@@ -163,6 +170,9 @@ TimeStep choose_time_step(const PairPotential& potential, double mean_radius, do
         require(step <= bound, "the time step is " + to_text(options.time_step) + " s, but the integrator is stable up to " +
                                    to_text(bound * units.time) + " s only");
     }
+    require(step >= shortest_time_step && std::isfinite(units.time) && units.time > 0,
+            "the time step comes to " + to_text(step * units.time) + " s, which is " + to_text(step) +
+                " of the diffusion time R^2/D: the contacts are too stiff for these particles");
     while (options.integrator == Integrator::stabilised && stabilised_scheme(chosen.stages).stability < step * rate) {
         ++chosen.stages;
     }

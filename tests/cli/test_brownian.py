@@ -179,7 +179,7 @@ class OnATerminal(ProgramTest):
 class Refusals(ProgramTest):
     def test_sentences(self):
         for more, says in ((["--debye-length", "-1nm"], "--debye-length"),
-                           (["--contact-stiffness", "0"], "without contact repulsion"),
+                           (["--contact-stiffness", "0"], "--contact-stiffness"),
                            (["--integrator", "euler", "--time-step", "1us"], "stable up to"),
                            (["--volume-fraction", "0.7"], "--volume-fraction"),
                            (["--equilibrium-gap", "90nm"], "contact"),

@@ -285,6 +285,16 @@ TEST(BrownianDynamics, RefusesWhatIsImpossible) {
     options = short_run();
     options.cutoff_gap = 5 * radius;
     says(options, "take more particles");
+    options.cutoff_gap = 2000 * radius;
+    says(options, "it may be 1000 at most");
+    options.cutoff_gap = 1e-6 * radius;
+    says(options, "take a longer cut-off");
+    options = short_run();
+    options.resistance.tangential_stiffness = 1e300;
+    says(options, "too stiff for these particles");
+    options = short_run();
+    options.sedimentation = {.gravity = 1e300, .density_difference = 1000};
+    says(options, "in a time step");
 
     BrownianCheckpoint smooth;
     smooth.positions = smooth.list_reference = smooth.near_reference = smooth.far_forces = start.positions;
