@@ -35,12 +35,22 @@ Json to_json(const generators::VoidExpansion& made, const generators::VoidExpans
             {"volume_fraction", volume_fraction(made.packing)},
             {"box", {box.x(), box.y(), box.z()}},
             {"coordination", made.coordination},
+            {"target_coordination", options.target_coordination},
             {"contact_tolerance", options.contact_tolerance},
             {"overlap", {{"rms", made.overlap_rms}, {"max", made.overlap_max}}},
             {"void_radius", made.void_radius},
             {"increments", made.increments},
             {"steps", made.steps},
             {"seed", options.seed}};
+}
+
+/// The expansion stops at the first packing that reaches the target. One sentence where that lies well above it, otherwise empty.
+std::string overshoot(const generators::VoidExpansion& made, double target) {
+    constexpr double close = 0.1;
+    return made.coordination - target < close
+               ? ""
+               : "the coordination number is " + with_unit(made.coordination, "1") + ", well above the target of " +
+                     with_unit(target, "1") + "; more particles or another seed come closer";
 }
 
 void run(const Arguments& arguments) {
@@ -52,22 +62,29 @@ void run(const Arguments& arguments) {
     const generators::VoidExpansionOptions options = expansion_options(arguments);
 
     const generators::VoidExpansion made = generators::expand_voids(options, progress);
+    Json json = to_json(made, options);
+    check_finite(json);
     progress.update("writing", 1.0);
     io::write_structure(output, {made.packing, made.contacts}, {}, {}, describe_call(arguments, nullptr, clock), force);
 
-    Json json = to_json(made, options);
     json["output"] = output;
     json["seconds"] = clock.seconds();
-    report(arguments, json,
-           {{"particles", std::to_string(made.packing.size()) + ", " + std::to_string(options.voids) + " voids"},
-            {"box", describe(made.packing.cell)},
-            {"volume fraction", with_unit(volume_fraction(made.packing), "1")},
-            {"coordination number", with_unit(made.coordination, "1")},
-            {"overlap",
-             with_unit(100 * made.overlap_rms, "%") + " rms, " + with_unit(100 * made.overlap_max, "%") + " max of the diameter"},
-            {"void radius at the end", with_unit(made.void_radius, "m")},
-            {"time", with_unit(clock.seconds(), "s")},
-            {"written to", output}});
+    Table table{
+        {"particles", std::to_string(made.packing.size()) + ", " + std::to_string(options.voids) + " voids"},
+        {"box", describe(made.packing.cell)},
+        {"volume fraction", with_unit(volume_fraction(made.packing), "1")},
+        {"coordination number", with_unit(made.coordination, "1") + ", asked for " + with_unit(options.target_coordination, "1")},
+        {"overlap",
+         with_unit(100 * made.overlap_rms, "%") + " rms, " + with_unit(100 * made.overlap_max, "%") + " max of the diameter"},
+        {"void radius at the end", with_unit(made.void_radius, "m")},
+        {"time", with_unit(clock.seconds(), "s")},
+        {"written to", output}};
+    json["notes"] = Json::array();
+    if (const std::string note = overshoot(made, options.target_coordination); !note.empty()) {
+        json["notes"].push_back(note);
+        table.emplace_back("note", note);
+    }
+    report(arguments, json, table);
 }
 
 }  // namespace
@@ -85,7 +102,7 @@ Verb generate_vem_verb() {
                     count("voids", "number of void particles, fewer make it more heterogeneous; half of N when not given", "",
                           within(0, 1e9)),
                     required(quantity("volume-fraction", "1", "volume of the spheres over that of the box", "", between(0, 0.64))),
-                    quantity("radius", "m", "mean radius of the particles; required, unless a table gives the radii", "", above(0)),
+                    particle_radius("mean radius of the particles; required, unless a table gives the radii"),
                     text("size-distribution", "NAME",
                          "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) "
                          "or FILE.csv",
@@ -93,7 +110,7 @@ Verb generate_vem_verb() {
                     quantity("target-coordination", "1", "mean number of contacts at which the expansion stops", "4.69",
                              between(0, 6)),
                     quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01",
-                             within(0, 1)),
+                             between(0, 0.1)),
                     count("seed", "of the random numbers", "1", at_least(0)), required(output("HDF5 file to write")),
                     flag("force", "replace an existing file")},
         .run = run};

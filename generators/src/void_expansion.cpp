@@ -30,6 +30,7 @@ constexpr double start_force = 1e-6;       // rms force at which the structure p
 constexpr double relaxed_force = 1e-7;     // rms force that ends a relaxation
 constexpr Index most_iterations = 100000;  // of a relaxation
 constexpr double skin = 0.6;               // of the neighbour list
+constexpr double highest_target = 6;       // of the coordination: a rigid packing of frictionless spheres
 
 using Laws = dem::Interactions<RepulsiveSpring, BondSpring>;
 const Laws laws{RepulsiveSpring(1.0), BondSpring(1.0)};
@@ -41,7 +42,7 @@ void check(const VoidExpansionOptions& options) {
                                     ", but the void expansion needs at least 1: without voids there is nothing to expand");
     require(options.particles + options.voids <= 100000000, "the void expansion can hold at most 100 million particles and voids");
     require_between(options.volume_fraction, 0, 0.64, "the volume fraction");
-    require_between(options.target_coordination, 0, 6, "the target coordination");
+    require_between(options.target_coordination, 0, highest_target, "the target coordination");
     require_between(options.contact_tolerance, 0, 0.1, "the contact tolerance");
     require(options.radii.size() == options.particles, "the void expansion has " + std::to_string(options.particles) +
                                                            " particles, but " + std::to_string(options.radii.size()) +
@@ -118,7 +119,7 @@ public:
                     return trial;
                 }
             }
-            give_up_if_hopeless(contacts);
+            give_up_if_hopeless(system, contacts);
             growth = near_target || contacts.overlap_rms > fine_overlap ? fine_increment : increment;
         }
     }
@@ -156,7 +157,8 @@ private:
         if (coordination >= options_.target_coordination) {
             throw InputError("the target coordination is " + to_text(options_.target_coordination) + ", but at volume fraction " +
                              to_text(options_.volume_fraction) + " the packing has " + short_text(coordination) +
-                             " before any void has grown: ask for a higher coordination or a lower volume fraction");
+                             " before any void has grown: ask for " +
+                             (coordination < highest_target - 0.1 ? "a higher coordination or " : "") + "a lower volume fraction");
         }
     }
 
@@ -211,15 +213,16 @@ private:
         return 4 * std::numbers::pi / 3 * static_cast<double>(options_.voids) * std::pow(void_radius(), 3);
     }
 
-    void give_up_if_hopeless(const StructureContacts& contacts) const {
+    void give_up_if_hopeless(const dem::ParticleSystem& system, const StructureContacts& contacts) const {
         const bool crushed = contacts.overlap_rms > largest_overlap;
         if (crushed || solid_volume_ + void_volume() > largest_volume * cell_.volume()) {
-            throw InputError("the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) +
-                             " with " + std::to_string(options_.voids) + " voids among " + std::to_string(structure_) +
-                             " particles at volume fraction " + to_text(options_.volume_fraction) + ": at " +
-                             short_text(contacts.coordination) +
-                             (crushed ? " the overlap passes 9 % of the diameter" : " the voids fill the box") +
-                             "; ask for a lower coordination or other numbers of particles and voids");
+            throw InputError(
+                "the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) + " with " +
+                std::to_string(options_.voids) + " voids among " + std::to_string(structure_) + " particles at volume fraction " +
+                to_text(options_.volume_fraction) + ": the packing comes to " +
+                short_text(coordination_of(relax_without_voids(system))) + " where " +
+                (crushed ? "the overlap passes 9 % of the diameter" : "the voids fill the box") +
+                "; ask for a coordination below that, a higher volume fraction or other numbers of particles and voids");
         }
     }
 
