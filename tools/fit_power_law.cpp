@@ -1,5 +1,6 @@
 // coagula fit power-law: G' = c (a - a0)^beta through a table of moduli, and what the table says about a0.
 #include "output_file.hpp"
+#include "progress_bar.hpp"
 #include "provenance.hpp"
 #include "report.hpp"
 #include "verbs.hpp"
@@ -35,9 +36,9 @@ PowerLawData read_data(const Arguments& arguments) {
 }
 
 PowerLawAnalysis analyse(const Arguments& arguments, const PowerLawData& data) {
+    const mechanics::PowerLawOptions options{.confidence = arguments.quantity("confidence"), .points = arguments.count("points")};
     try {
-        return mechanics::fit_power_law(data,
-                                        {.confidence = arguments.quantity("confidence"), .points = arguments.count("points")});
+        return mechanics::fit_power_law(data, options, make_progress(arguments.flag("quiet")));
     } catch (const std::invalid_argument& error) {
         throw InputError(arguments.input() + ": " + error.what());
     }
@@ -200,6 +201,7 @@ void run(const Arguments& arguments) {
     Json json = to_json(found, data);
     json["confidence"] = arguments.quantity("confidence");
     Table table = table_of(found, data, arguments.quantity("confidence"));
+    check_finite(json);
     if (arguments.has("output")) {
         write_profile(arguments.text("output"), found.profile, data.standard_error.size() > 0 ? "1" : "Pa2", force);
         json["output"] = arguments.text("output");
@@ -218,8 +220,8 @@ Verb fit_power_law_verb() {
             .options = {text("a", "NAME", "column of the degree of heterogeneity", "a"),
                         text("modulus", "NAME", "column of the shear modulus, its unit in the header: modulus [MPa]", "modulus"),
                         text("standard-error", "NAME", "column of its standard error; standard_error, if there, when not given"),
-                        quantity("modulus-unit", "Pa", "one unit of columns that name none", "", above(0)),
-                        quantity("confidence", "1", "of the interval of a0", "0.95", between(0, 1)),
+                        quantity("modulus-unit", "Pa", "one unit of columns that name none", "", physical::modulus),
+                        quantity("confidence", "1", "of the interval of a0", "0.95", within(1e-6, 0.999999)),
                         count("points", "of the profile", "300", within(10, 10000)), output("write the profile as CSV"),
                         flag("force", "replace an existing output file")},
             .run = run,

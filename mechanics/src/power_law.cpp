@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "power_law_profile.hpp"
@@ -57,7 +58,7 @@ struct Search {
     std::size_t best = 0;
 };
 
-Search search(const ProfiledSquares& squares, Index points) {
+Search search(const ProfiledSquares& squares, Index points, const Progress& progress) {
     const auto at_distance = [&](double log_distance) {
         return squares.best_at(squares.smallest_a() - squares.range() * std::exp(log_distance));
     };
@@ -66,6 +67,7 @@ Search search(const ProfiledSquares& squares, Index points) {
     Search found;
     for (Index k = 0; k < points; ++k) {
         found.laws.push_back(at_distance(first + step * static_cast<double>(k)));
+        progress.update("fitting", static_cast<double>(k) / static_cast<double>(points));
     }
     const auto smaller = [](const PowerLaw& one, const PowerLaw& other) { return one.sum_of_squares < other.sum_of_squares; };
     found.best = static_cast<std::size_t>(std::min_element(found.laws.begin(), found.laws.end(), smaller) - found.laws.begin());
@@ -74,8 +76,9 @@ Search search(const ProfiledSquares& squares, Index points) {
     }
     const double middle = first + step * static_cast<double>(found.best);
     constexpr int all_bits = 52;
+    std::uintmax_t iterations = 200;
     const double distance = boost::math::tools::brent_find_minima([&](double x) { return at_distance(x).sum_of_squares; },
-                                                                  middle + step, middle - step, all_bits)
+                                                                  middle + step, middle - step, all_bits, iterations)
                                 .first;
     if (const PowerLaw refined = at_distance(distance); refined.sum_of_squares < found.laws[found.best].sum_of_squares) {
         const bool above = refined.a0 > found.laws[found.best].a0;
@@ -151,9 +154,9 @@ struct FitWithProfile {
     PowerLawProfile profile;
 };
 
-FitWithProfile fit_once(const PowerLawData& data, const PowerLawOptions& options) {
+FitWithProfile fit_once(const PowerLawData& data, const PowerLawOptions& options, const Progress& progress) {
     const ProfiledSquares squares(data);
-    const Search found = search(squares, options.points);
+    const Search found = search(squares, options.points, progress);
     FitWithProfile result;
     PowerLawFit& fit = result.fit;
     fit.law = found.laws[found.best];
@@ -183,11 +186,11 @@ Eigen::VectorXd all_but(const Eigen::VectorXd& values, Index left_out) {
     return rest;
 }
 
-void leave_one_out(const PowerLawData& data, const PowerLawOptions& options, PowerLawAnalysis& analysis) {
+void leave_one_out(const PowerLawData& data, const PowerLawOptions& options, const Progress& progress, PowerLawAnalysis& analysis) {
     double farthest_move = -1;
     for (Index k = 0; k < data.a.size(); ++k) {
         const PowerLawData rest{all_but(data.a, k), all_but(data.modulus, k), all_but(data.standard_error, k)};
-        analysis.without.push_back(objection_to(rest).empty() ? fit_once(rest, options).fit : PowerLawFit{});
+        analysis.without.push_back(objection_to(rest).empty() ? fit_once(rest, options, progress).fit : PowerLawFit{});
         const double move = std::abs(analysis.without.back().law.a0 - analysis.fit.law.a0);
         if (move > farthest_move) {
             farthest_move = move;
@@ -213,15 +216,15 @@ PowerLaw fit_power_law_at(const PowerLawData& data, double a0) {
     return ProfiledSquares(data).best_at(a0);
 }
 
-PowerLawAnalysis fit_power_law(const PowerLawData& data, const PowerLawOptions& options) {
+PowerLawAnalysis fit_power_law(const PowerLawData& data, const PowerLawOptions& options, const Progress& progress) {
     const std::string objection = objection_to(data);
     require(objection.empty(), objection);
     require_between(options.confidence, 0, 1, "the confidence of the interval of a0");
     require(options.points >= 10, "the profile of a0 has " + std::to_string(options.points) + " points, but needs at least 10");
-    auto [fit, profile] = fit_once(data, options);
+    auto [fit, profile] = fit_once(data, options, progress);
     PowerLawAnalysis analysis{.fit = fit, .profile = std::move(profile), .without = {}};
     if (options.leave_one_out) {
-        leave_one_out(data, options, analysis);
+        leave_one_out(data, options, progress, analysis);
     }
     return analysis;
 }

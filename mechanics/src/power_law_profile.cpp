@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -11,17 +13,39 @@ namespace coagula::mechanics {
 
 namespace {
 
+// The sums of squares of what lies within these stay in the range of numbers.
+constexpr double largest_a = 1e6;  // of either sign
+constexpr double smallest_modulus = 1e-60;
+constexpr double largest_modulus = 1e60;
+constexpr double resolved = 1e-12;  // of the range of a, at which two values still are two
+constexpr std::uintmax_t most_iterations = 200;
+
 std::string objection_to_value(double value, const char* object, Index structure) {
-    return std::isfinite(value) && value > 0 ? std::string{}
-                                             : "the " + std::string(object) + " of structure " + std::to_string(structure + 1) +
-                                                   " is " + to_text(value) + " Pa, but must be finite and positive";
+    const std::string is =
+        "the " + std::string(object) + " of structure " + std::to_string(structure + 1) + " is " + to_text(value);
+    if (!(std::isfinite(value) && value > 0)) {
+        return is + " Pa, but must be finite and positive";
+    }
+    return value >= smallest_modulus && value <= largest_modulus
+               ? std::string{}
+               : is + " Pa, but must lie between " + to_text(smallest_modulus) + " and " + to_text(largest_modulus) + " Pa";
+}
+
+/// Of values that lie too close for their range. @param a rising, all different.
+std::string objection_to_spacing(const std::set<double>& a) {
+    const double range = *a.rbegin() - *a.begin();
+    const auto close =
+        std::adjacent_find(a.begin(), a.end(), [&](double one, double next) { return next - one < resolved * range; });
+    return close == a.end() ? std::string{}
+                            : "the degrees of heterogeneity " + to_text(*close) + " and " + to_text(*std::next(close)) +
+                                  " are the same within rounding beside the range of all, " + to_text(range);
 }
 
 std::string objection_to_values(const PowerLawData& data) {
     for (Index k = 0; k < data.a.size(); ++k) {
-        if (!std::isfinite(data.a[k])) {
+        if (!(std::abs(data.a[k]) <= largest_a)) {
             return "the degree of heterogeneity of structure " + std::to_string(k + 1) + " is " + to_text(data.a[k]) +
-                   ", but must be finite";
+                   ", but must lie between " + to_text(-largest_a) + " and " + to_text(largest_a);
         }
         if (std::string sentence = objection_to_value(data.modulus[k], "modulus", k); !sentence.empty()) {
             return sentence;
@@ -49,12 +73,16 @@ std::string objection_to(const PowerLawData& data) {
     if (std::string sentence = objection_to_values(data); !sentence.empty()) {
         return sentence;
     }
-    if (const std::set<double> values(data.a.begin(), data.a.end()); values.size() < 3) {
+    const std::set<double> values(data.a.begin(), data.a.end());
+    if (values.size() < 3) {
         return "a power law has three parameters and needs three different degrees of heterogeneity, but there are only " +
                std::to_string(values.size());
     }
     if (data.a.maxCoeff() - data.a.minCoeff() <= 1e-8 * data.a.cwiseAbs().maxCoeff()) {
         return "the degrees of heterogeneity differ by rounding only: all are " + to_text(data.a[0]);
+    }
+    if (std::string sentence = objection_to_spacing(values); !sentence.empty()) {
+        return sentence;
     }
     if (data.modulus.maxCoeff() - data.modulus.minCoeff() <= 1e-12 * data.modulus.maxCoeff()) {
         return "the modulus is " + to_text(data.modulus[0]) +
@@ -135,8 +163,9 @@ struct ProfiledSquares::Elimination {
             }
         }
         constexpr int all_bits = 52;
+        std::uintmax_t iterations = most_iterations;
         return boost::math::tools::brent_find_minima([this](double beta) { return squares(beta); }, beta_at(std::max(best - 1, 0)),
-                                                     beta_at(std::min(best + 1, steps)), all_bits)
+                                                     beta_at(std::min(best + 1, steps)), all_bits, iterations)
             .first;
     }
 };

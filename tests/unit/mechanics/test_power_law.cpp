@@ -241,9 +241,16 @@ TEST(PowerLaw, RefusesWhatCannotBeFitted) {
               "the modulus is 1e+06 Pa for every degree of heterogeneity: such data have no exponent and no critical value");
     EXPECT_EQ(sentence({a, vector({0, 1e6, 2e6}), {}}), "the modulus of structure 1 is 0 Pa, but must be finite and positive");
     EXPECT_EQ(sentence({vector({0.4, unset, 0.6}), modulus, {}}),
-              "the degree of heterogeneity of structure 2 is nan, but must be finite");
+              "the degree of heterogeneity of structure 2 is nan, but must lie between -1e+06 and 1e+06");
     EXPECT_EQ(sentence({a, modulus, vector({1e5, 1e5, -1})}),
               "the standard error of structure 3 is -1 Pa, but must be finite and positive");
+    EXPECT_EQ(sentence({vector({0.4, 0.5, 1e23}), modulus, {}}),
+              "the degree of heterogeneity of structure 3 is 1e+23, but must lie between -1e+06 and 1e+06");
+    EXPECT_EQ(
+        sentence({vector({0.5, 0.5 + 1e-15, 1e5}), modulus, {}}),
+        "the degrees of heterogeneity 0.5 and 0.500000000000001 are the same within rounding beside the range of all, 99999.5");
+    EXPECT_EQ(sentence({a, vector({1e308, 1e308, 1.5e308}), {}}),
+              "the modulus of structure 1 is 1e+308 Pa, but must lie between 1e-60 and 1e+60 Pa");
     EXPECT_EQ(sentence({a, modulus.head(2), {}}),
               "a power law needs one modulus (and one standard error or none at all) for each of the 3 structures");
     EXPECT_EQ(sentence({a, modulus, {}}, {.confidence = 1}),

@@ -3,6 +3,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
 
 #include <Eigen/Core>
 
@@ -84,8 +85,8 @@ PowerLaw fit_power_law_at(const PowerLawData& data, double a0);
 /// quantile of chi^2 with one degree of freedom (likelihood ratio). Where this set has gaps, the interval covers them.
 /// Law: Schenker et al. 2012, sec. 3.2; intervals: Bates & Watts, Nonlinear Regression Analysis (1988), ch. 6.
 ///
-/// Throws std::invalid_argument for fewer than three structures or values of a, values that are not finite and positive (a may be
-/// negative), or moduli that are all the same.
-PowerLawAnalysis fit_power_law(const PowerLawData& data, const PowerLawOptions& options = {});
+/// Throws std::invalid_argument for fewer than three structures or values of a, values of a beyond 1e6 or alike within rounding (a
+/// may be negative), moduli or errors that do not lie between 1e-60 and 1e60 Pa, or moduli that are all the same.
+PowerLawAnalysis fit_power_law(const PowerLawData& data, const PowerLawOptions& options = {}, const Progress& progress = {});
 
 }  // namespace coagula::mechanics
