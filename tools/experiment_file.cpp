@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double largest_radius = 0.1;  // of particles [m]; more is a unit forgotten
+
 /// Reads an experiment file part by part.
 class ExperimentReader {
 public:
@@ -75,6 +77,10 @@ void ExperimentReader::read_sample() {
     diagnose::Sample& sample = result_.experiment.sample;
     sample.name = keys.text("name").value_or("");
     sample.particle_radius = keys.quantity("particle_radius", "m").value_or(unset);
+    if (sample.particle_radius > largest_radius) {
+        keys.fail("particle_radius", "is " + to_text(sample.particle_radius) + " m, but may be " + to_text(largest_radius) +
+                                         " m at most: give it with its unit, such as \"0.25 um\"");
+    }
     sample.density = keys.quantity("density", "kg/m3").value_or(unset);
     sample.volume_fraction = keys.quantity("volume_fraction", "1").value_or(unset);
     sample.solvent_viscosity = keys.quantity("solvent_viscosity", "Pa.s").value_or(unset);

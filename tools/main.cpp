@@ -9,7 +9,6 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/common/progress.hpp>
 
-#include <fcntl.h>
 #include <omp.h>
 #include <unistd.h>
 
@@ -107,19 +106,6 @@ void limit_spinning(char** argv) {
     }
 }
 
-/// A file that is opened shall never become a standard stream that the caller has closed: what is printed would go into it.
-void open_missing_streams() {
-    while (true) {
-        const int descriptor = open("/dev/null", O_RDONLY);  // the lowest that is free
-        if (descriptor > STDERR_FILENO) {
-            close(descriptor);
-        }
-        if (descriptor < 0 || descriptor > STDERR_FILENO) {
-            return;
-        }
-    }
-}
-
 int complain(const std::string& sentence, int code) {
     std::cerr << "coagula: " << printable(sentence) << std::endl;
     return code;
@@ -131,7 +117,6 @@ int complain(const std::string& sentence, int code) {
 
 int main(int argc, char** argv) {
     using namespace coagula::tools;
-    open_missing_streams();
     limit_spinning(argv);
     install_signal_handlers();
     try {
@@ -144,7 +129,8 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory for this", failed);
     } catch (const std::filesystem::filesystem_error& error) {
-        return complain(error.path1().string() + " cannot be used: " + error.code().message(), failed);
+        const bool too_long = error.code() == std::errc::filename_too_long;
+        return complain(error.path1().string() + " cannot be used: " + error.code().message(), too_long ? wrong_usage : failed);
     } catch (const std::exception& error) {
         return complain(error.what(), failed);
     }

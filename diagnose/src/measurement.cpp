@@ -95,8 +95,14 @@ bool positive(double value) {
     return value > 0;
 }
 
+/// Wide enough for every parameter in SI units, narrow enough that products of some stay in the range of numbers.
+bool physical(double value) {
+    return value >= 1e-30 && value <= 1e30;
+}
+
 void check_positive(double value, const char* name, const char* unit) {
     check_parameter(value, name, positive, (std::string("must be > 0 ") + unit).c_str());
+    check_parameter(value, name, physical, (std::string("must lie between 1e-30 and 1e+30 ") + unit).c_str());
 }
 
 void check_sample(const Sample& sample) {

@@ -46,6 +46,8 @@ TEST(Experiment, RefusesMetadataThatContradictThemselves) {
     Experiment experiment;
     experiment.instrument.gap = 0;
     EXPECT_EQ(refusal(experiment), "instrument.gap is 0, but must be > 0 m");
+    experiment.instrument.gap = 1e300;
+    EXPECT_EQ(refusal(experiment), "instrument.gap is 1e+300, but must lie between 1e-30 and 1e+30 m");
     experiment.instrument.gap = 0.02;
     experiment.instrument.plate_radius = 0.0125;
     EXPECT_NE(refusal(experiment).find("must be below plate_radius"), std::string::npos);
