@@ -1,0 +1,192 @@
+"""Names and texts that mean harm: no interpreter carries them out, no reader hangs, and one sentence says what is wrong."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import unittest
+from pathlib import Path
+
+from support import PACKING, PROGRAM, VEM, ProgramTest
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+CURVE = ["generate", "brownian", "--potential-curve", "--radius", "0.25um", "--surface-potential", "15mV"]
+HOSTILE = ["|touch broken; cat >.png", "a'.png", "a\nsystem('touch broken')\n.png", "`touch broken`.png", "$(touch broken).png",
+           "<touch broken;.svg"]
+
+
+@unittest.skipIf(shutil.which("gnuplot") is None, "needs gnuplot")
+class Pictures(ProgramTest):
+    def test_a_name_is_only_a_name(self):
+        for name in HOSTILE:
+            with self.subTest(name=name):
+                self.succeed(*CURVE, "--picture", name)
+                self.assertIn(name, os.listdir(self.folder))
+                self.assertNotIn("broken", os.listdir(self.folder))
+
+    def test_a_picture_is_never_replaced_unasked_nor_half_written(self):
+        old = self.write("old.svg", "precious")
+        self.fail_with(2, *CURVE, "--picture", "old.svg", says=["old.svg", "--force"])
+        self.assertEqual(old.read_text(), "precious")
+        self.succeed(*CURVE, "--picture", "old.svg", "--force")
+        self.assertIn("<svg", old.read_text())
+
+    def draw(self, script, *words):
+        return subprocess.run([SCRIPTS / script, *words], cwd=self.folder, capture_output=True, text=True, timeout=60)
+
+    def test_the_scripts_take_numbers_only(self):
+        folder = self.folder / "`touch broken`"
+        folder.mkdir()
+        shutil.copy(PACKING, folder / "a.h5")
+        for words in (["characterize"], ["shear"], ["export", "--format", "csv", "-o", folder / "packing.csv"]):
+            self.succeed(words[0], folder / "a.h5", *words[1:])
+        results = self.succeed("info", folder / "a.h5", "--json")
+        (folder / "results.json").write_text(results)
+        drawn = self.draw("plot", folder.name, "200")
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        self.assertTrue((folder / "packing.png").read_bytes().startswith(b"\x89PNG"))
+        found = json.loads(results)
+        found["results"]["/characterization/particles"]["value"] = "`touch broken`"
+        (folder / "results.json").write_text(json.dumps(found, indent=2))
+        (folder / "packing.png").unlink()
+        for words in ([folder.name], [folder.name, "a[$(touch broken)]"]):
+            refused = self.draw("plot", *words)
+            self.assertEqual(refused.returncode, 1)
+            self.assertIn("must be a number", refused.stderr)
+        self.assertFalse((folder / "packing.png").exists())
+        self.assertNotIn("broken", os.listdir(self.folder))
+
+    def test_the_script_of_the_power_law(self):
+        rows = "".join(f"{a},{(a - 0.2) ** 2}\n" for a in (0.3, 0.4, 0.5, 0.6, 0.7))
+        self.write("table.csv", "a,modulus [MPa]\n" + rows)
+        fit = self.succeed("fit", "power-law", "table.csv", "--json")
+        self.write("fit.json", fit)
+        name = "`touch broken`.png"
+        drawn = self.draw("plot-power-law", "fit.json", name, "200")
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        self.assertTrue((self.folder / name).read_bytes().startswith(b"\x89PNG"))
+        self.write("fit.json", fit.replace('"beta": ', '"beta": "`touch broken`", "old": ', 1))
+        self.assertEqual(self.draw("plot-power-law", "fit.json", "b.png").returncode, 1)
+        self.assertNotIn("broken", os.listdir(self.folder))
+
+
+class Terminal(ProgramTest):
+    def test_control_characters_are_not_shown(self):
+        name = "a\x1b]0;owned\x07\nb\u009b2J.h5"
+        complaint = self.fail_with(2, "info", name)
+        self.succeed(*VEM, "-o", name)
+        for shown in (complaint, self.succeed("info", name), self.succeed("characterize", name)):
+            self.assertNotRegex(shown, "[\x00-\x09\x0b-\x1f\x7f-\x9f]")
+
+
+class Names(ProgramTest):
+    def test_names_that_are_no_utf8(self):
+        for words in (["info", b"\xff.h5", "--json"], ["characterize", b"\xff.h5"], [*VEM, "--json", "-o", b"\xe9.h5"]):
+            with self.subTest(words=words):
+                done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, timeout=60)
+                self.assertEqual(done.returncode, 2)
+                self.check_sentence(done.stderr.decode(), "not UTF-8")
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_name_that_is_too_long_is_noticed_before_the_work(self):
+        words = ["generate", "vem", "--particles", "1000000", "--volume-fraction", "0.4", "--radius", "1um"]
+        for length in (248, 260):
+            self.fail_with(2, *words, "-o", "a" * length + ".h5", says="bytes")
+            self.fail_with(2, "info", "a" * length + ".h5", says="a" * length)
+        self.write("e.toml", '[[measurement]]\nkind = "amplitude-sweep"\nfile = "e.csv"\n')
+        self.write("e.csv", "strain [1],storage modulus [Pa]\n1e-5,500\n1e-4,490\n1e-3,470\n1e-2,400\n1e-1,300\n")
+        self.fail_with(2, "diagnose", "e.toml", "-o", "a" * 300, says="too long")
+        self.succeed(*VEM, "-o", "a" * 230 + ".h5")
+
+    def test_what_is_no_regular_file_is_not_waited_for(self):
+        os.mkfifo(self.folder / "pipe")
+        radius = ["--radius", "1um", "-o", "out.h5"]
+        for words in (["info", "pipe"], ["characterize", "pipe"], ["shear", "pipe"], ["export", "pipe", "--format", "csv"],
+                      ["import", "pipe", "--format", "csv", *radius], ["import", "pipe", "--format", "extxyz", *radius],
+                      ["import", "pipe", "--format", "lammps", *radius], ["fit", "power-law", "pipe"],
+                      ["diagnose", "pipe", "--check"], ["shear", PACKING, "--model", "pipe", "-o", "out.h5"],
+                      ["calibrate", "pipe"], [*VEM, "-o", "out.h5", "--size-distribution", "pipe"],
+                      [*CURVE[:-2], "--potential-table", "pipe"],
+                      ["generate", "brownian", "--start", "pipe", "--surface-potential", "0", "--stop-time", "1us", "-o", "out.h5"]):
+            with self.subTest(words=words):
+                done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=10)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.check_sentence(done.stderr, "not a regular file")
+                self.assertEqual(os.listdir(self.folder), ["pipe"])
+
+
+class Nesting(ProgramTest):
+    def test_toml(self):
+        dotted = "a" + ".a" * 50000 + " = 1\n"
+        for text in (dotted, f"[{dotted[:-5]}]\n", "a = " + "[" * 50000 + "]" * 50000 + "\n",
+                     "a = " + "{a = " * 50000 + "1" + "}" * 50000 + "\n", "a = " + "{a.a.a = [" * 5000 + "\n"):
+            self.write("deep.toml", "# [[[[ '''\ntitle = \"a.b.c [\"\n" + text)
+            self.fail_with(2, "shear", PACKING, "--model", "deep.toml", "-o", "out.h5", says=["deep.toml, line 3", "nested deeper"])
+            self.fail_with(2, "diagnose", "deep.toml", "--check", says=["deep.toml, line 3", "nested deeper"])
+
+    def test_texts_and_numbers_are_no_levels(self):
+        self.write("flat.toml", "normal_stiffness = '100.0 N/m' # " + "[" * 100 + "\nfriction = 0.5 # '''\n" +
+                   "shear_stiffness = \"\"\"" + "10.0 N/m" + "\"\"\"\n" + "# .\n" * 100)
+        self.succeed("shear", PACKING, "--model", "flat.toml", "-o", "out.h5")
+
+    def test_json_of_the_provenance(self):
+        try:
+            import h5py
+        except ImportError:
+            self.skipTest("needs python3-h5py")
+        for options in ("[" * 200000 + "]" * 200000, "[" * 200000, '{"a": ' * 200000 + "1" + "}" * 200000):
+            self.copy_of_packing()
+            with h5py.File(self.folder / "packing.h5", "r+") as file:
+                (entry,) = file["provenance"].values()
+                del entry["options"]
+                entry["options"] = options
+            self.fail_with(2, "info", "packing.h5", "--json", says=["packing.h5", "nested deeper"])
+
+
+class StandardOutput(ProgramTest):
+    @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
+    def test_a_full_disk_is_an_error(self):
+        self.copy_of_packing()
+        for words in (["--help"], ["--version"], ["shear", "--help"], ["info", "packing.h5"], ["info", "packing.h5", "--json"],
+                      [*VEM, "-o", "out.h5"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([PROGRAM, *words], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1, words)
+            self.check_sentence(done.stderr, "standard output cannot be written")
+
+
+class PowerLaw(ProgramTest):
+    def refuse(self, rows, says):
+        self.write("table.csv", "a,modulus [Pa]\n" + rows)
+        done = subprocess.run([PROGRAM, "fit", "power-law", "table.csv"], cwd=self.folder, capture_output=True, text=True, timeout=10)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.check_sentence(done.stderr, ["table.csv", says])
+
+    def test_values_beyond_all_bounds_are_refused_at_once(self):
+        self.refuse("0.3,1\n0.4,2\n0.5,3\n1e23,4\n", "degree of heterogeneity of structure 4 is 1e+23")
+        self.refuse("0.3,1\n0.4,2\n0.5,3\n1e308,4\n", "degree of heterogeneity of structure 4 is 1e+308")
+        self.refuse("0.3,1e308\n0.4,1e308\n0.5,1.5e308\n0.6,1.6e308\n", "modulus of structure 1 is 1e+308")
+        self.refuse("0.3,1e-320\n0.4,2\n0.5,3\n0.6,4\n", "modulus of structure 1")
+        self.refuse("0.3,1\n0.30000000000000004,2\n500000,3\n0.6,4\n", "the same within rounding")
+
+    def test_wide_tables_are_fitted(self):
+        self.write("table.csv", "a,modulus [Pa]\n-1e6,1e-60\n0.3,2\n0.4,3\n1e6,1e60\n")
+        self.succeed("fit", "power-law", "table.csv", "--json")
+
+    def test_a_long_fit_can_be_stopped(self):
+        rows = "".join(f"{0.3 + 1e-4 * k},{1 + k * k}\n" for k in range(3000))
+        self.write("table.csv", "a,modulus [Pa]\n" + rows)
+        process = subprocess.Popen([PROGRAM, "fit", "power-law", "table.csv", "--points", "10000"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        with self.assertRaises(subprocess.TimeoutExpired):
+            process.wait(timeout=2)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=20)
+        self.assertEqual((process.returncode, output), (1, ""), errors)
+        self.check_sentence(errors, "interrupted")
+
+
+if __name__ == "__main__":
+    unittest.main()
