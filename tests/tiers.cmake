@@ -6,10 +6,7 @@ set(coagula_slow_tests
 set(coagula_rates_tests
 )
 
-# Processor time in seconds that a fast test may take; none with sanitizers, which cost a factor.
-if(NOT DEFINED coagula_fast_limit)
-  set(coagula_fast_limit 5)
-endif()
+set(coagula_fast_limit 5) # seconds of processor time that a fast test may take
 
 # coagula_set_tier(<test>...): label, limit and, unless the test is about threads, one thread for each.
 function(coagula_set_tier)
