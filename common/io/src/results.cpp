@@ -1,12 +1,13 @@
 #include "results.hpp"
 
+#include <coagula/io/atomic_file.hpp>
+
 #include <array>
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 
-#include "atomic_file.hpp"
 #include "child_process.hpp"
 #include "layout.hpp"
 #include "packed.hpp"

@@ -1,8 +1,8 @@
+#include <coagula/io/atomic_file.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <filesystem>
 
-#include "atomic_file.hpp"
 #include "child_process.hpp"
 #include "hdf5_file.hpp"
 #include "layout.hpp"
