@@ -24,6 +24,6 @@ function(coagula_set_tier)
       set(limit ${coagula_fast_limit})
     endif()
     set_tests_properties("${test}" PROPERTIES LABELS ${tier} ENVIRONMENT_MODIFICATION
-      "COAGULA_PROCESSOR_LIMIT=set:${limit};OMP_NUM_THREADS=set:1;OPENBLAS_NUM_THREADS=set:1")
+      "COAGULA_PROCESSOR_LIMIT=set:${limit};OMP_NUM_THREADS=set:1;OPENBLAS_NUM_THREADS=set:1;GOMP_SPINCOUNT=set:3000")
   endforeach()
 endfunction()

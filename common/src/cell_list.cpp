@@ -7,8 +7,6 @@ namespace coagula {
 
 CellList::CellList(const Cell& cell, const Eigen::Matrix3Xd& positions, double cutoff) : cell_(cell) {
     require_positive(cutoff, "the cut-off of the neighbour search", "m");
-    require(std::isfinite(cell.volume()) && cell.volume() > 0,
-            "the volume of the box is " + to_text(cell.volume()) + " m3, but the neighbour search needs a finite and positive one");
     require(positions.allFinite(),
             "a particle is at a place that is not a finite number: the neighbour search cannot find its box");
     const auto particles = static_cast<std::size_t>(positions.cols());

@@ -27,8 +27,6 @@ std::uint64_t morton_code(const Eigen::Array3i& box) {
 
 NeighbourSearch::NeighbourSearch(const Cell& cell, const std::vector<Quad>& position, double skin)
     : periodic_(cell.is_periodic()), skin_(skin), lower_(cell.origin()), lengths_(cell.lengths()) {
-    require(std::isfinite(cell.volume()) && cell.volume() > 0,
-            "the volume of the box is " + to_text(cell.volume()) + " m3, but the neighbour search needs a finite and positive one");
     require(std::all_of(position.begin(), position.end(), [](const Quad& sphere) { return sphere.allFinite(); }),
             "a particle is at a place that is not a finite number: the neighbour search cannot find its box");
     choose_boxes(cell, position, skin);

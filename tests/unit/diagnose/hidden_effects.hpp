@@ -1,6 +1,7 @@
 // Structures, tables and noise for tests that hide an effect: what the diagnosis is given and what it is not.
 #pragma once
 
+#include <coagula/common/checks.hpp>
 #include <coagula/common/logarithmic_steps.hpp>
 #include <coagula/common/random.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
@@ -11,16 +12,19 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
+#include <initializer_list>
 #include <numbers>
 #include <string>
 #include <vector>
 
 namespace coagula::diagnose {
 
-/// A periodic packing of spheres of one radius as numbers: edges, radius, centres.
+/// A periodic packing as numbers: edges, radii, centres.
 inline std::vector<double> numbers_of(const Packing& packing) {
     const Eigen::Vector3d edges = packing.cell.lengths();
-    std::vector<double> numbers{edges[0], edges[1], edges[2], packing.radii[0]};
+    std::vector<double> numbers{edges[0], edges[1], edges[2]};
+    numbers.insert(numbers.end(), packing.radii.begin(), packing.radii.end());
     numbers.insert(numbers.end(), packing.positions.data(), packing.positions.data() + packing.positions.size());
     return numbers;
 }
@@ -28,10 +32,21 @@ inline std::vector<double> numbers_of(const Packing& packing) {
 inline Packing packing_of(const std::vector<double>& numbers) {
     Packing packing;
     packing.cell = Cell::periodic({numbers[0], numbers[1], numbers[2]});
-    const auto particles = static_cast<Index>(numbers.size() / 3 - 1);
-    packing.positions = Eigen::Map<const Eigen::Matrix3Xd>(numbers.data() + 4, 3, particles);
-    packing.radii = Eigen::VectorXd::Constant(particles, numbers[3]);
+    const auto particles = static_cast<Index>((numbers.size() - 3) / 4);
+    packing.radii = Eigen::Map<const Eigen::VectorXd>(numbers.data() + 3, particles);
+    packing.positions = Eigen::Map<const Eigen::Matrix3Xd>(numbers.data() + 3 + particles, 3, particles);
     return packing;
+}
+
+/// The structure of this kind and these parameters, made where no test of this build has made it before.
+inline Packing stored_structure(const std::string& kind, std::initializer_list<double> parameters,
+                                const std::function<Packing()>& make) {
+    static StoredSimulations structures("structures");
+    std::string key = kind;
+    for (const double parameter : parameters) {
+        key += ' ' + to_text(parameter);
+    }
+    return packing_of(structures.result(key, [&] { return numbers_of(make()); }));
 }
 
 inline Packing made_structure(Index particles, std::uint64_t seed, double target_coordination, double volume_fraction) {
@@ -49,11 +64,10 @@ inline Packing made_structure(Index particles, std::uint64_t seed, double target
 
 /// By void expansion, with half as many voids as particles.
 inline Packing structure(Index particles, std::uint64_t seed, double target_coordination = unset, double volume_fraction = 0.4) {
-    static StoredSimulations structures("structures");
-    const std::string key = std::to_string(particles) + " " + std::to_string(seed) + " " + std::to_string(target_coordination) + " " +
-                            std::to_string(volume_fraction);
-    return packing_of(structures.result(
-        key, [&] { return numbers_of(made_structure(particles, seed, target_coordination, volume_fraction)); }));
+    return stored_structure(
+        "void expansion",
+        {static_cast<double>(particles), static_cast<double>(seed), target_coordination, volume_fraction},
+        [&] { return made_structure(particles, seed, target_coordination, volume_fraction); });
 }
 
 /// Two structures that the diagnosis knows, and what it has simulated of them.

@@ -24,7 +24,7 @@ generators::PairPotential potential(double surface_potential) {
 }
 
 /// Coagulated to a coordination of 4.6, from random positions.
-Packing coagulated(Index count, std::uint64_t seed, double surface_potential, double deviation = 0) {
+Packing coagulate(Index count, std::uint64_t seed, double surface_potential, double deviation) {
     const generators::SizeDistribution sizes{
         .kind = generators::SizeKind::lognormal, .mean_radius = radius, .relative_deviation = deviation};
     const Packing start = generators::place_suspension(
@@ -35,6 +35,12 @@ Packing coagulated(Index count, std::uint64_t seed, double surface_potential, do
     options.stop_coordination = 4.6;
     options.seed = seed;
     return generators::simulate_brownian(start, potential(surface_potential), options).packing;
+}
+
+Packing coagulated(Index count, std::uint64_t seed, double surface_potential, double deviation = 0) {
+    return stored_structure("coagulated",
+                            {static_cast<double>(count), static_cast<double>(seed), surface_potential, deviation},
+                            [&] { return coagulate(count, seed, surface_potential, deviation); });
 }
 
 /// The recipe says 0 mV.
