@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file is written beside its place under its name, the number of the process and an ending: NAME_MAX bytes in all.
-constexpr std::size_t longest_name = 255 - 20;
+/// A file is first written as .NAME.tmp beside its place: NAME_MAX bytes in all.
+constexpr std::size_t longest_name = 255 - 5;
 
 /// Files are replaced by a rename, so what must be writable is the folder.
 void check_folder(const std::string& path) {

@@ -107,13 +107,16 @@ class Restart(ProgramTest):
         words = [*self.LONG, "--checkpoint", "state.h5", "--checkpoint-interval", "0.05s", "-o", "pieces.h5"]
         for signal_number in (signal.SIGKILL, signal.SIGTERM):
             before = checksum(self.folder / "state.h5") if (self.folder / "state.h5").exists() else ""
-            program = subprocess.Popen([PROGRAM, *words], cwd=self.folder, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+            program = subprocess.Popen([PROGRAM, *words], cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
             for _ in range(600):
                 time.sleep(0.05)
                 if (self.folder / "state.h5").exists() and checksum(self.folder / "state.h5") != before:
                     break
             program.send_signal(signal_number)
-            self.assertNotEqual(program.wait(), 0, "the run was over before it could be stopped")
+            _, complaint = program.communicate()
+            self.assertNotEqual(program.returncode, 0, "the run was over before it could be stopped")
+            if signal_number == signal.SIGTERM:
+                self.check_sentence(complaint, "interrupted: the state of the run is in state.h5")
         self.assertFalse((self.folder / "pieces.h5").exists())
         self.succeed(*words)
         whole, pieces = data_sets(self.folder / "whole.h5"), data_sets(self.folder / "pieces.h5")

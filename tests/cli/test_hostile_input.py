@@ -97,7 +97,7 @@ class Names(ProgramTest):
         self.write("e.toml", '[[measurement]]\nkind = "amplitude-sweep"\nfile = "e.csv"\n')
         self.write("e.csv", "strain [1],storage modulus [Pa]\n1e-5,500\n1e-4,490\n1e-3,470\n1e-2,400\n1e-1,300\n")
         self.fail_with(2, "diagnose", "e.toml", "-o", "a" * 300, says="too long")
-        self.succeed(*VEM, "-o", "a" * 230 + ".h5")
+        self.succeed(*VEM, "-o", "a" * 247 + ".h5")
 
     def test_what_is_no_regular_file_is_not_waited_for(self):
         os.mkfifo(self.folder / "pipe")
