@@ -3,6 +3,7 @@
 #include "checkpoint_file.hpp"
 
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace coagula::tools {
@@ -49,10 +50,8 @@ Pairs read_pairs(const CheckpointReader& file, const std::string& name, std::siz
     const Integers& numbers = file.get<Integers>(name);
     Pairs pairs(2, static_cast<Index>(numbers.size() / 2));
     for (std::size_t entry = 0; entry < 2 * (numbers.size() / 2); ++entry) {
-        if (numbers[entry] < 0 || numbers[entry] >= static_cast<std::int64_t>(particles)) {
-            file.fail("names particle " + std::to_string(numbers[entry]) + ", which does not exist: the checkpoint is damaged");
-        }
-        pairs.data()[entry] = static_cast<std::int32_t>(numbers[entry]);
+        pairs.data()[entry] =
+            static_cast<std::int32_t>(file.whole(numbers[entry], 0, static_cast<std::int64_t>(particles), "particle"));
     }
     return pairs;
 }
@@ -62,7 +61,7 @@ Numbers flat(const Eigen::Matrix3Xd& vectors) {
 }
 
 Eigen::Matrix3Xd read_vectors(const CheckpointReader& file, const std::string& name, std::size_t particles) {
-    const Numbers& values = file.table<Numbers>(name, 3, particles);
+    const Numbers& values = file.finite(name, 3, particles);
     return Eigen::Matrix3Xd::Map(values.data(), 3, static_cast<Index>(particles));
 }
 
@@ -103,7 +102,7 @@ void write_checkpoint(const std::string& path, const std::string& signature, con
 BrownianCheckpoint read_brownian_checkpoint(const std::string& path, const std::string& signature) {
     const CheckpointReader file(path, kind, signature);
     BrownianCheckpoint checkpoint;
-    checkpoint.step = file.table<Integers>("/state/step", 1, 1)[0];
+    checkpoint.step = file.whole(file.table<Integers>("/state/step", 1, 1)[0], 0, std::numeric_limits<std::int64_t>::max(), "step");
     const std::size_t particles = file.get<Numbers>("/state/positions").size() / 3;
     for (const auto& [name, vectors] : vectors_of(checkpoint)) {
         *vectors = read_vectors(file, name, particles);
@@ -121,12 +120,12 @@ BrownianCheckpoint read_brownian_checkpoint(const std::string& path, const std::
         file.fail("holds no samples: the checkpoint is damaged");
     }
     for (const auto& [name, values] : numbers_of(checkpoint.series)) {
-        *values = file.table<Numbers>(name, 1, samples);
+        *values = file.finite(name, 1, samples);
     }
     for (const auto& [name, values] : counts_of(checkpoint.series)) {
         *values = file.table<Integers>(name, 1, samples);
     }
-    const Numbers& times = file.get<Numbers>("/snapshots/time");
+    const Numbers& times = file.finite("/snapshots/time", 1, file.get<Numbers>("/snapshots/time").size());
     for (std::size_t number = 0; number < times.size(); ++number) {
         checkpoint.snapshots.push_back({times[number], read_vectors(file, snapshot_name(number), particles)});
     }

@@ -1,6 +1,7 @@
 #include "checkpoint_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace coagula::tools {
 
@@ -40,6 +41,21 @@ void write_checkpoint_file(const std::string& path, std::vector<io::Dataset> all
     const std::string sum = io::datasets_sha256(all);
     all.push_back(io::text(checksum, sum, "SHA-256 of all other values"));
     io::write_datasets(path, all, true);
+}
+
+const Numbers& CheckpointReader::finite(const std::string& name, std::size_t columns, std::size_t rows) const {
+    const Numbers& values = table<Numbers>(name, columns, rows);
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) {
+        throw InputError(path_ + ": " + name + " has a value that is not a finite number: the checkpoint is damaged");
+    }
+    return values;
+}
+
+std::int64_t CheckpointReader::whole(std::int64_t value, std::int64_t low, std::int64_t high, const std::string& what) const {
+    if (value < low || value >= high) {
+        fail("names " + what + " " + std::to_string(value) + ", which does not exist: the checkpoint is damaged");
+    }
+    return value;
 }
 
 CheckpointReader::CheckpointReader(const std::string& path, std::string kind, const std::string& signature)

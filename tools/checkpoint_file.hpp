@@ -58,6 +58,16 @@ public:
         return values;
     }
 
+    /// Such a table of finite numbers.
+    const Numbers& finite(const std::string& name, std::size_t columns, std::size_t rows) const;
+
+    /// Throws InputError unless low <= value < high; `what` names it, such as "an axis".
+    std::int64_t whole(std::int64_t value, std::int64_t low, std::int64_t high, const std::string& what) const;
+    int axis(std::int64_t value) const { return static_cast<int>(whole(value, 0, 3, "an axis")); }
+    int small_count(std::int64_t value, const std::string& what) const {
+        return static_cast<int>(whole(value, 0, std::int64_t{1} << 31, what));
+    }
+
     [[noreturn]] void fail(const std::string& rule) const { throw InputError(path_ + " " + rule); }
 
 private:

@@ -6,6 +6,7 @@
 #include <coagula/io/structure_file.hpp>
 
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,8 @@ auto vectors_in(Memory& memory) {
 
 constexpr std::size_t bond_integers = 6;
 constexpr std::size_t bond_numbers = 17;
+constexpr double largest_strain = 1000;       ///< of the cell; whole periods are taken out of it
+constexpr std::int64_t farthest_image = 500;  ///< periods: farther away a particle has left all bounds
 
 void put_bonds(std::vector<io::Dataset>& all, const std::vector<Bond>& bonds) {
     Integers integers;
@@ -58,20 +61,21 @@ void put_bonds(std::vector<io::Dataset>& all, const std::vector<Bond>& bonds) {
 std::vector<Bond> read_bonds(const Reader& file, std::size_t particles) {
     const std::size_t count = file.get<Integers>("/state/bond_integers").size() / bond_integers;
     const Integers& integers = file.table<Integers>("/state/bond_integers", bond_integers, count);
-    const Numbers& numbers = file.table<Numbers>("/state/bond_numbers", bond_numbers, count);
+    const Numbers& numbers = file.finite("/state/bond_numbers", bond_numbers, count);
     std::vector<Bond> bonds(count);
     for (std::size_t entry = 0; entry < count; ++entry) {
         const std::int64_t* whole = &integers[bond_integers * entry];
         const double* real = &numbers[bond_numbers * entry];
-        for (int end = 0; end < 2; ++end) {
-            if (whole[end] < 0 || whole[end] >= static_cast<std::int64_t>(particles)) {
-                file.fail("names particle " + std::to_string(whole[end]) + ", which does not exist: the checkpoint is damaged");
-            }
-        }
+        const auto particle = [&](std::int64_t number) {
+            return static_cast<std::int32_t>(file.whole(number, 0, static_cast<std::int64_t>(particles), "particle"));
+        };
+        const auto image = [&](std::int64_t number) {
+            return static_cast<int>(file.whole(number, -farthest_image, farthest_image, "image"));
+        };
         Bond& bond = bonds[entry];
-        bond.first = static_cast<std::int32_t>(whole[0]);
-        bond.second = static_cast<std::int32_t>(whole[1]);
-        bond.images << static_cast<int>(whole[2]), static_cast<int>(whole[3]), static_cast<int>(whole[4]);
+        bond.first = particle(whole[0]);
+        bond.second = particle(whole[1]);
+        bond.images << image(whole[2]), image(whole[3]), image(whole[4]);
         bond.memory.bonded = whole[5] != 0;
         bond.memory.rest_length = real[0];
         bond.memory.shear_stiffness = real[1];
@@ -100,20 +104,33 @@ void put_state(std::vector<io::Dataset>& all, const ParticleState& state) {
     put_bonds(all, state.bonds);
 }
 
+/// The first two numbers, which name two axes.
+std::pair<int, int> read_axes(const Reader& file, const Integers& numbers) {
+    const std::pair axes{file.axis(numbers[0]), file.axis(numbers[1])};
+    if (axes.first == axes.second) {
+        file.fail("names the same axis twice: the checkpoint is damaged");
+    }
+    return axes;
+}
+
 ParticleState read_state(const Reader& file) {
     ParticleState state;
     const std::size_t particles = file.get<Numbers>("/state/inverse_mass").size();
     for (const auto& [name, vectors] : vectors_of(state)) {
-        const Numbers& values = file.table<Numbers>(std::string("/state/") + name, 4, particles);
+        const Numbers& values = file.finite(std::string("/state/") + name, 4, particles);
         vectors->resize(particles);
         for (std::size_t particle = 0; particle < particles; ++particle) {
             (*vectors)[particle] = Quad::Map(&values[4 * particle]);
         }
     }
-    state.inverse_mass = file.get<Numbers>("/state/inverse_mass");
-    state.inverse_inertia = file.table<Numbers>("/state/inverse_inertia", 1, particles);
-    const Integers& axes = file.table<Integers>("/state/shear_axes", 2, 1);
-    state.shear = {static_cast<int>(axes[0]), static_cast<int>(axes[1]), file.table<Numbers>("/state/shear_strain", 1, 1)[0]};
+    state.inverse_mass = file.finite("/state/inverse_mass", 1, particles);
+    state.inverse_inertia = file.finite("/state/inverse_inertia", 1, particles);
+    const auto [direction, normal] = read_axes(file, file.table<Integers>("/state/shear_axes", 2, 1));
+    state.shear = {direction, normal, file.finite("/state/shear_strain", 1, 1)[0]};
+    if (std::abs(state.shear.strain) > largest_strain) {
+        file.fail("has a strain of the cell of " + to_text(state.shear.strain) +
+                  ", which no run reaches: the checkpoint is damaged");
+    }
     state.bonds = read_bonds(file, particles);
     return state;
 }
@@ -160,8 +177,9 @@ void put_run(std::vector<io::Dataset>& all, const std::string& group, const Rheo
 RheometerRun read_run(const Reader& file, const std::string& group) {
     RheometerRun run;
     const Integers& head = file.table<Integers>(group + "orientation", 3, 1);
-    run.orientation = {static_cast<int>(head[0]), static_cast<int>(head[1])};
-    run.rest_steps = head[2];
+    const auto [normal, direction] = read_axes(file, head);
+    run.orientation = {normal, direction};
+    run.rest_steps = file.small_count(head[2], "a number of steps");
     const Numbers& of_run = file.table<Numbers>(group + "numbers", run_numbers.size(), 1);
     for (std::size_t k = 0; k < run_numbers.size(); ++k) {
         run.*run_numbers[k] = of_run[k];
@@ -175,24 +193,24 @@ RheometerRun read_run(const Reader& file, const std::string& group) {
         }
         run.oscillations[entry].broken_bonds = broken[entry];
     }
-    run.strain = file.get<Numbers>(group + "strain");
-    run.stress = file.table<Numbers>(group + "stress", 1, run.strain.size());
-    run.plate_stress = file.get<Numbers>(group + "plate_stress");
+    const std::size_t samples = file.get<Numbers>(group + "strain").size();
+    run.strain = file.finite(group + "strain", 1, samples);
+    run.stress = file.finite(group + "stress", 1, samples);
+    run.plate_stress = file.finite(group + "plate_stress", 1, file.get<Numbers>(group + "plate_stress").empty() ? 0 : samples);
     const Numbers& spheres = file.get<Numbers>(group + "sphere_storage");
     run.sphere_storage = Eigen::VectorXd::Map(spheres.data(), static_cast<Index>(spheres.size()));
     const Integers& shape = file.table<Integers>(group + "spheres", 2, 1);
-    const Numbers& stress =
-        file.table<Numbers>(group + "sphere_stress", static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(shape[1]));
-    run.sphere_stress = Eigen::MatrixXd::Map(stress.data(), shape[0], shape[1]);
+    const int rows = file.small_count(shape[0], "a number of samples");
+    const int columns = file.small_count(shape[1], "a number of spheres");
+    const Numbers& stress = file.finite(group + "sphere_stress", static_cast<std::size_t>(rows), static_cast<std::size_t>(columns));
+    run.sphere_stress = Eigen::MatrixXd::Map(stress.data(), rows, columns);
     const Numbers& strains = file.get<Numbers>(group + "broken_strain");
     const Integers& where = file.table<Integers>(group + "broken", 4, strains.size());
     for (std::size_t entry = 0; entry < strains.size(); ++entry) {
         const std::int64_t* whole = &where[4 * entry];
-        if (whole[3] < 0 || whole[3] > static_cast<std::int64_t>(BreakageCause::pull_off)) {
-            file.fail("has a cause of breakage " + std::to_string(whole[3]) + ", which does not exist: the checkpoint is damaged");
-        }
-        run.broken.push_back(
-            {whole[0], whole[1], strains[entry], static_cast<int>(whole[2]), static_cast<BreakageCause>(whole[3])});
+        const auto cause = file.whole(whole[3], 0, static_cast<std::int64_t>(BreakageCause::pull_off) + 1, "a cause of breakage");
+        run.broken.push_back({file.small_count(whole[0], "particle"), file.small_count(whole[1], "particle"), strains[entry],
+                              file.small_count(whole[2], "oscillation"), static_cast<BreakageCause>(cause)});
     }
     return run;
 }

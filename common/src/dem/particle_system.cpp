@@ -104,6 +104,13 @@ ParticleState ParticleSystem::state() const {
     return state;
 }
 
+void ParticleSystem::restore(ParticleState state) {
+    require(
+        state.position.size() == static_cast<std::size_t>(radii_.size()),
+        "the state is that of " + std::to_string(state.position.size()) + " particles, not of " + std::to_string(radii_.size()));
+    rebuild(std::move(state));
+}
+
 /// Takes whole periods out of the shear; bonds name the same images by other numbers.
 void ParticleSystem::reduce_shear(ParticleState& state) const {
     CellShear& shear = state.shear;

@@ -182,6 +182,14 @@ TEST(ParticleState, GoesOnToTheSameBits) {
     EXPECT_LT(static_cast<Index>(system.bonds().size()) - unbonded, find_contacts(packing, 0.05).size());
 }
 
+TEST(ParticleState, OfOtherParticlesIsRefused) {
+    const Packing packing = loose_packing();
+    ParticleSystem system(packing.cell, packing.positions, packing.radii, skin);
+    ParticleState state = system.state();
+    state.position.pop_back();
+    EXPECT_THROW(system.restore(state), std::invalid_argument);
+}
+
 /// Work of the moving cell less what is stored, in motion, dissipated and lost, over the largest work of a cycle.
 double imbalance(double time_step, const ContactModel& model) {
     const Packing packing = random_packing(Cell::periodic({5, 5, 5}), 40, 0.6, 0.9, 3);

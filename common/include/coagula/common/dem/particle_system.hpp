@@ -156,8 +156,9 @@ public:
 
     /// Everything that a run needs to go on.
     ParticleState state() const;
-    /// Goes on from a state of a system of the same particles; the neighbour list is made anew.
-    void restore(ParticleState state) { rebuild(std::move(state)); }
+    /// Goes on from a state of a system of the same particles; the neighbour list is made anew. Throws std::invalid_argument when
+    /// there are not as many.
+    void restore(ParticleState state);
 
     Eigen::Matrix3Xd positions() const;   ///< wrapped into a periodic cell [m]
     Eigen::Matrix3Xd velocities() const;  ///< [m/s]
