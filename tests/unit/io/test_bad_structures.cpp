@@ -82,7 +82,7 @@ void set_value(hid_t id, const std::string& object, std::size_t index, double va
 
 TEST_F(BadStructure, MissingFolderAndForeignFiles) {
     EXPECT_EQ(reading(file("none.h5")), file("none.h5") + " does not exist");
-    EXPECT_EQ(reading(folder_.string()), folder_.string() + " is not a regular file");
+    EXPECT_EQ(reading(folder_.string()), folder_.string() + " cannot be read: it is a folder");
     EXPECT_EQ(reading(write("text.h5", "x,y,z\n1,2,3\n")), file("text.h5") + " is not an HDF5 file");
     EXPECT_EQ(reading(write("empty.h5", "")), file("empty.h5") + " is not an HDF5 file");
     const hid_t id = H5Fcreate(file("other.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);

@@ -213,7 +213,7 @@ TEST_F(TextFormats, BadOptions) {
     EXPECT_EQ(sentence<InputError>([&] { read_text(file("none.csv"), TextFormat::csv, in_box()); }),
               file("none.csv") + " does not exist");
     EXPECT_EQ(sentence<InputError>([&] { read_text(folder_.string(), TextFormat::csv, in_box()); }),
-              folder_.string() + " cannot be read");
+              folder_.string() + " cannot be read: it is a folder");
 }
 
 TEST_F(TextFormats, ReadsXyzOfOthers) {
