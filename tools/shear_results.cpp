@@ -94,8 +94,10 @@ void append_tensors(Results& results, const LinearResponse& response) {
 void append_solution(Results& results, const LinearResponse& response) {
     results.push_back(io::text(group + "solver", solver_name(response.solver_used), "linear solver used"));
     results.push_back(io::integer(group + "iterations", response.iterations, "of conjugate gradients, largest over the strains"));
-    results.push_back(io::scalar(group + "modulus_error", response.modulus_error, "1",
-                                 "estimated relative error of the moduli from stopping the iteration"));
+    const bool estimated = std::isfinite(response.modulus_error);
+    results.push_back(io::scalar(group + "modulus_error", estimated ? response.modulus_error : unset, "1",
+                                 estimated ? "estimated relative error of the moduli from stopping the iteration"
+                                           : "NaN: the residual was met before the error of the moduli could be estimated"));
     results.push_back(io::scalar(group + "residual", response.residual, "1", "|f - K u| / |f|, largest over the strains"));
 }
 
