@@ -47,11 +47,16 @@ bool is_letter(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// True when every digit belongs to an exponent ("m-3", "s^2", "m2"). UDUNITS takes "m 7" for seven metres and "K @ 273" for a
-/// shifted scale; in a quantity both are slips of the pen.
+bool is_sign(char c) {
+    return c == '-' || c == '+';
+}
+
+/// True when every digit belongs to an exponent ("m-3", "s^2", "m2"). UDUNITS takes "m 7" for seven metres, "K--1" for minus one
+/// kelvin and "K @ 273" for a shifted scale; in a quantity these are slips of the pen.
 bool digits_are_exponents(std::string_view unit) {
     for (std::size_t i = 0; i < unit.size(); ++i) {
-        if (unit[i] == '@') {
+        const bool second_sign = is_sign(unit[i]) && i > 0 && is_sign(unit[i - 1]);
+        if (unit[i] == '@' || second_sign) {
             return false;
         }
         if (std::isdigit(static_cast<unsigned char>(unit[i])) == 0) {
@@ -111,7 +116,7 @@ Conversion conversion(const std::string& from, const std::string& to, const std:
     }
     const double offset = cv_convert_double(converter.get(), 0.0);
     const double factor = cv_convert_double(converter.get(), 1.0) - offset;
-    if (!(std::isfinite(offset) && std::isnormal(factor))) {
+    if (!(std::isfinite(offset) && std::isnormal(factor) && factor > 0)) {
         throw InputError(what + ": '" + from + "' is too large or too small a unit for " + to);
     }
     return {factor, offset};
