@@ -175,6 +175,17 @@ void check_instrument(const Instrument& instrument) {
     }
 }
 
+/// A number that is too large for its unit, a step of time times a row, a period of the frequency zero.
+void refuse_infinite(const Measurement& measurement, const Column& column) {
+    for (const std::vector<double>* values : {&column.values, &column.standard_errors}) {
+        const auto place = std::find_if(values->begin(), values->end(), [](double value) { return std::isinf(value); });
+        if (place != values->end()) {
+            throw InputError(measurement.label + ": '" + column.name + "' is infinite in row " +
+                             std::to_string(place - values->begin() + 1) + "; check the values and units that it follows from");
+        }
+    }
+}
+
 }  // namespace
 
 std::string_view name_of(MeasurementKind kind) {
@@ -260,6 +271,7 @@ void check(const Experiment& experiment) {
         check_exchanged_cone(measurement, experiment.instrument);
         for (const Column& column : measurement.columns) {
             require(column.values.size() == measurement.rows(), measurement.label + ": the columns have different lengths");
+            refuse_infinite(measurement, column);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 namespace coagula::diagnose {
@@ -62,6 +63,19 @@ TEST(Experiment, RefusesMetadataThatContradictThemselves) {
     experiment.structures = {"a.h5"};
     experiment.recipe = StructureRecipe{};
     EXPECT_NE(refusal(experiment).find("both as files and as a recipe"), std::string::npos);
+}
+
+TEST(Experiment, RefusesInfiniteNumbers) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    Experiment experiment;
+    experiment.measurements.resize(1);
+    experiment.measurements[0].label = "a.csv";
+    experiment.measurements[0].columns = {{"time", "s", {1, unset, infinite}}};
+    EXPECT_EQ(refusal(experiment), "a.csv: 'time' is infinite in row 3; check the values and units that it follows from");
+    experiment.measurements[0].columns[0] = {"time", "s", {1, 2, unset}, {0.1, -infinite, 0.1}};
+    EXPECT_EQ(refusal(experiment), "a.csv: 'time' is infinite in row 2; check the values and units that it follows from");
+    experiment.measurements[0].columns[0].standard_errors = {0.1, unset, 0.1};
+    EXPECT_EQ(refusal(experiment), "");
 }
 
 }  // namespace
