@@ -51,7 +51,8 @@ COMPANIONS = {"yukawa-energy": "--yukawa-length 1nm", "yukawa-length": "--yukawa
 WITHOUT = {"stop-coordination": "--stop-time 1us"}  # parts of a call that would hide the option
 # Numbers that may be missing, as the documentation says: ends of an interval that the data do not bound, errors of a line through two
 # points, ratios to a structure without load, a barrier that is not there.
-MAY_BE_MISSING = re.compile(r"a0_interval/|_stderr$|ratio_to_first$|failure_strain$|yield_strain$|decisive_structure$|barrier$|secondary_minimum$")
+MAY_BE_MISSING = re.compile(r"a0_interval/|_stderr$|ratio_to_first$|failure_strain$|yield_strain$|decisive_structure$|barrier$|secondary_minimum$|"
+                            r"floppy_modes$|modulus_error$")  # the iterative solver counts no modes and may need no step
 
 OPTION = re.compile(r"^  (?:-\w, |    )--([a-z-]+) (\S+) +(.*)$")
 RANGE = re.compile(r"range ([^;\]]+)")

@@ -96,7 +96,7 @@ class Diagnosis(ProgramTest):
         for name in ("simulations.txt", "report.html"):
             with self.subTest(folder=name):
                 (results / name).mkdir(parents=True)
-                self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", "--force", says=f"{name} is a folder")
+                self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", "--force", says=[name, "is a folder"])
                 self.assertEqual([path.name for path in results.iterdir()], [name])
                 (results / name).rmdir()
         (results / "report.html").write_text("mine")

@@ -100,7 +100,7 @@ class PowerLaw(ProgramTest):
         refuse(table("b,modulus [Pa]"), "no column a")
         refuse(table() + "0.7\n", "line 8")
         refuse(table() + "0.7,nan\n", "line 8")
-        refuse(table() + "0.7,1e308\n", "finite")
+        refuse(table() + "0.7,1e308\n", "too large")
         refuse(table(), "error", "--standard-error", "error")
         self.fail_with(2, "fit", "power-law", "absent.csv", says="absent.csv")
         self.write("good.csv", table())
