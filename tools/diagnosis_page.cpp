@@ -249,8 +249,8 @@ std::string next_sentence(const diagnose::Proposal& proposal) {
 std::string gained(const diagnose::Gain& gain) {
     return gain.held_out == 0 ? std::string{}
                               : " On rows that no model has seen its error is " + printed(100 * gain.rmse_extended) +
-                                    " % instead of " + printed(100 * gain.rmse_base) + " %; the log predictive density changes by " +
-                                    change_of_density(gain, print_number) + ".";
+                                    " % instead of " + printed(100 * gain.rmse_base) +
+                                    " %; the log predictive density changes by " + change_of_density(gain, print_number) + ".";
 }
 
 }  // namespace

@@ -64,10 +64,9 @@ inline Packing made_structure(Index particles, std::uint64_t seed, double target
 
 /// By void expansion, with half as many voids as particles.
 inline Packing structure(Index particles, std::uint64_t seed, double target_coordination = unset, double volume_fraction = 0.4) {
-    return stored_structure(
-        "void expansion",
-        {static_cast<double>(particles), static_cast<double>(seed), target_coordination, volume_fraction},
-        [&] { return made_structure(particles, seed, target_coordination, volume_fraction); });
+    return stored_structure("void expansion",
+                            {static_cast<double>(particles), static_cast<double>(seed), target_coordination, volume_fraction},
+                            [&] { return made_structure(particles, seed, target_coordination, volume_fraction); });
 }
 
 /// Two structures that the diagnosis knows, and what it has simulated of them.

@@ -17,9 +17,9 @@ inline Packing structure_with_sizes(Index particles, std::uint64_t seed, generat
     options.radii =
         generators::draw_radii({.kind = kind, .mean_radius = 0.25e-6, .relative_deviation = deviation}, particles, seed);
     options.seed = seed;
-    return stored_structure(
-        "sizes", {static_cast<double>(particles), static_cast<double>(seed), static_cast<double>(kind), deviation},
-        [&] { return generators::expand_voids(options).packing; });
+    return stored_structure("sizes",
+                            {static_cast<double>(particles), static_cast<double>(seed), static_cast<double>(kind), deviation},
+                            [&] { return generators::expand_voids(options).packing; });
 }
 
 constexpr int recipe_particles = 300;

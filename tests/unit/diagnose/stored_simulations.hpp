@@ -1,5 +1,5 @@
-// What the tests of this build have simulated, kept for the tests after them. Linking the test program anew forgets all of it, so that
-// no test sees what older code had computed.
+// What the tests of this build have simulated, kept for the tests after them. Linking the test program anew forgets all of it, so
+// that no test sees what older code had computed.
 #pragma once
 
 #include <coagula/diagnose/simulator.hpp>

@@ -38,8 +38,7 @@ Packing coagulate(Index count, std::uint64_t seed, double surface_potential, dou
 }
 
 Packing coagulated(Index count, std::uint64_t seed, double surface_potential, double deviation = 0) {
-    return stored_structure("coagulated",
-                            {static_cast<double>(count), static_cast<double>(seed), surface_potential, deviation},
+    return stored_structure("coagulated", {static_cast<double>(count), static_cast<double>(seed), surface_potential, deviation},
                             [&] { return coagulate(count, seed, surface_potential, deviation); });
 }
 
