@@ -25,7 +25,7 @@ struct DiagnosisRecord {
 };
 
 /// What was found, in a sentence or two.
-std::string verdict_sentence(const diagnose::Diagnosis& diagnosis);
+std::string verdict_sentence(const diagnose::Diagnosis& found);
 
 std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot);
 

@@ -15,8 +15,8 @@ namespace coagula::diagnose {
 
 /// One number that was measured.
 struct Observation {
-    std::size_t measurement;
-    std::size_t row;
+    std::size_t measurement = 0;
+    std::size_t row = 0;
     bool loss = false;              ///< G'', else G'
     double value = 0;               ///< [Pa]
     double standard_error = unset;  ///< [Pa]; NaN where the table has none

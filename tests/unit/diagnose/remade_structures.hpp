@@ -77,6 +77,7 @@ struct Recipe {
     }
     Recipe(const Recipe&) = delete;
     Recipe& operator=(const Recipe&) = delete;
+    ~Recipe() = default;
 };
 
 inline Recipe& recipe() {

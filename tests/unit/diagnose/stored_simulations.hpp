@@ -6,7 +6,9 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <ios>
@@ -24,11 +26,15 @@ public:
     }
     StoredSimulations(const StoredSimulations&) = delete;
     StoredSimulations& operator=(const StoredSimulations&) = delete;
-    /// Writes what is new beside what other processes have added, under another name first.
+    /// Writes what is new beside what other processes have added, under another name first. What cannot be written is made again.
     ~StoredSimulations() {
-        if (results_.size() > found_) {
-            read();
-            write();
+        try {
+            if (results_.size() > found_) {
+                read();
+                write();
+            }
+        } catch (const std::exception& error) {
+            static_cast<void>(std::fprintf(stderr, "simulations are not stored: %s\n", error.what()));
         }
     }
 
