@@ -259,7 +259,8 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : 
     for (const Option& option : options) {
         const std::string name = option.name == "input" ? verb.input : "--" + option.name;
         const bool given = map.count(option.name) > 0;
-        if (!given && option.required) {
+        const bool spared = option.name == "input" && !verb.alone.empty() && map.count(verb.alone) > 0;
+        if (!given && option.required && !spared) {
             throw InputError("coagula " + verb.name + " needs " + name + hint(verb.name));
         }
         if (!given && option.fallback.empty()) {

@@ -1,5 +1,6 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
 #include "diagnose_power.hpp"
+#include "diagnosis_catalogue.hpp"
 #include "diagnosis_results.hpp"
 #include "diagnosis_run.hpp"
 #include "experiment_file.hpp"
@@ -190,6 +191,10 @@ void refuse_options(const Arguments& arguments, const std::string& mode, const s
 }
 
 void run(const Arguments& arguments) {
+    if (arguments.flag("catalogue")) {
+        print_catalogue(arguments);
+        return;
+    }
     if (arguments.flag("power")) {
         refuse_options(arguments, "with --power", {"check"});
         run_power(arguments);
@@ -239,13 +244,16 @@ Verb diagnose_verb() {
         .input = "EXPERIMENT.toml",
         .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
                     flag("power", "before anyone measures: which causes this experiment could find, and from which strength on"),
+                    flag("catalogue",
+                         "the causes that are known, with their parameters and priors, as a table; needs no experiment"),
                     text("causes", "NAME,NAME...", "these only, instead of the whole catalogue"),
                     count("data-sets", "of --power: simulated at each strength near a threshold (200)", "", within(20, 100000)),
                     count("diagnoses", "of --power: full diagnoses of simulated data for each cause (4)", "", within(0, 10000))},
         .run = run,
-        .notes = {
-            "Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore curves "
-            "are diagnosed; see docs/diagnosis.md."}};
+        .notes = {"Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore "
+                  "curves "
+                  "are diagnosed; see docs/diagnosis.md."},
+        .alone = "catalogue"};
     const std::vector<Option> own = diagnosis_options();
     verb.options.insert(verb.options.end(), own.begin(), own.end());
     return verb;

@@ -113,7 +113,8 @@ void add_detection(Results& results, const Diagnosis& found) {
         const diagnose::Failure& failure = found.failures[k];
         const std::string place = group + "where/" + std::to_string(k + 1) + "/";
         results.push_back(io::text(place + "sentence", failure.sentence, failure.observable + " along " + failure.axis));
-        results.push_back(io::scalar(place + "bayes_factor", failure.bayes_factor, "1", "of a smooth departure against none"));
+        results.push_back(io::scalar(place + "log_bayes_factor", failure.log_bayes_factor, "1",
+                                     "natural logarithm; of a smooth departure against none"));
     }
 }
 

@@ -51,7 +51,7 @@ std::string header(const DiagnosisRecord& record) {
         html += "<div><dt>" + name + "</dt><dd>" + value + "</dd></div>\n";
     };
     fact("verdict", diagnose::name_of(found.verdict));
-    fact("chance that the base model fails so", chance_text(found));
+    fact("p-value of the base model", chance_text(found));
     fact("measured numbers", std::to_string(found.observations));
     if (found.detected && found.gain.held_out > 0) {
         fact("error on held-out rows", percent(found.gain.rmse_base) + " → " + percent(found.gain.rmse_extended));
@@ -72,7 +72,8 @@ std::string detection(const DiagnosisRecord& record, Gnuplot& gnuplot) {
         html += "<ul class=\"findings\">\n";
         for (const diagnose::Failure& failure : found.failures) {
             html += "<li>" + escaped(failure.sentence) + ". <span class=\"soft\">Bayes factor " +
-                    (failure.bayes_factor > 1e6 ? "above 10⁶" : printed(failure.bayes_factor)) + ".</span></li>\n";
+                    (failure.log_bayes_factor > std::log(1e6) ? "above 10⁶" : printed(std::exp(failure.log_bayes_factor))) +
+                    ".</span></li>\n";
         }
         html += "</ul>\n";
     }
@@ -141,7 +142,11 @@ std::string causes(const Diagnosis& found) {
     html += paragraph(
         "Probability of each cause, given the data, over its physical range. " +
         (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
-        " The test of the base model, applied to the best cause, gives p = " + print_number(found.extended_p_value) + ".");
+        " The test of the base model, applied to the best cause, gives p = " + print_number(found.extended_p_value) + "." +
+        (found.remainder.detected ? " Something is left over: " + escaped(found.remainder.where) + "." : std::string{}) +
+        (found.level_alone ? " A departure of the level alone says as much: what is taken for known of structure, particles or "
+                             "instrument may be wrong as well."
+                           : std::string{}));
     std::vector<std::vector<std::string>> rows;
     std::size_t improbable = 0;
     for (const Cause& cause : found.causes) {
@@ -168,7 +173,8 @@ std::string parameters(const Diagnosis& found) {
         for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
             rows.push_back({"<span class=\"name\">" + escaped(cause.name) + "</span>", readable(parameter.name),
                             "<span class=\"number\">" + printed(parameter.value, parameter.unit) + "</span>",
-                            printed(parameter.low, parameter.unit) + " to " + printed(parameter.high, parameter.unit)});
+                            printed(parameter.low, parameter.unit) + " to " + printed(parameter.high, parameter.unit) +
+                                (parameter.at_end ? " <b>(the end of its range)</b>" : "")});
         }
     };
     add(found.base);
@@ -274,7 +280,8 @@ std::string verdict_sentence(const Diagnosis& found) {
     }
     const Cause& cause = found.causes.front();
     return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + printed(100 * cause.posterior) +
-           " %)." + gained(found.gain);
+           " %)." + (found.remainder.detected ? " It leaves something over: " + found.remainder.where + "." : std::string{}) +
+           gained(found.gain);
 }
 
 std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot) {

@@ -20,6 +20,9 @@ Json parameters_json(const Cause& cause) {
                                 {"low", number(parameter.low)},
                                 {"high", number(parameter.high)},
                                 {"unit", parameter.unit}};
+        if (parameter.at_end) {
+            json[parameter.name]["at_end_of_range"] = true;
+        }
     }
     return json;
 }
@@ -28,6 +31,7 @@ Json cause_json(const Cause& cause) {
     return {{"name", cause.name},
             {"posterior", cause.posterior},
             {"log_evidence", number(cause.log_evidence)},
+            {"leaves_remainder", cause.leaves_remainder},
             {"words", cause.words},
             {"parameters", parameters_json(cause)}};
 }
@@ -70,7 +74,8 @@ std::string describe(const Cause& cause) {
     std::string text = "probability " + with_unit(cause.posterior, "1");
     for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
         text += "; " + parameter.name + " " + with_unit(parameter.value, parameter.unit) + " (" +
-                with_unit(parameter.low, parameter.unit) + " to " + with_unit(parameter.high, parameter.unit) + ")";
+                with_unit(parameter.low, parameter.unit) + " to " + with_unit(parameter.high, parameter.unit) + ")" +
+                (parameter.at_end ? ", the end of its range" : "");
     }
     return text;
 }
@@ -143,7 +148,8 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
     for (const diagnose::Failure& failure : diagnosis.failures) {
         json["where"].push_back({{"observable", failure.observable},
                                  {"axis", failure.axis},
-                                 {"bayes_factor", number(failure.bayes_factor)},
+                                 {"bayes_factor", number(std::exp(failure.log_bayes_factor))},
+                                 {"log_bayes_factor", number(failure.log_bayes_factor)},
                                  {"from", number(failure.from)},
                                  {"unit", unit_of(failure.axis)},
                                  {"sentence", failure.sentence}});
@@ -154,6 +160,10 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
     if (diagnosis.detected) {
         const diagnose::Gain& gain = diagnosis.gain;
         json["extended_p_value"] = diagnosis.extended_p_value;
+        json["level_alone"] = diagnosis.level_alone;
+        json["remainder"] = {{"detected", diagnosis.remainder.detected},
+                             {"p_value", diagnosis.remainder.p_value},
+                             {"where", diagnosis.remainder.where}};
         json["gain"] = {{"held_out", gain.held_out},
                         {"rmse_base", number(gain.rmse_base)},
                         {"rmse_extended", number(gain.rmse_extended)},
@@ -182,8 +192,9 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
 
 Table table_of(const Diagnosis& diagnosis) {
     Table lines{{"measured numbers", std::to_string(diagnosis.observations)},
-                {"verdict", std::string(diagnose::name_of(diagnosis.verdict)) + (is_least_p(diagnosis) ? "   (p <= " : "   (p = ") +
-                                with_unit(diagnosis.p_value, "1") + " that the base model fails so by chance)"}};
+                {"verdict", std::string(diagnose::name_of(diagnosis.verdict)) +
+                                (is_least_p(diagnosis) ? "   (p-value of the base model <= " : "   (p-value of the base model ") +
+                                with_unit(diagnosis.p_value, "1") + ")"}};
     if (!diagnosis.detected) {
         return lines;
     }
@@ -195,6 +206,10 @@ Table table_of(const Diagnosis& diagnosis) {
         if (cause.posterior > 0.01) {
             lines.emplace_back("  " + cause.name, describe(cause));
         }
+    }
+    if (diagnosis.remainder.detected) {
+        lines.emplace_back("left over",
+                           diagnosis.remainder.where + "   (p-value " + with_unit(diagnosis.remainder.p_value, "1") + ")");
     }
     lines.emplace_back("gain on held-out data", describe(diagnosis.gain));
     if (!diagnosis.proposals.empty()) {

@@ -10,7 +10,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
-#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/stated_errors.hpp>
 #include <coagula/diagnose/waveform.hpp>
 #include <coagula/io/contact_model_file.hpp>
@@ -51,7 +51,7 @@ std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
         return {};
     }
     return "# " + best->name + ": " + best->words + "\n" + outside_of_contact(best->name) +
-           io::contact_model_text(diagnose::contact_model_of(best->settings, radius));
+           io::contact_model_text(diagnose::contact_model_of(best->model, radius));
 }
 
 /// Whether a row of a structure series stands for a group; without their column the rows are counted.

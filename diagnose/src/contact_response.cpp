@@ -1,5 +1,5 @@
 // Amplitude response of Hertz contacts: equilibrium at the nodes of a grid of strains by secant stiffnesses.
-#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
 #include <coagula/common/contact_network.hpp>

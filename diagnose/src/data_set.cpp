@@ -1,7 +1,6 @@
 #include "data_set.hpp"
 
 #include "pore_curves.hpp"
-#include "weights.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -131,76 +130,6 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
     }
     data.noise = noise_of(data.observations, deviation);
     return data;
-}
-
-namespace {
-
-/// One draw of everything that is uncertain about the errors, and of the errors.
-class ErrorDraw {
-public:
-    ErrorDraw(std::uint64_t seed, std::uint64_t number) : seed_(seed), number_(number) {}
-
-    double normal() { return normal_number(seed_, number_, next_++); }
-
-    double unit_deviation(double degrees) {
-        return std::isfinite(degrees) ? 1 / std::sqrt(scaled_chi_square(degrees, normal())) : 1.0;
-    }
-
-    /// What the true deviation is over the stated one; one draw per estimated noise model.
-    double scale(const Observation& one) {
-        const auto [scale, added] = scales_.try_emplace({one.errors.degrees, one.loss}, 1.0);
-        return scale->second = added ? unit_deviation(one.errors.degrees) : scale->second;
-    }
-
-    /// Of unit variance, with its tail.
-    double error(const Observation& one) {
-        const double tail = one.errors.tail;
-        const double drawn = normal();
-        return std::isfinite(tail) ? drawn * std::sqrt((tail - 2) / tail) * unit_deviation(tail) : drawn;
-    }
-
-    /// What the true correlation is where this one is stated; one draw of that of neighbouring rows per observable.
-    double correlation(const Observation& one, double stated) {
-        const auto [drawn, added] = correlations_.try_emplace(one.loss, 0.0);
-        if (added) {
-            drawn->second = std::clamp(one.errors.correlation + normal() * one.errors.correlation_error, 0.01, 0.95);
-        }
-        return std::pow(stated, std::log(drawn->second) / std::log(one.errors.correlation));
-    }
-
-private:
-    std::uint64_t seed_;
-    std::uint64_t number_;
-    std::uint64_t next_ = 0;
-    std::map<std::pair<double, bool>, double> scales_;
-    std::map<bool, double> correlations_;
-};
-
-}  // namespace
-
-Eigen::VectorXd draw_errors(const DataSet& data, std::uint64_t seed, std::uint64_t number) {
-    ErrorDraw draw(seed, number);
-    Eigen::VectorXd errors(data.size() + (data.effect > 0 ? data.samples() : 0));
-    Eigen::VectorXd coloured(data.size());  // of unit variance, as correlated as was drawn
-    for (Index k = 0; k < data.size(); ++k) {
-        const Observation& one = data.observations[static_cast<std::size_t>(k)];
-        const double stated = data.noise.correlation[k];
-        const double scale = draw.scale(one);
-        double error = draw.error(one);
-        coloured[k] = error;
-        if (stated > 0 && one.errors.correlation_error > 0) {
-            const double drawn = draw.correlation(one, stated);
-            const double before = coloured[data.noise.previous[static_cast<std::size_t>(k)]];
-            coloured[k] = drawn * before + std::sqrt(1 - drawn * drawn) * error;
-            error = (coloured[k] - stated * before) / std::sqrt(1 - stated * stated);
-        }
-        errors[k] = scale * error;
-    }
-    const double scale = draw.unit_deviation(data.effect_degrees);
-    for (Index k = data.size(); k < errors.size(); ++k) {
-        errors[k] = scale * draw.normal();
-    }
-    return errors;
 }
 
 }  // namespace coagula::diagnose

@@ -47,8 +47,4 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise);
 /// Chi-square over its degrees of freedom at a standard normal number, by the cube root (Wilson and Hilferty 1931).
 double scaled_chi_square(double degrees, double normal);
 
-/// Whitened errors of the rows, then the effects of the samples over their deviation, as the noise model draws them: heavy tails
-/// and the uncertainty of estimated deviations and correlations included.
-Eigen::VectorXd draw_errors(const DataSet& data, std::uint64_t seed, std::uint64_t number);
-
 }  // namespace coagula::diagnose

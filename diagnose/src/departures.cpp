@@ -3,41 +3,49 @@
 #include <Eigen/QR>
 
 #include <cmath>
+#include <vector>
 
 namespace coagula::diagnose {
 
 namespace {
 
-/// What the fitted quantities move: without the samples' effects where it is stated, and not estimated, that there are none.
+/// What the fitted quantities move: without parameters at an end of their prior, which cannot follow, and without the samples'
+/// effects where it is stated, and not estimated, that there are none.
 Eigen::MatrixXd slopes_of(const Inference& inference, const Fit& fit, Index errors) {
-    const DataSet& data = inference.likelihood().data();
+    const DataSet& data = inference.errors().data();
     const Eigen::MatrixXd all = inference.jacobian(fit);
-    if (data.effect > 0 || std::isfinite(data.effect_degrees)) {
-        return all;
+    const bool effects = data.effect > 0 || std::isfinite(data.effect_degrees);
+    const Index others = errors + data.samples();
+    std::vector<Index> kept;
+    for (Index column = 0; column < all.cols(); ++column) {
+        const bool parameter = column > 0 && column < all.cols() - others;
+        const auto number = static_cast<std::size_t>(column - 1);
+        const bool stays = parameter && number < fit.active_end.size() && fit.active_end[number];
+        const bool effect = column >= all.cols() - others && column < all.cols() - errors;
+        if (!stays && (effects || !effect)) {
+            kept.push_back(column);
+        }
     }
-    Eigen::MatrixXd slopes(all.rows(), all.cols() - data.samples());
-    slopes << all.leftCols(slopes.cols() - errors), all.rightCols(errors);
-    return slopes;
+    return all(Eigen::all, kept);
 }
 
 }  // namespace
 
 Departures departures_of(const Inference& inference, const Fit& fit) {
-    const DataSet& data = inference.likelihood().data();
-    const Eigen::VectorXd prediction = inference.forward().predict(fit.settings);
-    const double stiffness = inference.stiffness_departure(std::log(fit.settings.normal_stiffness));
-    const ModelErrors model = inference.forward().yield_errors(fit.settings);
-    const Index errors = model.changes.cols();
+    const DataSet& data = inference.errors().data();
+    const Prediction prediction = inference.forward().prediction(fit.model);
+    const double stiffness = inference.stiffness_departure(std::log(fit.model.settings.normal_stiffness));
+    const Index errors = prediction.errors.changes.cols();
     const Index samples = data.effect > 0 ? data.samples() : 0;
     const Index effects = samples + errors;
     const Index rows = data.size() + effects + (std::isfinite(stiffness) ? 1 : 0);
     const Eigen::MatrixXd slopes = slopes_of(inference, fit, errors);
     const Index first_error = slopes.cols() - errors;
     const Index first_effect = first_error - samples;
-    const Eigen::VectorXd fitted = inference.likelihood().effects(prediction, model);
+    const Eigen::VectorXd fitted = inference.errors().effects(prediction);
 
     Departures all{Eigen::VectorXd::Zero(rows), Eigen::MatrixXd::Zero(rows, slopes.cols())};
-    all.residual.head(data.size()) = inference.likelihood().residual(prediction, model);
+    all.residual.head(data.size()) = inference.errors().residual(prediction);
     all.jacobian.topRows(data.size()) = slopes;
     if (samples > 0) {
         all.residual.segment(data.size(), samples) = -fitted.head(samples) / data.effect;

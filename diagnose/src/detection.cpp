@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -32,6 +33,22 @@ bool varies(const std::vector<Observation>& observations, const std::vector<Inde
     return high > low * 1.05 + 1e-300;
 }
 
+/// Those of these rows whose tables go through the coordinate, where some do: elsewhere it is what else those tables have in
+/// common.
+std::vector<Index> swept(const std::vector<Observation>& observations, const std::vector<Index>& rows, Coordinate coordinate) {
+    std::map<std::size_t, std::vector<Index>> tables;
+    for (const Index row : rows) {
+        tables[observations[static_cast<std::size_t>(row)].measurement].push_back(row);
+    }
+    std::vector<Index> some;
+    for (const auto& [number, own] : tables) {
+        if (varies(observations, own, coordinate)) {
+            some.insert(some.end(), own.begin(), own.end());
+        }
+    }
+    return some.empty() ? rows : some;
+}
+
 void sort_along(const std::vector<Observation>& observations, std::vector<Index>& rows, Coordinate coordinate) {
     std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) {
         return coordinate_of(observations[static_cast<std::size_t>(a)], coordinate) <
@@ -56,6 +73,7 @@ void add_smooth(const std::vector<Observation>& observations, std::vector<Misfit
                     one.rows.push_back(row);
                 }
             }
+            one.rows = swept(observations, one.rows, coordinate);
             if (one.rows.size() >= fewest_rows && varies(observations, one.rows, coordinate)) {
                 sort_along(observations, one.rows, coordinate);
                 all.push_back(one);
@@ -79,38 +97,43 @@ void add_harmonics(const std::vector<Observation>& observations, std::vector<Mis
     }
 }
 
-/// Sets of the mechanism's parameters over their prior: five places of the first, three of the others.
-std::vector<Settings> over_prior(const Settings& from, const Mechanism& mechanism) {
-    std::vector<Settings> all{from};
+/// The fit with this mechanism, too, over its prior: five places of the first parameter, three of the others.
+std::vector<Model> over_prior(const Fit& fit, const Mechanism& mechanism) {
+    std::vector<std::vector<double>> all{fit.values()};
     for (std::size_t k = 0; k < mechanism.parameters.size(); ++k) {
-        const MechanismParameter& parameter = mechanism.parameters[k];
         const std::vector<double> places = k == 0 ? std::vector{0.1, 0.3, 0.5, 0.7, 0.9} : std::vector{0.2, 0.5, 0.8};
-        std::vector<Settings> more;
-        for (const Settings& settings : all) {
+        std::vector<std::vector<double>> more;
+        for (const std::vector<double>& values : all) {
             for (const double place : places) {
-                more.push_back(settings);
-                more.back().*parameter.value = parameter.at(place);
+                more.push_back(values);
+                more.back().push_back(mechanism.parameters[k].at(place));
             }
         }
         all = std::move(more);
     }
-    return all;
+    Hypothesis hypothesis = fit.hypothesis;
+    hypothesis.push_back(&mechanism);
+    std::vector<Model> models;
+    for (const std::vector<double>& values : all) {
+        models.emplace_back(hypothesis, values, fit.model.settings.normal_stiffness);
+    }
+    return models;
 }
 
 /// A step towards every one of these mechanisms that the fit does not have.
 void add_causes(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows, const Eigen::MatrixXd& basis,
                 std::vector<MisfitStatistic>& all) {
-    const Likelihood& likelihood = inference.likelihood();
-    const Eigen::VectorXd here = likelihood.whiten(inference.forward().predict(fit.settings));
+    const ErrorModel& errors = inference.errors();
+    const Eigen::VectorXd here = errors.whiten(inference.forward().predict(fit.model));
     for (const Mechanism* mechanism : causes) {
         if (std::find(fit.hypothesis.begin(), fit.hypothesis.end(), mechanism) != fit.hypothesis.end()) {
             continue;
         }
         MisfitStatistic one{.observable = "all", .cause = mechanism->name};
         std::vector<Eigen::VectorXd> directions;
-        for (const Settings& settings : over_prior(fit.settings, *mechanism)) {
+        for (const Model& model : over_prior(fit, *mechanism)) {
             Eigen::VectorXd step = Eigen::VectorXd::Zero(rows);
-            step.head(here.size()) = likelihood.whiten(inference.forward().predict(settings)) - here;
+            step.head(here.size()) = errors.whiten(inference.forward().predict(model)) - here;
             const double length = step.norm();
             step -= basis * (basis.transpose() * step);
             constexpr double visible = 1e-6;  // part of the step that the fitted quantities cannot make
@@ -131,7 +154,7 @@ void add_causes(const Inference& inference, const Fit& fit, const Hypothesis& ca
 /// All ways to fail. @param basis orthonormal, of what the fitted quantities move.
 std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows,
                                            const Eigen::MatrixXd& basis) {
-    const DataSet& data = inference.likelihood().data();
+    const DataSet& data = inference.errors().data();
     const auto between = [](Index from, Index to) {
         std::vector<Index> range(static_cast<std::size_t>(to - from));
         std::iota(range.begin(), range.end(), from);
@@ -222,11 +245,10 @@ double coordinate_of(const Observation& observation, Coordinate coordinate) {
 }
 
 Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap) {
-    const DataSet& data = inference.likelihood().data();
     const Departures departures = departures_of(inference, fit);
     const Index rows = departures.residual.size();
     const Eigen::MatrixXd basis = orthonormal_basis(departures.jacobian);
-    const double degrees = inference.forward().yield_errors(fit.settings).degrees;
+    const double degrees = inference.forward().prediction(fit.model).errors.degrees;
     const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
     Detection result;
     result.statistics = statistics_of(inference, fit, causes, rows, basis);
@@ -235,7 +257,7 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
     for (int sample = 0; sample <= bootstrap; ++sample) {
         Eigen::VectorXd drawn = departures.residual;
         if (sample < bootstrap) {
-            const Eigen::VectorXd errors = draw_errors(data, seed, static_cast<std::uint64_t>(sample));
+            const Eigen::VectorXd errors = inference.errors().draw(seed, static_cast<std::uint64_t>(sample));
             drawn.head(errors.size()) = errors;
             const auto normal = [&](Index row) {
                 return normal_number(seed, static_cast<std::uint64_t>(sample),

@@ -1,7 +1,7 @@
 #include <coagula/diagnose/diagnosis.hpp>
 
+#include "attribution.hpp"
 #include "detection.hpp"
-#include "flexible.hpp"
 #include "gain.hpp"
 #include "hypothesis.hpp"
 #include "localise.hpp"
@@ -11,29 +11,27 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace coagula::diagnose {
 
 namespace {
 
-constexpr std::size_t most_pairs = 4;
-constexpr double with_ease = 0.2;  ///< p-value of the best cause from which on pairs are not tried
 constexpr double certain = 0.95;
+constexpr double decisive = 3;  ///< logarithm of a Bayes factor of 20
 constexpr const char* none_name = "none of the catalogue";
 
 /// Whether something measured depends on the stiffness of the particles.
 bool shows_stiffness(const Inference& inference) {
-    const auto& observations = inference.likelihood().data().observations;
+    const auto& observations = inference.errors().data().observations;
     return std::any_of(observations.begin(), observations.end(),
                        [](const Observation& one) { return is_modulus(one) && !std::isfinite(one.fluid_viscosity); });
 }
 
 Cause cause_of(const Fit& fit, const Inference& inference) {
-    Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .settings = fit.settings, .draws = fit.draws};
-    const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior) {
-        cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high});
+    Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .model = fit.model, .draws = fit.draws};
+    const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior, bool at_end = false) {
+        cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high, at_end});
     };
     if (shows_stiffness(inference)) {
         add("normal_stiffness", "N/m", fit.stiffness);
@@ -44,7 +42,8 @@ Cause cause_of(const Fit& fit, const Inference& inference) {
     for (const Mechanism* mechanism : fit.hypothesis) {
         cause.words += (cause.words.empty() ? "" : "; ") + mechanism->term;
         for (const MechanismParameter& parameter : mechanism->parameters) {
-            add(parameter.name, parameter.unit, fit.parameters[next++]);
+            add(parameter.name, parameter.unit, fit.parameters[next], fit.active_end[next]);
+            ++next;
         }
     }
     return cause;
@@ -66,108 +65,36 @@ std::vector<const Mechanism*> possible_causes(const Experiment& experiment, cons
     return possible;
 }
 
-/// Logarithms of prior weights over that of a single mechanism.
-struct Priors {
-    double pair;  ///< of one pair
-    double none;
-};
-
-Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms) {
-    // n mechanisms make n (n - 1) / 2 pairs.
-    const double pairs = std::max(1.0, (static_cast<double>(mechanisms) - 1) / 2);
-    return {.pair = std::log(options.pair_prior / pairs), .none = std::log(options.none_prior)};
-}
-
-double log_prior_of(const Fit& fit, const Priors& priors) {
-    return fit.hypothesis.size() > 1 ? priors.pair : 0.0;
-}
-
-/// What was compared.
-struct Comparison {
-    std::vector<Fit> fits;   ///< the base model first
-    std::size_t winner = 0;  ///< the most probable of all but the base model
-    double p_value = 1;      ///< of the test, applied to the winner
-};
-
-std::size_t most_probable_cause(const std::vector<Fit>& fits, const Priors& priors) {
-    const auto best = std::max_element(fits.begin() + 1, fits.end(), [&](const Fit& a, const Fit& b) {
-        return a.log_evidence + log_prior_of(a, priors) < b.log_evidence + log_prior_of(b, priors);
-    });
-    return static_cast<std::size_t>(best - fits.begin());
-}
-
-/// Fits single causes; where the best does not pass the test with ease, it is paired with those causes towards which the data still
-/// depart from it.
-Comparison compare(const Fit& base, const std::vector<const Mechanism*>& possible, const Inference& inference,
-                   const DiagnosisOptions& options, const Progress& progress) {
-    const Priors priors = priors_of(options, possible.size());
-    Comparison comparison{.fits = {base}};
-    std::vector<Fit>& fits = comparison.fits;
-    for (const Mechanism* mechanism : possible) {
-        progress.update("attributing", 0.5, mechanism->name);
-        fits.push_back(inference.fit({mechanism}));
-    }
-    const std::size_t best = most_probable_cause(fits, priors);
-    const Detection rest = detect(inference, fits[best], possible, options.seed, options.bootstrap);
-    std::size_t pairs = 0;
-    for (const MisfitStatistic& statistic : rest.statistics) {
-        const auto partner =
-            std::find_if(possible.begin(), possible.end(), [&](const Mechanism* one) { return one->name == statistic.cause; });
-        if (rest.p_value < with_ease && partner != possible.end() && pairs < most_pairs) {
-            progress.update("attributing", 0.8, "pairs");
-            fits.push_back(inference.fit({fits[best].hypothesis[0], *partner}));
-            ++pairs;
-        }
-    }
-    comparison.winner = most_probable_cause(fits, priors);
-    comparison.p_value = comparison.winner == best
-                             ? rest.p_value
-                             : detect(inference, fits[comparison.winner], possible, options.seed, options.bootstrap).p_value;
-    return comparison;
-}
-
-/// By how much a p-value can speak against a hypothesis at most: the bound -e p ln p of the Bayes factor (Sellke, Bayarri and
-/// Berger 2001), as the logarithm of its inverse.
-double most_evidence_against(double p_value) {
-    return p_value < 1 / std::numbers::e ? -std::log(-std::numbers::e * p_value * std::log(p_value)) : 0.0;
-}
-
-/// Posterior of each fit and, last, of "none of the catalogue".
-std::vector<double> posteriors(const std::vector<Fit>& fits, double none_evidence, const Priors& priors) {
-    std::vector<double> logarithms;
-    for (const Fit& fit : fits) {
-        logarithms.push_back(fit.log_evidence + log_prior_of(fit, priors));
-    }
-    logarithms.push_back(none_evidence + priors.none);
-    return probabilities_of(std::move(logarithms));
-}
-
-std::vector<SampleEffect> effects_of(const Likelihood& likelihood, const Eigen::VectorXd& prediction, const ModelErrors& errors) {
-    const Eigen::VectorXd values = likelihood.effects(prediction, errors);
+std::vector<SampleEffect> effects_of(const ErrorModel& errors, const Prediction& prediction) {
+    const Eigen::VectorXd values = errors.effects(prediction);
     std::vector<SampleEffect> effects;
-    for (std::size_t k = 0; k < likelihood.data().sample_names.size(); ++k) {
-        effects.push_back({likelihood.data().sample_names[k], values[static_cast<Index>(k)]});
+    for (std::size_t k = 0; k < errors.data().sample_names.size(); ++k) {
+        effects.push_back({errors.data().sample_names[k], std::expm1(values[static_cast<Index>(k)])});
     }
     return effects;
 }
 
+bool in_any(const std::vector<std::vector<bool>>& folds, std::size_t row) {
+    return std::any_of(folds.begin(), folds.end(), [&](const std::vector<bool>& held) { return held[row]; });
+}
+
 /// Every row beside both models, and the effects of the samples.
-void predict_rows(const DataSet& data, const Inference& inference, const Settings& base, const Settings& extended,
-                  const std::vector<bool>& held_out, Diagnosis& diagnosis) {
-    const Likelihood& likelihood = inference.likelihood();
-    const Eigen::VectorXd by_base = inference.forward().predict(base);
-    const Eigen::VectorXd by_extended = inference.forward().predict(extended, true);
-    const ModelErrors errors = inference.forward().yield_errors(extended);
-    const Eigen::VectorXd base_residual = likelihood.residual(by_base);
-    const Eigen::VectorXd extended_residual = likelihood.residual(by_extended, errors);
-    diagnosis.base_effects = effects_of(likelihood, by_base, {});
-    diagnosis.extended_effects = effects_of(likelihood, by_extended, errors);
+void predict_rows(const DataSet& data, const Inference& inference, const Model& base, const Model& extended,
+                  const std::vector<std::vector<bool>>& folds, Diagnosis& diagnosis) {
+    const ErrorModel& errors = inference.errors();
+    const Prediction by_base = inference.forward().prediction(base);
+    Prediction by_extended = inference.forward().prediction(extended);
+    by_extended.values = inference.forward().predict(extended, true);
+    const Eigen::VectorXd base_residual = errors.residual(by_base);
+    const Eigen::VectorXd extended_residual = errors.residual(by_extended);
+    diagnosis.base_effects = effects_of(errors, by_base);
+    diagnosis.extended_effects = effects_of(errors, by_extended);
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);
         diagnosis.rows.push_back({observation.measurement, observation.row, observable_of(observation), observation.value,
-                                  data.noise.deviation[i], by_base[i], by_extended[i], held_out[k], base_residual[i],
-                                  extended_residual[i]});
+                                  data.noise.deviation[i], by_base.values[i], by_extended.values[i], in_any(folds, k),
+                                  base_residual[i], extended_residual[i]});
     }
 }
 
@@ -190,40 +117,51 @@ bool contains(const std::string& pair, const std::string& member) {
     return pair.starts_with(member + joint) || pair.ends_with(joint + member);
 }
 
-void rank_causes(const std::vector<Fit>& fits, const Inference& inference, double none_evidence, const Priors& priors,
-                 Diagnosis& diagnosis) {
-    const std::vector<double> posterior = posteriors(fits, none_evidence, priors);
-    for (std::size_t k = 0; k < fits.size(); ++k) {
-        diagnosis.causes.push_back(cause_of(fits[k], inference));
+/// The fewest causes with 95 % of the posterior. A pair of which one member explains the data alone, and better, adds no cause.
+std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
+    std::vector<std::string> set;
+    double sum = 0;
+    for (auto cause = causes.begin(); cause != causes.end() && sum < certain; ++cause) {
+        const bool adds = std::none_of(causes.begin(), cause, [&](const Cause& better) {
+            return !better.leaves_remainder && contains(cause->name, better.name);
+        });
+        if (adds) {
+            set.push_back(cause->name);
+        }
+        sum += cause->posterior;
+    }
+    return set;
+}
+
+void rank_causes(const Comparison& comparison, const Inference& inference, const Priors& priors, Diagnosis& diagnosis) {
+    const Compared& base = comparison.all.front();
+    std::vector<double> logarithms;
+    for (const Compared& one : comparison.all) {
+        logarithms.push_back(&one == &base ? one.log_weight() : one.log_total(priors));
+    }
+    logarithms.push_back(base.log_weight_with_remainder(priors));
+    const std::vector<double> posterior = probabilities_of(std::move(logarithms));
+    for (std::size_t k = 0; k < comparison.all.size(); ++k) {
+        diagnosis.causes.push_back(cause_of(comparison.all[k].fit, inference));
         diagnosis.causes.back().posterior = posterior[k];
+        diagnosis.causes.back().leaves_remainder =
+            comparison.all[k].log_weight_with_remainder(priors) > comparison.all[k].log_weight();
     }
     diagnosis.causes.push_back({.name = none_name,
                                 .words = "a smooth departure that no mechanism of the catalogue makes",
                                 .posterior = posterior.back(),
-                                .log_evidence = none_evidence});
+                                .log_evidence = base.fit.log_evidence + base.remainder->log_factor});
     std::stable_sort(diagnosis.causes.begin(), diagnosis.causes.end(),
                      [](const Cause& a, const Cause& b) { return a.posterior > b.posterior; });
-    double sum = 0;
-    for (const Cause& cause : diagnosis.causes) {
-        if (sum < certain) {
-            const auto& set = diagnosis.credible_set;
-            // A pair whose one member explains the data alone, and better, adds no cause.
-            const bool adds =
-                std::none_of(set.begin(), set.end(), [&](const std::string& name) { return contains(cause.name, name); });
-            if (adds) {
-                diagnosis.credible_set.push_back(cause.name);
-            }
-            sum += cause.posterior;
-        }
-    }
+    diagnosis.credible_set = credible_set(diagnosis.causes);
 }
 
-const Fit& fit_named(const std::vector<Fit>& fits, const std::string& name) {
-    return *std::find_if(fits.begin(), fits.end(), [&](const Fit& fit) { return name_of(fit.hypothesis) == name; });
+const Fit& fit_named(const std::vector<Compared>& all, const std::string& name) {
+    return std::find_if(all.begin(), all.end(), [&](const Compared& one) { return name_of(one.fit.hypothesis) == name; })->fit;
 }
 
 /// What to measure next, to tell the causes of the credible set apart.
-std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Fit>& fits, const Inference& inference,
+std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Compared>& all, const Inference& inference,
                                     Simulator& simulator, std::uint64_t seed) {
     std::vector<Fit> candidates;
     std::vector<double> weights;
@@ -231,18 +169,33 @@ std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vecto
         const bool in_set =
             std::find(diagnosis.credible_set.begin(), diagnosis.credible_set.end(), cause.name) != diagnosis.credible_set.end();
         if (in_set && cause.name != none_name && cause.name != "base") {
-            candidates.push_back(fit_named(fits, cause.name));
+            candidates.push_back(fit_named(all, cause.name));
             weights.push_back(cause.posterior);
         }
     }
     return propose(inference, simulator, candidates, weights, seed);
 }
 
-Verdict verdict_of(const Diagnosis& diagnosis, double level) {
-    if (!diagnosis.detected) {
-        return Verdict::no_discrepancy;
+/// A departure in the level alone has many causes, in the structure and in what is taken for known; a value at the end of its range
+/// belongs to a cause that the catalogue does not have.
+void doubt(const Comparison& comparison, Diagnosis& diagnosis) {
+    const Compared& base = comparison.all.front();
+    const Compared& winner = comparison.all[comparison.winner];
+    diagnosis.level_alone = base.log_weight() + base.remainder->log_factor_level > winner.log_weight() - decisive;
+    const auto& ends = winner.fit.active_end;
+    const bool at_end = std::find(ends.begin(), ends.end(), true) != ends.end();
+    auto& set = diagnosis.credible_set;
+    if ((diagnosis.level_alone || at_end) && std::find(set.begin(), set.end(), none_name) == set.end()) {
+        set.emplace_back(none_name);
     }
-    if (diagnosis.causes.front().name == none_name || diagnosis.extended_p_value <= level) {
+}
+
+/// A cause that leaves something over is one if the remainder alone, without it, explains the data far worse.
+Verdict verdict_of(const Comparison& comparison, const Priors& priors, double level, const Diagnosis& diagnosis) {
+    const Compared& base = comparison.all.front();
+    const Compared& winner = comparison.all[comparison.winner];
+    const bool helps = winner.log_weight_with_remainder(priors) - base.log_weight_with_remainder(priors) > decisive;
+    if (diagnosis.causes.front().name == none_name || (comparison.p_value <= level && !helps)) {
         return Verdict::none_of_catalogue;
     }
     return diagnosis.credible_set.size() == 1 ? Verdict::named : Verdict::tied;
@@ -261,9 +214,9 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     const Forward forward(experiment, data.observations, simulator);
     data.noise.deviation =
         (data.noise.deviation.array().square() + forward.structure_deviation(data.values).array().square()).sqrt();
-    const Likelihood likelihood(data);
-    const Inference inference(forward, likelihood);
-    const std::vector<bool> held_out = choose_held_out(experiment, data.observations, options.held_out_part);
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const std::vector<std::vector<bool>> folds = choose_folds(experiment, data.observations, options.held_out_part);
 
     Diagnosis diagnosis;
     diagnosis.noise = options.noise;
@@ -276,25 +229,27 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.detected = diagnosis.p_value <= options.level;
     keep_statistics(detection, diagnosis);
     if (!diagnosis.detected) {
-        predict_rows(data, inference, base.settings, base.settings, held_out, diagnosis);
+        predict_rows(data, inference, base.model, base.model, folds, diagnosis);
         return diagnosis;
     }
-    const Eigen::VectorXd base_prediction = forward.predict(base.settings);
     diagnosis.failures = localise(inference, base, detection);
 
+    const Priors priors = priors_of(options, possible.size());
     const Comparison comparison = compare(base, possible, inference, options, progress);
-    const Fit& winner = comparison.fits[comparison.winner];
+    const Compared& winner = comparison.all[comparison.winner];
     diagnosis.extended_p_value = comparison.p_value;
-    // A smooth correction also takes up noise that is larger than stated; the test knows how uncertain the noise is.
-    const double none = std::min(flexible_evidence(data, forward, base_prediction),
-                                 winner.log_evidence + most_evidence_against(diagnosis.extended_p_value));
-    rank_causes(comparison.fits, inference, none, priors_of(options, possible.size()), diagnosis);
-    diagnosis.verdict = verdict_of(diagnosis, options.level);
+    rank_causes(comparison, inference, priors, diagnosis);
+    doubt(comparison, diagnosis);
+    diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
+    diagnosis.remainder = {.detected = comparison.p_value <= options.level, .p_value = comparison.p_value, .where = {}};
+    if (diagnosis.remainder.detected) {
+        diagnosis.remainder.where = place_of(*winner.remainder, data, forward.predict(winner.fit.model));
+    }
     progress.update("measuring the gain", 0.9);
-    diagnosis.gain = measure_gain(data, held_out, experiment, simulator, winner.hypothesis, options.seed);
-    predict_rows(data, inference, base.settings, winner.settings, held_out, diagnosis);
+    diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);
+    predict_rows(data, inference, base.model, winner.fit.model, folds, diagnosis);
     if (diagnosis.verdict == Verdict::tied) {
-        diagnosis.proposals = proposals_for(diagnosis, comparison.fits, inference, simulator, options.seed);
+        diagnosis.proposals = proposals_for(diagnosis, comparison.all, inference, simulator, options.seed);
     }
     return diagnosis;
 }

@@ -1,12 +1,13 @@
-// From settings to the numbers that an instrument would show, for every observation of an experiment.
+// From a model to the numbers that an instrument would show, for every observation of an experiment: structures and contacts ->
+// modulus of the material -> geometry -> tool.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>
-#include <coagula/diagnose/settings.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
-#include "model_errors.hpp"
 #include "observations.hpp"
+#include "prediction.hpp"
 
 #include <Eigen/Core>
 
@@ -27,13 +28,14 @@ public:
     Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator);
 
     /// @param exact run the simulator at the settings themselves instead of between the nodes of its grids.
-    Eigen::VectorXd predict(const Settings& settings, bool exact = false) const;
+    Eigen::VectorXd predict(const Model& model, bool exact = false) const;
+
+    /// The same between the nodes, with how it changes with the level of a sample and with the independent standard errors that so
+    /// few structures leave in the way in which they yield (Simulator::amplitude_response; none where no bonds break or there is
+    /// one structure).
+    Prediction prediction(const Model& model) const;
 
     const Experiment& experiment() const { return experiment_; }
-
-    /// What the prediction changes by, a column for each of the independent standard errors that so few structures leave in the way
-    /// in which they yield (Simulator::amplitude_response); no columns where no bonds break or there is one structure.
-    ModelErrors yield_errors(const Settings& settings) const;
 
     /// Standard deviation of the error that so few structures leave in the prediction of the rows of structure series
     /// (Simulator::structure_error) where these have about such values: in proportion to the base model, because a value that is
@@ -44,9 +46,8 @@ public:
     double level_error() const { return simulator_.structure_error(); }
 
 private:
-    std::complex<double> seen_by_instrument(const Settings& settings, const Observation& observation,
-                                            std::complex<double> modulus) const;
-    double gradient_factor(const Settings& settings, const Observation& observation, double exponent) const;
+    std::complex<double> seen_by_instrument(const Model& model, const Observation& observation, std::complex<double> modulus) const;
+    double seen_of_structure(const Settings& settings, const Observation& observation, bool exact) const;
     bool strain_varies(const Settings& settings, const Observation& observation) const;
     Eigen::VectorXcd breaking_response(const Settings& settings, const Observation& observation, double before) const;
     std::vector<Yielded> exact_breaking_response(const Settings& settings, const Observation& observation,
@@ -59,9 +60,10 @@ private:
     std::vector<double> largest_strains_before() const;
     Eigen::MatrixXcd amplitude_factors(const Settings& settings, bool exact) const;
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
-    Eigen::MatrixXcd material(const Settings& settings, bool exact) const;
-    const Eigen::MatrixXcd& remembered_material(const Settings& settings, bool exact) const;
-    Eigen::VectorXd seen(const Settings& settings, const Eigen::VectorXcd& moduli, bool exact) const;
+    std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
+    Eigen::MatrixXcd material(const Model& model, bool exact) const;
+    const Eigen::MatrixXcd& remembered_material(const Model& model, bool exact) const;
+    Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
 
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;
@@ -69,6 +71,7 @@ private:
     std::vector<double> largest_strains_before_;
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
+    mutable std::vector<ActingMechanism> last_acting_;
     mutable Eigen::MatrixXcd last_material_;
 };
 

@@ -1,7 +1,7 @@
-// What an extended model gains on data that it has not seen.
+// What a diagnosis gains on data that it has not seen.
 #pragma once
 
-#include "hypothesis.hpp"
+#include "attribution.hpp"
 
 #include <coagula/diagnose/diagnosis.hpp>
 
@@ -9,12 +9,16 @@
 
 namespace coagula::diagnose {
 
-/// Which observations are held out: the last table of every kind that has at least two with different samples, else the rows at the
-/// end of the axis of every table.
-std::vector<bool> choose_held_out(const Experiment& experiment, const std::vector<Observation>& observations, double part);
+/// Which observations are held out together: in turn each sample all of whose tables were measured in the same way on another, too;
+/// else in turn the tables that were measured alike; else the rows at the end of the axis of every table, once. No fold leaves
+/// fewer than four numbers.
+std::vector<std::vector<bool>> choose_folds(const Experiment& experiment, const std::vector<Observation>& observations,
+                                            double part);
 
-/// Fits base and extended model to the other observations and compares their predictions of those held out.
-Gain measure_gain(const DataSet& data, const std::vector<bool>& held_out, const Experiment& experiment, Simulator& simulator,
-                  const Hypothesis& extended, std::uint64_t seed);
+/// For each fold the cause is chosen and fitted on the rest alone; then its prediction of what was held out is compared with that
+/// of the base model and of a smooth correction. Densities are those of the posterior prediction: parameters drawn, effects of the
+/// samples and all errors as in the rest.
+Gain measure_gain(const DataSet& data, const std::vector<std::vector<bool>>& folds, const Experiment& experiment,
+                  Simulator& simulator, const Hypothesis& possible, const DiagnosisOptions& options);
 
 }  // namespace coagula::diagnose

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -24,6 +25,9 @@ constexpr double log_stiffness_range = 18.42;  ///< of eight decades
 constexpr int posterior_draws = 64;
 constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit stays away
 
+/// Logarithm of the density that a grid lacks at its best node where it misses the crest of a ridge.
+constexpr double missed = 0.5;
+
 /// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
 constexpr double enough_nodes = 2.5;
 
@@ -35,23 +39,16 @@ Eigen::VectorXd rounded(const std::vector<MechanismParameter>& parameters, Eigen
     return place;
 }
 
+/// A hypothesis at a place of its prior.
+Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, double normal_stiffness) {
+    std::vector<double> values;
+    for (const MechanismParameter& parameter : parameters_of(hypothesis)) {
+        values.push_back(parameter.at(place[static_cast<Index>(values.size())]));
+    }
+    return {hypothesis, values, normal_stiffness};
+}
+
 }  // namespace
-
-std::string name_of(const Hypothesis& hypothesis) {
-    std::string name;
-    for (const Mechanism* mechanism : hypothesis) {
-        name += (name.empty() ? "" : " + ") + mechanism->name;
-    }
-    return name.empty() ? "base" : name;
-}
-
-std::vector<MechanismParameter> parameters_of(const Hypothesis& hypothesis) {
-    std::vector<MechanismParameter> all;
-    for (const Mechanism* mechanism : hypothesis) {
-        all.insert(all.end(), mechanism->parameters.begin(), mechanism->parameters.end());
-    }
-    return all;
-}
 
 double Inference::stiffness_error() const {
     const double stated = forward_.experiment().sample.normal_stiffness_error;
@@ -59,7 +56,7 @@ double Inference::stiffness_error() const {
 }
 
 bool Inference::level_is_open() const {
-    const auto& observations = likelihood_.data().observations;
+    const auto& observations = errors_.data().observations;
     return std::isnan(forward_.experiment().sample.normal_stiffness_error) &&
            std::any_of(observations.begin(), observations.end(),
                        [](const Observation& one) { return is_modulus(one) && one.structures == 0; });
@@ -77,10 +74,10 @@ double Inference::log_prior(double log_stiffness) const {
 }
 
 double Inference::log_level() const {
-    const std::vector<Observation>& observations = likelihood_.data().observations;
-    Settings settings;
+    const std::vector<Observation>& observations = errors_.data().observations;
+    Model model;
     for (int round = 0; round < 2; ++round) {  // an instrument does not scale
-        const Eigen::VectorXd predicted = forward_.predict(settings);
+        const Eigen::VectorXd predicted = forward_.predict(model);
         std::vector<double> ratios;
         for (std::size_t k = 0; k < observations.size(); ++k) {
             const double ratio = observations[k].value / predicted[static_cast<Index>(k)];
@@ -89,18 +86,18 @@ double Inference::log_level() const {
                 ratios.push_back(ratio);
             }
         }
-        settings.normal_stiffness *= ratios.empty() ? 1.0 : median(std::move(ratios));
+        model.settings.normal_stiffness *= ratios.empty() ? 1.0 : median(std::move(ratios));
     }
-    return std::log(settings.normal_stiffness);
+    return std::log(model.settings.normal_stiffness);
 }
 
 /// Gauss and Newton's method for the logarithm of the stiffness: the prediction's logarithmic derivative by a difference, the
 /// density along it by itself.
-Node Inference::best_stiffness(Settings settings, double start) const {
+Node Inference::best_stiffness(Model model, double start) const {
     constexpr double step = 1e-3;
     const auto predict = [&](double log_stiffness) {
-        settings.normal_stiffness = std::exp(log_stiffness);
-        return forward_.predict(settings);
+        model.settings.normal_stiffness = std::exp(log_stiffness);
+        return forward_.prediction(model);
     };
     double place = start;
     double best = 0;
@@ -108,11 +105,13 @@ Node Inference::best_stiffness(Settings settings, double start) const {
     double longest = 1;  // step; shorter each time that the slope turns, for the density has long tails
     double slope_before = 0;
     for (int iteration = 0; iteration < 40; ++iteration) {
-        const Eigen::VectorXd here = predict(place);
-        const ModelErrors errors = forward_.yield_errors(settings);
-        const Eigen::VectorXd slope_of_prediction = (predict(place + step) - here) / step;
+        const Prediction here = predict(place);
+        const Prediction there = predict(place + step);
         const auto density = [&](double offset) {
-            return likelihood_.log_density(here + offset * slope_of_prediction, errors) + log_prior(place + offset);
+            Prediction moved = here;
+            moved.values += offset / step * (there.values - here.values);
+            moved.level_slope += offset / step * (there.level_slope - here.level_slope);
+            return errors_.log_density(moved) + log_prior(place + offset);
         };
         best = density(0);
         const double above = density(step);
@@ -132,14 +131,6 @@ Node Inference::best_stiffness(Settings settings, double start) const {
     }
     curvature = std::max(curvature, 1e-2);
     return {place, 1 / std::sqrt(curvature), best, best + 0.5 * std::log(2 * pi / curvature)};
-}
-
-Settings Inference::settings_at(const std::vector<MechanismParameter>& parameters, const Eigen::VectorXd& place) {
-    Settings settings;
-    for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
-        settings.*parameters[axis].value = parameters[axis].at(place[static_cast<Index>(axis)]);
-    }
-    return settings;
 }
 
 /// Whitened residuals by the places of the parameters in their priors, stiffness, sample effects and errors of the model at their
@@ -173,9 +164,10 @@ public:
 
 private:
     Departures departures_at(const Eigen::VectorXd& place) const {
-        Fit fit{
-            .hypothesis = hypothesis_, .settings = settings_at(parameters_of(hypothesis_), place), .parameters = {}, .draws = {}};
-        fit.settings.normal_stiffness = std::exp(evaluate_(place).log_stiffness);
+        Fit fit{.hypothesis = hypothesis_,
+                .model = model_at(hypothesis_, place, std::exp(evaluate_(place).log_stiffness)),
+                .parameters = {},
+                .draws = {}};
         return departures_of(inference_, fit);
     }
 
@@ -226,21 +218,41 @@ PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
     const auto axes = static_cast<Index>(parameters.size());
     double start = log_level_;
     const auto evaluate = [&](const Eigen::VectorXd& place) {
-        const Node node = best_stiffness(settings_at(parameters, place), start);
+        const Node node = best_stiffness(model_at(hypothesis, place, 1), start);
         start = node.log_stiffness;
         return node;
     };
     PosteriorGrid grid = grid_along_axes(axes, evaluate);
-    if (axes > 1 && grid.effective_nodes() < std::pow(enough_nodes, axes)) {
-        // A narrow ridge between the axes: the grid along these misses it. At the edge of the prior that about the mode may see
-        // less.
-        auto about = grid_about_mode(hypothesis, grid.places[grid.best()], evaluate);
-        if (about && !about->nodes.empty() && about->nodes[about->best()].log_weight > grid.nodes[grid.best()].log_weight - 1 &&
-            about->effective_nodes() > grid.effective_nodes()) {
+    if (axes > 1) {
+        // A narrow ridge between the axes: the grid along these misses its crest, or sees it at few nodes. At the edge of the prior
+        // the grid about the mode may see less.
+        const auto about = grid_about_mode(hypothesis, grid.places[grid.best()], evaluate);
+        const double gain = about && !about->nodes.empty()
+                                ? about->nodes[about->best()].log_weight - grid.nodes[grid.best()].log_weight
+                                : -std::numeric_limits<double>::infinity();
+        const bool coarse = grid.effective_nodes() < std::pow(enough_nodes, axes);
+        if (gain > missed || (coarse && gain > -1 && about->effective_nodes() > grid.effective_nodes())) {
             return *about;
         }
     }
     return grid;
+}
+
+/// Whether the data ask for more of a parameter than its prior has: a tenth of the range beyond its end they would be more probable
+/// by an e-fold.
+bool Inference::is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const {
+    constexpr double near = 0.01;
+    constexpr double inside = 0.02;
+    constexpr double beyond = 0.1;
+    const bool low = place[axis] < near;
+    if (!low && place[axis] < 1 - near) {
+        return false;
+    }
+    const auto density = [&](double along) {
+        place[axis] = along;
+        return best_stiffness(model_at(hypothesis, place, 1), std::log(stiffness)).log_weight;
+    };
+    return (density(low ? 0.0 : 1.0) - density(low ? inside : 1 - inside)) * beyond / inside > 1;
 }
 
 /// Draws at equal steps of the cumulated probability.
@@ -273,49 +285,59 @@ Fit Inference::fit(const Hypothesis& hypothesis) const {
     const PosteriorGrid grid = grid_for(hypothesis);
     const std::size_t best = grid.best();
     const Eigen::VectorXd place = rounded(parameters, grid.places[best]);
-    const Settings settings = settings_at(parameters, place);
-    const Node node = place == grid.places[best] ? grid.nodes[best] : best_stiffness(settings, grid.nodes[best].log_stiffness);
+    const Node node = place == grid.places[best] ? grid.nodes[best]
+                                                 : best_stiffness(model_at(hypothesis, place, 1), grid.nodes[best].log_stiffness);
+    const double stiffness = std::exp(node.log_stiffness);
     Fit fit{.hypothesis = hypothesis,
-            .settings = settings,
+            .model = model_at(hypothesis, place, stiffness),
             .parameters = {},
             .log_density = node.log_density,
             .log_evidence = grid.log_evidence(),
             .draws = draws_from(grid, parameters)};
-    fit.settings.normal_stiffness = std::exp(node.log_stiffness);
     for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
         const auto row = static_cast<Index>(axis);
-        const double value = fit.settings.*parameters[axis].value;
+        const double value = parameters[axis].at(place[row]);
+        fit.active_end.push_back(is_active_end(hypothesis, place, row, stiffness));
         fit.parameters.push_back({value, std::min(value, parameters[axis].at(grid.quantile(row, 0.05))),
                                   std::max(value, parameters[axis].at(grid.quantile(row, 0.95)))});
     }
-    const double best_one = fit.settings.normal_stiffness;
     const double of_structures = level_is_open() ? forward_.level_error() : 0.0;
     const auto quantile = [&](double part) { return std::exp(grid.log_stiffness_quantile(part, of_structures)); };
-    fit.stiffness = {best_one, std::min(best_one, quantile(0.05)), std::max(best_one, quantile(0.95))};
+    fit.stiffness = {stiffness, std::min(stiffness, quantile(0.05)), std::max(stiffness, quantile(0.95))};
     return fit;
 }
 
 Eigen::MatrixXd Inference::jacobian(const Fit& fit) const {
     const std::vector<MechanismParameter> parameters = parameters_of(fit.hypothesis);
-    const Eigen::VectorXd here = likelihood_.whiten(forward_.predict(fit.settings));
+    const Prediction prediction = forward_.prediction(fit.model);
+    const Eigen::VectorXd here = errors_.whiten(prediction.values);
     Eigen::MatrixXd slopes(here.size(), static_cast<Index>(parameters.size()) + 1);
     constexpr double step = 1e-4;
-    Settings moved = fit.settings;
-    moved.normal_stiffness *= std::exp(step);
-    slopes.col(0) = (likelihood_.whiten(forward_.predict(moved)) - here) / step;
+    Model moved = fit.model;
+    moved.settings.normal_stiffness *= std::exp(step);
+    slopes.col(0) = (errors_.whiten(forward_.predict(moved)) - here) / step;
     for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
-        const MechanismParameter& parameter = parameters[axis];
-        moved = fit.settings;
-        const double place = parameter.place_of(fit.settings.*parameter.value);
+        std::vector<double> values = fit.values();
+        const double place = parameters[axis].place_of(values[axis]);
         const double change = place > 0.5 ? -step : step;
-        moved.*parameter.value = parameter.at(place + change);
-        slopes.col(static_cast<Index>(axis) + 1) = (likelihood_.whiten(forward_.predict(moved)) - here) / change;
+        values[axis] = parameters[axis].at(place + change);
+        const Model beside(fit.hypothesis, values, fit.model.settings.normal_stiffness);
+        slopes.col(static_cast<Index>(axis) + 1) = (errors_.whiten(forward_.predict(beside)) - here) / change;
     }
-    // Sample effects and the errors of the model are fitted, too.
-    const Eigen::MatrixXd effects =
-        likelihood_.effect_directions(forward_.predict(fit.settings), forward_.yield_errors(fit.settings));
+    // Sample effects and the errors of the prediction are fitted, too.
+    const Eigen::MatrixXd effects = errors_.directions(prediction);
     Eigen::MatrixXd all(slopes.rows(), slopes.cols() + effects.cols());
     all << slopes, effects;
+    return all;
+}
+
+std::vector<double> Fit::values() const {
+    std::vector<double> all;
+    for (const Mechanism* mechanism : hypothesis) {
+        const auto found = std::find_if(model.acting.begin(), model.acting.end(),
+                                        [&](const ActingMechanism& one) { return one.mechanism == mechanism; });
+        all.insert(all.end(), found->values.begin(), found->values.end());
+    }
     return all;
 }
 

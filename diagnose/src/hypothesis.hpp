@@ -1,11 +1,11 @@
 // A hypothesis, the base model with some mechanisms, and its evidence.
 #pragma once
 
+#include "error_model.hpp"
 #include "forward.hpp"
-#include "likelihood.hpp"
 #include "posterior_grid.hpp"
 
-#include <coagula/diagnose/mechanism.hpp>
+#include <coagula/diagnose/model.hpp>
 
 #include <Eigen/Core>
 
@@ -13,15 +13,6 @@
 #include <vector>
 
 namespace coagula::diagnose {
-
-/// The base model with these mechanisms.
-using Hypothesis = std::vector<const Mechanism*>;
-
-/// "base", "ageing", "ageing + wall-slip".
-std::string name_of(const Hypothesis& hypothesis);
-
-/// All parameters of the mechanisms, in their order.
-std::vector<MechanismParameter> parameters_of(const Hypothesis& hypothesis);
 
 /// A parameter's posterior.
 struct Posterior {
@@ -33,12 +24,17 @@ struct Posterior {
 /// A hypothesis fitted to data.
 struct Fit {
     Hypothesis hypothesis;
-    Settings settings;                  ///< most probable
+    Model model;                        ///< most probable
     std::vector<Posterior> parameters;  ///< of the mechanisms
+    std::vector<bool> active_end = {};  ///< of each parameter: its most probable value lies at an end of the prior, beyond which
+                                        ///< the data would have it
     Posterior stiffness{};              ///< of a particle [N/m]
-    double log_density = 0;             ///< of the data at `settings`
+    double log_density = 0;             ///< of the data at `model`
     double log_evidence = 0;            ///< of the data, all parameters integrated over their priors
     Eigen::MatrixXd draws;              ///< normal stiffness and parameters x equally probable draws from the posterior
+
+    /// Of all parameters, in their order.
+    std::vector<double> values() const;
 };
 
 /// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
@@ -47,13 +43,12 @@ struct Fit {
 /// eight decades about that which the level of the data asks for.
 class Inference {
 public:
-    Inference(const Forward& forward, const Likelihood& likelihood)
-        : forward_(forward), likelihood_(likelihood), log_level_(log_level()) {}
+    Inference(const Forward& forward, const ErrorModel& errors) : forward_(forward), errors_(errors), log_level_(log_level()) {}
 
     Fit fit(const Hypothesis& hypothesis) const;
 
     /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places, the sample effects and
-    /// the errors of the model (Forward::yield_errors) at a fit.
+    /// the errors of the prediction at a fit.
     Eigen::MatrixXd jacobian(const Fit& fit) const;
 
     /// Standard deviation of the logarithm of the known stiffness, with what so few structures leave in the level of the moduli
@@ -63,24 +58,24 @@ public:
     double stiffness_departure(double log_stiffness) const;
 
     const Forward& forward() const { return forward_; }
-    const Likelihood& likelihood() const { return likelihood_; }
+    const ErrorModel& errors() const { return errors_; }
 
 private:
     /// Moduli show a stiffness that nothing else tells, with what so few structures leave in their level; in a structure series
     /// each row has that error itself.
     bool level_is_open() const;
     class ProjectedResiduals;
-    static Settings settings_at(const std::vector<MechanismParameter>& parameters, const Eigen::VectorXd& place);
     static Eigen::MatrixXd draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters);
     PosteriorGrid grid_for(const Hypothesis& hypothesis) const;
     std::optional<PosteriorGrid> grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
                                                  const EvaluateNode& evaluate) const;
+    bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
     double log_level() const;
     double log_prior(double log_stiffness) const;
-    Node best_stiffness(Settings settings, double start) const;
+    Node best_stiffness(Model model, double start) const;
 
     const Forward& forward_;
-    const Likelihood& likelihood_;
+    const ErrorModel& errors_;
     double log_level_;  ///< logarithm of the stiffness [N/m] that the base model needs for half of the moduli
 };
 

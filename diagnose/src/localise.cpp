@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -24,7 +25,7 @@ std::string value_text(double value, Coordinate coordinate) {
         case Coordinate::strain:
             return three_digits(100 * value) + " %";
         case Coordinate::angular_frequency:
-            return three_digits(value / (2 * std::numbers::pi)) + " Hz";
+            return three_digits(value) + " rad/s";
         case Coordinate::time:
             return three_digits(value) + " s";
         case Coordinate::gap:
@@ -93,37 +94,37 @@ std::string deviations_text(double score) {
 }
 
 /// Of one number that should be standard normal: unit information against none, as for a smooth departure.
-double bayes_factor_of(double score) {
-    return std::exp(std::min(700.0, 0.25 * score * score)) / std::numbers::sqrt2;
+double log_bayes_factor_of(double score) {
+    return 0.25 * score * score - 0.5 * std::numbers::ln2;
 }
 
 /// What differs as a whole: the modulus from that of a known stiffness (where nothing else stands out, however little, for then it
 /// is what the test found), samples from each other.
-void add_departures_of_level(const Inference& inference, const Fit& base, const Eigen::VectorXd& prediction,
+void add_departures_of_level(const Inference& inference, const Fit& base, const Prediction& prediction,
                              std::vector<Failure>& failures) {
     const double least = failures.empty() ? 0.0 : noticeable;
-    const double stiffness = base.settings.normal_stiffness;
+    const double stiffness = base.model.settings.normal_stiffness;
     const double known = inference.forward().experiment().sample.normal_stiffness;
     if (const double score = inference.stiffness_departure(std::log(stiffness)); std::abs(score) >= least) {
         failures.push_back({.observable = "storage_modulus",
                             .axis = "normal_stiffness",
-                            .bayes_factor = bayes_factor_of(score),
+                            .log_bayes_factor = log_bayes_factor_of(score),
                             .from = stiffness,
                             .departure = stiffness / known - 1,
                             .sentence = "the level of G' asks for a normal stiffness of " + three_digits(stiffness) + " N/m, " +
                                         deviations_text(score) + " the known " + three_digits(known) + " N/m"});
     }
-    const DataSet& data = inference.likelihood().data();
+    const DataSet& data = inference.errors().data();
     if (data.samples() < 2 || data.effect <= 0) {
         return;
     }
-    const Eigen::VectorXd effects = inference.likelihood().effects(prediction);
+    const Eigen::VectorXd effects = inference.errors().effects(prediction);
     for (Index sample = 0; sample < data.samples(); ++sample) {
         const double score = effects[sample] / data.effect;
         if (std::abs(score) >= noticeable) {
             failures.push_back({.observable = "storage_modulus",
                                 .axis = "sample",
-                                .bayes_factor = bayes_factor_of(score),
+                                .log_bayes_factor = log_bayes_factor_of(score),
                                 .from = static_cast<double>(sample + 1),
                                 .departure = effects[sample],
                                 .sentence = "sample '" + data.sample_names[static_cast<std::size_t>(sample)] +
@@ -147,7 +148,7 @@ void add_departures_of_images(const std::vector<Observation>& observations, cons
         failures.push_back(
             {.observable = observable_of(one),
              .axis = "frame",
-             .bayes_factor = bayes_factor_of(score),
+             .log_bayes_factor = log_bayes_factor_of(score),
              .from = unset,
              .departure = departure,
              .sentence = unmatched ? three_digits(100 * one.value) + " % of the centres of an image are not in the next one"
@@ -181,7 +182,7 @@ bool is_clocked(const MisfitStatistic& statistic, const Experiment& experiment, 
 /// An axis in words.
 std::string spoken_axis(const MisfitStatistic& statistic, bool clocked) {
     if (statistic.coordinate == Coordinate::angular_frequency) {
-        return "frequency";
+        return "angular frequency";
     }
     return statistic.coordinate == Coordinate::time && !clocked ? "time (10 s a row where none is stated)"
                                                                 : std::string(name_of(statistic.coordinate));
@@ -207,8 +208,7 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
     failure.observable = statistic.observable;
     failure.axis = name_of(statistic.coordinate);
     // Three components with a unit-information prior against none (Kass and Wasserman 1995).
-    failure.bayes_factor =
-        std::exp(std::min(700.0, 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())))));
+    failure.log_bayes_factor = 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())));
     failure.from = places[place];
     failure.departure = late;
     const std::string axis = spoken_axis(statistic, is_clocked(statistic, experiment, observations));
@@ -230,9 +230,10 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
 }  // namespace
 
 std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection) {
-    const std::vector<Observation>& observations = inference.likelihood().data().observations;
-    const Eigen::VectorXd prediction = inference.forward().predict(base.settings);
-    const Eigen::VectorXd residual = inference.likelihood().residual(prediction);
+    const std::vector<Observation>& observations = inference.errors().data().observations;
+    const Prediction fitted = inference.forward().prediction(base.model);
+    const Eigen::VectorXd& prediction = fitted.values;
+    const Eigen::VectorXd residual = inference.errors().residual(fitted);
     std::vector<const MisfitStatistic*> along;
     for (const MisfitStatistic& statistic : detection.statistics) {
         if (statistic.coordinate != Coordinate::none && statistic.cause.empty() && !statistic.autocorrelation) {
@@ -265,12 +266,62 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
             add(*statistic);
         }
     }
-    add_departures_of_level(inference, base, prediction, failures);
+    add_departures_of_level(inference, base, fitted, failures);
     add_departures_of_images(observations, prediction, failures);
     if (failures.empty() && !along.empty()) {
         add(*along.front());
     }
     return failures;
+}
+
+namespace {
+
+/// Numbers of one observable that a remainder moves, and how far, over |G*|.
+struct Moved {
+    std::vector<Index> rows;
+    Eigen::VectorXd share;  ///< of every number
+    Index largest = 0;
+};
+
+Moved moved_by(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction) {
+    Moved moved;
+    moved.share = (remainder.departure.array() / complex_moduli(data.observations, prediction).max(1e-300)).matrix();
+    moved.share.cwiseAbs().maxCoeff(&moved.largest);
+    const char* observable = observable_of(data.observations[static_cast<std::size_t>(moved.largest)]);
+    constexpr double part = 0.5;
+    for (Index row = 0; row < data.size(); ++row) {
+        if (observable_of(data.observations[static_cast<std::size_t>(row)]) == std::string(observable) &&
+            moved.share[row] * moved.share[moved.largest] > 0 &&
+            std::abs(moved.share[row]) > part * std::abs(moved.share[moved.largest])) {
+            moved.rows.push_back(row);
+        }
+    }
+    return moved;
+}
+
+}  // namespace
+
+std::string place_of(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction) {
+    const Moved moved = moved_by(remainder, data, prediction);
+    const auto& observations = data.observations;
+    std::string text = spoken(observable_of(observations[static_cast<std::size_t>(moved.largest)])) + " lies " +
+                       (moved.share[moved.largest] < 0 ? "below" : "above") + " the model by up to " +
+                       three_digits(100 * std::abs(moved.share[moved.largest])) + " % of |G*|";
+    for (const Coordinate coordinate : remainder.best.along) {
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        for (const Index row : moved.rows) {
+            const double place = coordinate_of(observations[static_cast<std::size_t>(row)], coordinate);
+            low = std::isfinite(place) ? std::min(low, place) : low;
+            high = std::isfinite(place) ? std::max(high, place) : high;
+        }
+        if (low <= high) {
+            const std::string axis = coordinate == Coordinate::angular_frequency ? "angular frequency" : name_of(coordinate);
+            text += (text.find(", at ") == std::string::npos ? ", at " : " and ") + axis + " " + value_text(low, coordinate) +
+                    (high > low ? " to " + value_text(high, coordinate) : "");
+        }
+    }
+    return text;
 }
 
 }  // namespace coagula::diagnose

@@ -5,9 +5,40 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanisms/mechanisms.hpp"
+// One line per mechanism, whose file in mechanisms/ defines a function of this name.
+#define COAGULA_CATALOGUE(ENTRY)    \
+    ENTRY(shear_stiffness)          \
+    ENTRY(bond_bending)             \
+    ENTRY(bond_range)               \
+    ENTRY(bond_strength)            \
+    ENTRY(plate_strain_field)       \
+    ENTRY(contact_nonlinearity)     \
+    ENTRY(prestress)                \
+    ENTRY(contact_loss)             \
+    ENTRY(solvent_drag)             \
+    ENTRY(ageing)                   \
+    ENTRY(ageing_after_shear)       \
+    ENTRY(gap_error)                \
+    ENTRY(wall_slip)                \
+    ENTRY(volume_fraction_gradient) \
+    ENTRY(tool_compliance)          \
+    ENTRY(tool_inertia)             \
+    ENTRY(bearing_damping)          \
+    ENTRY(phase_offset)             \
+    ENTRY(numerical)                \
+    ENTRY(localisation_error)       \
+    ENTRY(polydispersity)           \
+    ENTRY(surface_potential)
 
 namespace coagula::diagnose {
+
+namespace mechanisms {
+
+#define COAGULA_DECLARED(name) Mechanism name();
+COAGULA_CATALOGUE(COAGULA_DECLARED)
+#undef COAGULA_DECLARED
+
+}  // namespace mechanisms
 
 double MechanismParameter::at(double place) const {
     return logarithmic ? low * std::pow(high / low, place) : low + (high - low) * place;
@@ -22,31 +53,9 @@ double MechanismParameter::rounded(double place) const {
 }
 
 std::span<const Mechanism> catalogue() {
-    // One line per mechanism.
-    // clang-format off
-    static const std::vector<Mechanism> all{
-        mechanisms::shear_stiffness(),
-        mechanisms::bond_bending(),
-        mechanisms::bond_range(),
-        mechanisms::bond_strength(),
-        mechanisms::plate_strain_field(),
-        mechanisms::contact_nonlinearity(),
-        mechanisms::prestress(),
-        mechanisms::contact_loss(),
-        mechanisms::solvent_drag(),
-        mechanisms::ageing(),
-        mechanisms::ageing_after_shear(),
-        mechanisms::wall_slip(),
-        mechanisms::gap_error(),
-        mechanisms::volume_fraction_gradient(),
-        mechanisms::tool_compliance(),
-        mechanisms::tool_inertia(),
-        mechanisms::numerical(),
-        mechanisms::localisation_error(),
-        mechanisms::polydispersity(),
-        mechanisms::surface_potential(),
-    };
-    // clang-format on
+#define COAGULA_MADE(name) mechanisms::name(),
+    static const std::vector<Mechanism> all{COAGULA_CATALOGUE(COAGULA_MADE)};
+#undef COAGULA_MADE
     return all;
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -54,6 +55,11 @@ const char* observable_of(const Observation& observation);
 
 /// Whether two numbers stand in one column of a table.
 bool same_column(const Observation& one, const Observation& other);
+
+/// Of a Newtonian fluid in place of the sample.
+inline bool is_fluid(const Observation& observation) {
+    return std::isfinite(observation.fluid_viscosity);
+}
 
 /// A modulus, and not what was counted of the structure.
 bool is_modulus(const Observation& observation);

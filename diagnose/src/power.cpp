@@ -66,7 +66,7 @@ public:
 
     const Experiment& experiment() const { return experiment_; }
     const std::vector<Observation>& observations() const { return observations_; }
-    Eigen::VectorXd expected(const Settings& settings) const { return forward_.predict(settings); }
+    Eigen::VectorXd expected(const Model& model) const { return forward_.predict(model); }
 
     /// What would be measured where the truth is `expected`, with errors and effects of the samples.
     Experiment draw(const Eigen::VectorXd& expected, std::uint64_t number) const;
@@ -130,21 +130,18 @@ Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) 
 class Search {
 public:
     Search(const Planned& planned, Simulator& simulator, const PowerOptions& options, const Mechanism& mechanism, double stiffness)
-        : planned_(planned), simulator_(simulator), options_(options), mechanism_(mechanism) {
-        truth_.normal_stiffness = stiffness;
-        for (const MechanismParameter& parameter : mechanism.parameters) {
-            truth_.*parameter.value = parameter.at(0.5);
-        }
-    }
+        : planned_(planned), simulator_(simulator), options_(options), mechanism_(mechanism), stiffness_(stiffness) {}
 
     CausePower run() const;
 
 private:
     const MechanismParameter& strength() const { return mechanism_.parameters.front(); }
-    Settings truth_at(double value) const {
-        Settings settings = truth_;
-        settings.*strength().value = value;
-        return settings;
+    Model truth_at(double value) const {
+        std::vector<double> values{value};
+        for (std::size_t k = 1; k < mechanism_.parameters.size(); ++k) {
+            values.push_back(mechanism_.parameters[k].at(0.5));
+        }
+        return {{&mechanism_}, values, stiffness_};
     }
     PowerPoint measure(double place, int data_sets) const;
     std::vector<PowerPoint> curve() const;
@@ -154,7 +151,7 @@ private:
     Simulator& simulator_;
     const PowerOptions& options_;
     const Mechanism& mechanism_;
-    Settings truth_;
+    double stiffness_;
 };
 
 PowerPoint Search::measure(double place, int data_sets) const {

@@ -6,6 +6,8 @@
 #include "median.hpp"
 #include "weights.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -20,14 +22,9 @@ constexpr int data_per_draw = 4;
 constexpr double certain = 0.95;
 constexpr double least_deviation = 1e-9;  ///< of a modulus [Pa], also where it is predicted to be 0
 
-Settings settings_of(const Fit& fit, Index draw) {
-    Settings settings = fit.settings;
-    settings.normal_stiffness = fit.draws(0, draw);
-    Index next = 1;
-    for (const MechanismParameter& parameter : parameters_of(fit.hypothesis)) {
-        settings.*parameter.value = fit.draws(next++, draw);
-    }
-    return settings;
+Model model_of(const Fit& fit, Index draw) {
+    const Eigen::VectorXd values = fit.draws.col(draw);
+    return {fit.hypothesis, Values(values.data() + 1, static_cast<std::size_t>(values.size()) - 1), values[0]};
 }
 
 /// What is known beforehand of the errors of a measurement: those of the data so far.
@@ -52,24 +49,21 @@ ExpectedErrors errors_of(const DataSet& data) {
 
 /// A cause as the data so far leave it.
 struct Belief {
-    std::vector<Settings> draws;  ///< from its posterior
-    Eigen::MatrixXd errors;       ///< of the model over their standard errors: those that each draw makes most probable, in columns
-    Eigen::MatrixXd covariance;   ///< of these
+    std::vector<Model> draws;    ///< from its posterior
+    Eigen::MatrixXd errors;      ///< of the model over their standard errors: those that each draw makes most probable, in columns
+    Eigen::MatrixXd covariance;  ///< of these
 };
 
 Belief belief_in(const Fit& fit, const Inference& inference) {
     Belief belief;
     const Forward& forward = inference.forward();
-    const ModelErrors model = forward.yield_errors(fit.settings);
-    const Index errors = model.changes.cols();
-    belief.covariance =
-        inference.likelihood().effect_covariance(forward.predict(fit.settings), model).bottomRightCorner(errors, errors);
+    const Prediction best = forward.prediction(fit.model);
+    const Index errors = best.errors.changes.cols();
+    belief.covariance = inference.errors().effect_covariance(best).bottomRightCorner(errors, errors);
     belief.errors.resize(errors, draws_per_cause);
     for (int draw = 0; draw < draws_per_cause; ++draw) {
-        const Settings settings = settings_of(fit, draw * fit.draws.cols() / draws_per_cause);
-        belief.errors.col(draw) =
-            inference.likelihood().effects(forward.predict(settings), forward.yield_errors(settings)).tail(errors);
-        belief.draws.push_back(settings);
+        belief.draws.push_back(model_of(fit, draw * fit.draws.cols() / draws_per_cause));
+        belief.errors.col(draw) = inference.errors().effects(forward.prediction(belief.draws.back())).tail(errors);
     }
     return belief;
 }
@@ -110,10 +104,9 @@ Expectation expected_by(const Belief& belief, const Forward& forward, const std:
     expectation.predictions.resize(rows, draws_per_cause);
     Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(rows, belief.errors.rows());
     for (int draw = 0; draw < draws_per_cause; ++draw) {
-        const Settings& settings = belief.draws[static_cast<std::size_t>(draw)];
-        const Eigen::MatrixXd moved = forward.yield_errors(settings).changes;
-        expectation.predictions.col(draw) = forward.predict(settings) + moved * belief.errors.col(draw);
-        changes += moved / draws_per_cause;
+        const Prediction drawn = forward.prediction(belief.draws[static_cast<std::size_t>(draw)]);
+        expectation.predictions.col(draw) = drawn.values + drawn.errors.changes * belief.errors.col(draw);
+        changes += drawn.errors.changes / draws_per_cause;
     }
     const Eigen::VectorXd mean = expectation.predictions.rowwise().mean();
     Eigen::MatrixXd covariance = changes * belief.covariance * changes.transpose();
@@ -203,7 +196,7 @@ std::vector<Proposal> propose(const Inference& inference, Simulator& simulator, 
     for (const Fit& fit : causes) {
         beliefs.push_back(belief_in(fit, inference));
     }
-    const DataSet& data = inference.likelihood().data();
+    const DataSet& data = inference.errors().data();
     const ExpectedErrors errors = errors_of(data);
     std::uint64_t number = 0;
     for (const Candidate& candidate : candidates_for(inference.forward().experiment(), data.observations)) {

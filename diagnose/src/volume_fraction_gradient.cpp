@@ -1,7 +1,6 @@
 // How the simulated modulus depends on the volume fraction, and what layers of different volume fraction in series make of it.
 #include "volume_fraction_gradient.hpp"
 
-#include "forward.hpp"
 #include "linear_grid.hpp"
 
 #include <coagula/diagnose/simulator.hpp>
@@ -17,7 +16,6 @@ namespace {
 
 constexpr double close_packing = 0.64;
 constexpr double most_depleted = 0.95;  ///< part of the mean volume fraction that the highest layer may have lost
-constexpr double usual_gap = 1e-3;      ///< [m]
 constexpr double floppy = 1e-6;         ///< modulus over the largest one below which a structure bears nothing
 
 }  // namespace
@@ -93,19 +91,6 @@ double Simulator::volume_fraction_exponent(const Settings& settings, bool exact)
     return std::log(between_nodes(settings, [&](double ratio, double bending, double tolerance) {
         return std::exp(exponent_node(ratio, bending, tolerance));
     }));
-}
-
-/// What layers in series do to the modulus of one row.
-double Forward::gradient_factor(const Settings& settings, const Observation& observation, double exponent) const {
-    const double nominal = experiment_.instrument.gap;
-    const double difference =
-        settings.volume_fraction_difference * observation.gap / (std::isfinite(nominal) ? nominal : usual_gap);
-    double fraction = observation.volume_fraction;
-    if (std::isnan(fraction)) {
-        const double stated = observation.structures == 0 ? experiment_.sample.volume_fraction : unset;
-        fraction = std::isfinite(stated) ? stated : simulator_.volume_fraction(observation.structures);
-    }
-    return layers_in_series(exponent, settled_difference(fraction, difference) / fraction);
 }
 
 }  // namespace coagula::diagnose

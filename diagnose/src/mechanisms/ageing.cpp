@@ -1,14 +1,29 @@
 #include "mechanisms.hpp"
 
+#include <numbers>
+
 namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+constexpr double start = 1;  ///< age of the sample when the first run begins [s]
+
+}  // namespace
 
 Mechanism ageing() {
     return {.name = "ageing",
             .term = "the contacts grow stiffer with the age of the sample",
             .signature = "follows the order of the runs and the time, not the strain",
-            .parameters = {{"per_decade", "1", 0.02, 0.3, true, &Settings::ageing_per_decade}},
+            .parameters = {{"per_decade", "1", 0.02, 0.3, true}},
+            .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample&) -> std::complex<double> {
+                return std::isfinite(row.time) ? 1 + values[0] * std::log10(1 + row.time / start) : 1;
+            }},
+            .applies = takes_time,
             .in_contact = true,
-            .applies = takes_time};
+            .contact = [](ContactModel& model, Values values) {
+                model.ageing_rate = values[0] / std::numbers::ln10;
+                model.ageing_time = start;
+            }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -16,9 +16,10 @@ Mechanism ageing_after_shear() {
     return {.name = "ageing-after-shear",
             .term = "the structure that the shear before the run destroyed builds up again: the stiffness grows as a power of time",
             .signature = "follows the time since the shear, not the strain, over orders of magnitude",
-            .parameters = {{"build_up_exponent", "1", 0.1, 3, true, &Settings::build_up_exponent},
-                           {"build_up_time", "s", 1, 1000, true, &Settings::build_up_time}},
-            .in_contact = false,
+            .parameters = {{"build_up_exponent", "1", 0.1, 3, true}, {"build_up_time", "s", 1, 1000, true}},
+            .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample&) -> std::complex<double> {
+                return std::isfinite(row.time) ? std::pow(1 + row.time / values[1], values[0]) : 1;
+            }},
             .applies = sheared_before};
 }
 

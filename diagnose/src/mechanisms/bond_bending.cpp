@@ -6,9 +6,10 @@ Mechanism bond_bending() {
     return {.name = "bond-bending",
             .term = "bonds resist bending and twisting",
             .signature = "raises the moduli, most where the coordination is low",
-            .parameters = {{"bending_over_normal", "1", 1e-6, 0.1, true, &Settings::bending_ratio}},
-            .in_contact = true,
-            .applies = has_moduli};
+            .parameters = {{"bending_over_normal", "1", 1e-6, 0.1, true}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.bending_ratio = values[0]; }},
+            .applies = has_moduli,
+            .in_contact = true};
 }
 
 }  // namespace coagula::diagnose::mechanisms

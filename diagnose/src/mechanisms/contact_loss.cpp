@@ -6,10 +6,13 @@ Mechanism contact_loss() {
     return {.name = "contact-loss",
             .term = "the contacts lose energy: a springpot beside their springs",
             .signature = "a loss modulus that is flat or a weak power of frequency, from the lowest strain on",
-            .parameters = {{"springpot_over_spring", "1", 0.03, 10, true, &Settings::springpot_ratio},
-                           {"exponent", "1", 0.01, 0.3, true, &Settings::springpot_exponent}},
-            .in_contact = true,
-            .applies = knows_frequency};
+            .parameters = {{"springpot_over_spring", "1", 0.03, 10, true}, {"exponent", "1", 0.01, 0.3, true}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) {
+                settings.springpot_ratio = values[0];
+                settings.springpot_exponent = values[1];
+            }},
+            .applies = knows_frequency,
+            .in_contact = true};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -8,9 +8,10 @@ Mechanism contact_nonlinearity() {
             .signature =
                 "the storage modulus rises as the square root of the strain where that exceeds the strain of the load at rest, "
                 "the same on the way down as up, whatever the age",
-            .parameters = {{"preload_overlap", "1", 1e-7, 3e-2, true, &Settings::contact_preload}},
-            .in_contact = true,
-            .applies = sweeps_amplitude};
+            .parameters = {{"preload_overlap", "1", 1e-7, 3e-2, true}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.contact_preload = values[0]; }},
+            .applies = sweeps_amplitude,
+            .in_contact = true};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -6,8 +6,10 @@ Mechanism gap_error() {
     return {.name = "gap-error",
             .term = "the gap is larger than stated",
             .signature = "all moduli lower by one factor, more at small gaps, also in a Newtonian oil",
-            .parameters = {{"gap_error", "m", 1e-5, 6e-5, true, &Settings::gap_error}},
-            .in_contact = false,
+            .parameters = {{"gap_error", "m", 1e-5, 6e-5, true}},
+            .effect = ChangesGeometry{[](std::complex<double> modulus, const Observation& row, Values values) {
+                return std::isfinite(row.gap) ? modulus * row.gap / (row.gap + values[0]) : modulus;
+            }},
             .applies = knows_gap};
 }
 

@@ -1,33 +1,15 @@
-// The mechanisms, one file each.
+// What the mechanisms, one file each, share: what an experiment must say for them.
 #pragma once
 
 #include <coagula/diagnose/mechanism.hpp>
 
+#include "../observations.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 namespace coagula::diagnose::mechanisms {
-
-Mechanism shear_stiffness();
-Mechanism bond_bending();
-Mechanism bond_range();
-Mechanism bond_strength();
-Mechanism plate_strain_field();
-Mechanism contact_nonlinearity();
-Mechanism prestress();
-Mechanism contact_loss();
-Mechanism solvent_drag();
-Mechanism ageing();
-Mechanism ageing_after_shear();
-Mechanism wall_slip();
-Mechanism gap_error();
-Mechanism volume_fraction_gradient();
-Mechanism tool_compliance();
-Mechanism tool_inertia();
-Mechanism numerical();
-Mechanism localisation_error();
-Mechanism polydispersity();
-Mechanism surface_potential();
 
 /// Of the places of critical strains in their priors: 1 % of the strain, less than structures can tell.
 constexpr double strength_step = 1.0 / 920;
@@ -79,6 +61,10 @@ inline bool knows_frequency(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) {
         return find_column(table, "angular_frequency") != nullptr || find_column(table, "frequency") != nullptr;
     });
+}
+
+inline bool knows_plates_and_frequencies(const Experiment& experiment) {
+    return knows_plates(experiment) && knows_frequency(experiment);
 }
 
 inline bool sweeps_amplitude(const Experiment& experiment) {

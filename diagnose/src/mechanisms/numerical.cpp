@@ -1,5 +1,7 @@
 #include "mechanisms.hpp"
 
+#include <coagula/diagnose/simulator.hpp>
+
 #include <set>
 
 namespace coagula::diagnose::mechanisms {
@@ -14,14 +16,17 @@ bool compares_sizes(const Experiment& experiment) {
 }  // namespace
 
 Mechanism numerical() {
-    return {.name = "numerical",
-            .term = "the simulated structures are too small: the modulus drifts with their number of particles",
-            .signature =
-                "what is measured departs from the simulation the more the fewer particles the structure has; gone after "
-                "refinement",
-            .parameters = {{"drift_at_thousand_particles", "1", -0.3, 1, false, &Settings::size_drift}},
-            .in_contact = false,
-            .applies = compares_sizes};
+    return {
+        .name = "numerical",
+        .term = "the simulated structures are too small: the modulus drifts with their number of particles",
+        .signature =
+            "what is measured departs from the simulation the more the fewer particles the structure has; gone after "
+            "refinement",
+        .parameters = {{"drift_at_thousand_particles", "1", -0.3, 1, false}},
+        .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) -> std::complex<double> {
+            return 1 + values[0] * std::cbrt(1000 / sample.simulator.particles(row.structures));
+        }},
+        .applies = compares_sizes};
 }
 
 }  // namespace coagula::diagnose::mechanisms

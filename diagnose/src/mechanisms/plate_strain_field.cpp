@@ -32,9 +32,10 @@ Mechanism plate_strain_field() {
     return {.name = "plate-strain-field",
             .term = "bonds break at a finite force, first at the rim of the plates, where the strain is largest",
             .signature = "the yield of bonds of finite strength, spread over a wider range of strain",
-            .parameters = {{"rim_critical_strain", "1", 3e-6, 3e-2, true, &Settings::rim_critical_strain, strength_step}},
-            .in_contact = true,
-            .applies = sweeps_between_plates};
+            .parameters = {{"rim_critical_strain", "1", 3e-6, 3e-2, true, strength_step}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.rim_critical_strain = values[0]; }},
+            .applies = sweeps_between_plates,
+            .in_contact = true};
 }
 
 }  // namespace coagula::diagnose::mechanisms

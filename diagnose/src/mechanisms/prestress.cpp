@@ -8,9 +8,10 @@ Mechanism prestress() {
     return {.name = "prestress",
             .term = "all contacts pull at rest: their force resists sideways motion",
             .signature = "raises the moduli, most where the network is loose, at all strains and frequencies alike",
-            .parameters = {{"tension_over_stiffness", "1", 1e-4, 1e-2, true, &Settings::tension}},
-            .in_contact = true,
-            .applies = has_moduli};
+            .parameters = {{"tension_over_stiffness", "1", 1e-4, 1e-2, true}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.tension = values[0]; }},
+            .applies = has_moduli,
+            .in_contact = true};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -8,9 +8,10 @@ Mechanism solvent_drag() {
     return {.name = "solvent-drag",
             .term = "the solvent drags on every particle that does not follow the strain",
             .signature = "a loss modulus in proportion to the frequency",
-            .parameters = {{"felt_viscosity", "Pa.s", 1e-3, 100, true, &Settings::felt_viscosity}},
-            .in_contact = true,
-            .applies = knows_frequency};
+            .parameters = {{"felt_viscosity", "Pa.s", 1e-3, 100, true}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.felt_viscosity = values[0]; }},
+            .applies = knows_frequency,
+            .in_contact = true};
 }
 
 }  // namespace coagula::diagnose::mechanisms

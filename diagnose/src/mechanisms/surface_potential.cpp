@@ -24,8 +24,8 @@ Mechanism surface_potential() {
             .signature =
                 "above a barrier of some kT structures are more heterogeneous at equal coordination: larger pores, more "
                 "neighbours within two diameters",
-            .parameters = {{"surface_potential", "V", 0, highest_potential, false, &Settings::coagulation_potential}},
-            .in_contact = false,
+            .parameters = {{"surface_potential", "V", 0, highest_potential, false}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.coagulation_potential = values[0]; }},
             .applies = coagulates};
 }
 

@@ -6,8 +6,10 @@ Mechanism tool_compliance() {
     return {.name = "tool-compliance",
             .term = "the tool yields more than the instrument corrects",
             .signature = "the apparent storage modulus saturates when the sample is stiff",
-            .parameters = {{"compliance", "rad/(N.m)", 5e-4, 1e-2, true, &Settings::tool_compliance}},
-            .in_contact = false,
+            .parameters = {{"compliance", "rad/(N.m)", 5e-4, 1e-2, true}},
+            .effect = ChangesTool{[](std::complex<double> modulus, const Observation&, double torque_per_modulus, Values values) {
+                return modulus / (1.0 + values[0] * torque_per_modulus * modulus);
+            }},
             .applies = knows_plates};
 }
 

@@ -2,12 +2,46 @@
 
 namespace coagula::diagnose::mechanisms {
 
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Slip under a cone, where the gap grows with the radius: 3 times the integral of u^3 / (u + x) over 0 < u < 1, by which the
+/// torque is the smaller. x is the displacement at both walls over the sample's own, at the rim.
+Complex sticking_share(Complex x) {
+    if (std::abs(x) < 50) {
+        return 1.0 - 1.5 * x + 3.0 * x * x - (x == 0.0 ? 0.0 : 3.0 * x * x * x * std::log(1.0 + 1.0 / x));
+    }
+    Complex share = 0;  // the same for large x, where the terms above cancel
+    Complex power = 1;
+    for (int k = 1; k <= 10; ++k) {
+        power /= x;
+        share += (k % 2 == 1 ? 3.0 : -3.0) / (k + 3.0) * power;
+    }
+    return share;
+}
+
+/// With a displacement of the sample at each wall of so much [m/Pa] times the stress there. Nothing slips on rough plates, and no
+/// Newtonian fluid does.
+Complex slipping(Complex modulus, const Observation& row, Values values) {
+    if (row.rough_plates || std::isfinite(row.fluid_viscosity)) {
+        return modulus;
+    }
+    if (std::isfinite(row.cone_angle)) {
+        const double rim = row.cone_angle * row.plate_radius;
+        return std::isfinite(rim) ? modulus * sticking_share(2.0 * values[0] * modulus / rim) : modulus;
+    }
+    return std::isfinite(row.gap) ? modulus / (1.0 + 2.0 * values[0] * modulus / row.gap) : modulus;
+}
+
+}  // namespace
+
 Mechanism wall_slip() {
     return {.name = "wall-slip",
             .term = "the sample slips at the plates",
             .signature = "the apparent modulus is the lower the stiffer the sample and the smaller the gap",
-            .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true, &Settings::slip}},
-            .in_contact = false,
+            .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true}},
+            .effect = ChangesGeometry{slipping},
             .applies = knows_walls};
 }
 

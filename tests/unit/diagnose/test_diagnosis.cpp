@@ -1,6 +1,6 @@
 // Hidden effects: data from another way of computing, other structures and other noise than the diagnosis uses; it must say what
 // was hidden.
-#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>
 #include <coagula/mechanics/rheometer.hpp>
@@ -151,7 +151,7 @@ TEST(Diagnosis, FollowsTheScaleOfTheModuli) {
 TEST(Diagnosis, SaysThatADepartureIsTheSameAllAlong) {
     const Diagnosis found = diagnose_tables({frequency_sweep(std::vector<std::complex<double>>(16, {1e5, 4e3}), 3)});
     ASSERT_FALSE(found.failures.empty());
-    EXPECT_NE(found.failures.front().sentence.find("G'' lies above the base model all along frequency: mean difference 4"),
+    EXPECT_NE(found.failures.front().sentence.find("G'' lies above the base model all along angular frequency: mean difference 4"),
               std::string::npos)
         << found.failures.front().sentence;
 }

@@ -1,4 +1,4 @@
-#include "data_set.hpp"
+#include "error_model.hpp"
 
 #include <coagula/common/random.hpp>
 #include <coagula/diagnose/noise.hpp>
@@ -141,7 +141,7 @@ std::pair<double, double> lag_of_draws(double correlation_error) {
     double sum = 0;
     double squares = 0;
     for (std::uint64_t draw = 0; draw < draws; ++draw) {
-        const Eigen::VectorXd errors = draw_errors(data, 7, draw);
+        const Eigen::VectorXd errors = ErrorModel(data).draw(7, draw);
         const double lag = errors.head(rows - 1).dot(errors.tail(rows - 1)) / errors.squaredNorm();
         sum += lag;
         squares += lag * lag;

@@ -2,7 +2,7 @@
 #include "forward.hpp"
 #include "hidden_effects.hpp"
 
-#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
 #include <coagula/mechanics/linear.hpp>
@@ -136,8 +136,8 @@ TEST(Numerical, DriftsWithTheNumberOfParticles) {
     const Eigen::VectorXd base = forward.predict(settings);
     EXPECT_NEAR(base[0], two.exact_linear_modulus(settings, 1), 1e-9 * base[0]);
     EXPECT_NEAR(base[1], two.exact_linear_modulus(settings, 2), 1e-9 * base[1]);
-    settings.size_drift = 0.2;
-    const Eigen::ArrayXd departure = forward.predict(settings).array() / base.array() - 1;
+    const Model drifting({find_mechanism("numerical")}, std::array{0.2});
+    const Eigen::ArrayXd departure = forward.predict(drifting).array() / base.array() - 1;
     EXPECT_NEAR(departure[0], 0.5, 1e-9);
     EXPECT_NEAR(departure[1], 0.25, 1e-9);
 }
@@ -152,9 +152,9 @@ Experiment under_cone(double radius, double angle) {
     return made;
 }
 
-std::complex<double> first_modulus(const Experiment& experiment, const Settings& settings) {
+std::complex<double> first_modulus(const Experiment& experiment, const Model& model) {
     const auto rows = observations_of(experiment);
-    const Eigen::VectorXd predicted = Forward(experiment, rows, simulator()).predict(settings);
+    const Eigen::VectorXd predicted = Forward(experiment, rows, simulator()).predict(model);
     return {predicted[0], predicted[1]};
 }
 
@@ -169,19 +169,21 @@ TEST(WallSlip, UnderAConeIsThatOfTheGapAtEveryRadius) {
     settings.springpot_exponent = 0.3;
     const std::complex<double> modulus = first_modulus(experiment, settings);
     EXPECT_GT(modulus.imag(), 0.1 * modulus.real());
+    Model slipping(settings);
     for (const double sliding : {1e-4, 0.1, 3.0, 49.0, 51.0, 1e4}) {  // at both walls, over the sample's own at the rim
-        settings.slip = sliding * angle * radius / (2 * std::abs(modulus));
+        const double slip = sliding * angle * radius / (2 * std::abs(modulus));
+        slipping.acting = {{find_mechanism("wall-slip"), {slip}}};
         constexpr int rings = 20000;
         std::complex<double> torque = 0;
         for (int ring = 0; ring < rings; ++ring) {
             const double r = radius * (ring + 0.5) / rings;
-            const std::complex<double> stress = modulus / (1.0 + 2.0 * settings.slip * modulus / (angle * r));
+            const std::complex<double> stress = modulus / (1.0 + 2.0 * slip * modulus / (angle * r));
             torque += 3.0 / rings * std::pow(r / radius, 2) * stress;
         }
-        EXPECT_LT(std::abs(first_modulus(experiment, settings) / torque - 1.0), 1e-7) << sliding;
+        EXPECT_LT(std::abs(first_modulus(experiment, slipping) / torque - 1.0), 1e-7) << sliding;
     }
     experiment.measurements[0].rough_plates = true;
-    EXPECT_EQ(first_modulus(experiment, settings), modulus);
+    EXPECT_EQ(first_modulus(experiment, slipping), modulus);
     experiment.instrument.plate_radius = unset;
     EXPECT_FALSE(find_mechanism("wall-slip")->applies(experiment));
 }
@@ -196,24 +198,70 @@ TEST(Catalogue, ParametersHaveNamesOfTheirOwn) {
     }
 }
 
+/// Moduli at one strain against frequency, with this mechanism and without, between plates of 12.5 mm and 1 mm.
+std::vector<std::complex<double>> tool_changes(const char* name, double value, const std::vector<double>& frequencies) {
+    Experiment experiment;
+    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
+    Measurement table;
+    table.columns = {{"angular_frequency", "rad/s", frequencies},
+                     {"storage_modulus", "Pa", std::vector(frequencies.size(), 1.0)},
+                     {"loss_modulus", "Pa", std::vector(frequencies.size(), 1.0)}};
+    experiment.measurements = {table};
+    EXPECT_TRUE(find_mechanism(name)->applies(experiment));
+    const auto rows = observations_of(experiment);
+    const Forward forward(experiment, rows, simulator());
+    const Eigen::VectorXd with = forward.predict(Model({find_mechanism(name)}, std::array{value}));
+    const Eigen::VectorXd without = forward.predict(Model{});
+    std::vector<std::complex<double>> changes;
+    const auto count = static_cast<Index>(frequencies.size());
+    for (Index row = 0; row < count; ++row) {
+        changes.emplace_back(with[row] - without[row], with[row + count] - without[row + count]);
+    }
+    return changes;
+}
+
+/// T = (K G* + i b w) theta with K = pi R^4 / (2 h).
+TEST(BearingDamping, AddsToTheLossModulusInProportionToTheFrequency) {
+    const std::vector<double> frequencies{0.5, 5, 50};
+    const auto changes = tool_changes("bearing-damping", 1e-6, frequencies);
+    for (std::size_t row = 0; row < frequencies.size(); ++row) {
+        const double expected = 1e-6 * frequencies[row] * 2 * 1e-3 / (std::numbers::pi * std::pow(0.0125, 4));
+        EXPECT_NEAR(changes[row].imag(), expected, 1e-9 * expected);
+        EXPECT_EQ(changes[row].real(), 0);
+    }
+}
+
+/// Of springs, which lose nothing, G'' is tan(offset) times G'.
+TEST(PhaseOffset, TurnsTheModulus) {
+    const double modulus = simulator().linear_modulus({});
+    for (const double offset : {0.03, -0.03}) {
+        for (const std::complex<double>& change : tool_changes("phase-offset", offset, {0.5, 50})) {
+            EXPECT_LT(std::abs(change - modulus * (std::polar(1.0, offset) - 1.0)), 1e-9 * modulus);
+        }
+    }
+}
+
 /// At both ends of their priors.
 TEST(ExtendedModel, IsAcceptedForEveryPairInTheContact) {
-    const auto set = [](const Mechanism& mechanism, double place, Settings& settings) {
-        for (const MechanismParameter& parameter : mechanism.parameters) {
-            settings.*parameter.value = parameter.at(place);
+    const auto values_at = [](const Hypothesis& hypothesis, bool low, bool high) {
+        std::vector<double> values;
+        for (const Mechanism* mechanism : hypothesis) {
+            for (const MechanismParameter& parameter : mechanism->parameters) {
+                values.push_back(parameter.at((mechanism == hypothesis[0] ? low : high) ? 1 : 0));
+            }
         }
+        return values;
     };
     std::size_t pairs = 0;
     for (const Mechanism& first : catalogue()) {
         for (const Mechanism& second : catalogue()) {
-            for (const double place : {0.0, 1.0, 2.0, 3.0}) {
-                if (!first.in_contact || !second.in_contact) {
+            for (const int place : {0, 1, 2, 3}) {
+                if (!first.in_contact || !second.in_contact || &first == &second) {
                     continue;
                 }
-                Settings settings;
-                set(first, place < 2 ? 0 : 1, settings);
-                set(second, place == 1 || place == 3 ? 1 : 0, settings);
-                EXPECT_NO_THROW(check(contact_model_of(settings, 0.25e-6))) << first.name << " + " << second.name;
+                const Hypothesis both{&first, &second};
+                const Model model(both, values_at(both, place >= 2, place % 2 == 1));
+                EXPECT_NO_THROW(check(contact_model_of(model, 0.25e-6))) << name_of(both);
                 ++pairs;
             }
         }

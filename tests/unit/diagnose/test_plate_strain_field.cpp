@@ -3,7 +3,7 @@
 #include "forward.hpp"
 #include "hidden_effects.hpp"
 
-#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/rheometer.hpp>
 
 #include <gtest/gtest.h>
@@ -123,13 +123,11 @@ TEST(PlateStrainField, AConeInPlaceOfThePlateTurnsByItsAngle) {
     experiment.measurements[0].cone_angle = angle;
     const auto rows = observations_of(experiment);
     const Forward forward(experiment, rows, simulator());
-    Settings settings;
-    const double modulus = forward.predict(settings)[0];
-    settings.gap_error = 1e-4;
-    EXPECT_DOUBLE_EQ(forward.predict(settings)[0], modulus);
-    settings.tool_compliance = 0.01;
+    const double modulus = forward.predict(Model{})[0];
+    EXPECT_DOUBLE_EQ(forward.predict(Model({find_mechanism("gap-error")}, std::array{1e-4}))[0], modulus);
+    const Model yielding({find_mechanism("gap-error"), find_mechanism("tool-compliance")}, std::array{1e-4, 0.01});
     const double factor = 2 * std::numbers::pi * std::pow(radius, 3) / (3 * angle);
-    EXPECT_NEAR(forward.predict(settings)[0], modulus / (1 + 0.01 * factor * modulus), 1e-9 * modulus);
+    EXPECT_NEAR(forward.predict(yielding)[0], modulus / (1 + 0.01 * factor * modulus), 1e-9 * modulus);
 }
 
 /// Without its angle nothing is known of what a cone transmits.
@@ -143,9 +141,8 @@ TEST(PlateStrainField, AConeWithoutAnAngleShowsNothingOfTheTool) {
     EXPECT_TRUE(find_mechanism("tool-compliance")->applies(experiment));
     const std::vector<Observation> observations = observations_of(experiment);
     const Forward forward(experiment, observations, simulator());
-    Settings yielding;
-    yielding.tool_compliance = 5e-3;
-    const double modulus = forward.predict({})[0];
+    const Model yielding({find_mechanism("tool-compliance")}, std::array{5e-3});
+    const double modulus = forward.predict(Model{})[0];
     const double torque = 2 * std::numbers::pi * std::pow(0.0125, 3) / (3 * 0.02) * modulus;
     EXPECT_NEAR(forward.predict(yielding)[0] / modulus, 1 / (1 + 5e-3 * torque), 1e-12);
     experiment.instrument.geometry = Geometry::plate_plate;
@@ -249,7 +246,7 @@ TEST(PlateStrainField, IsTiedWithBreakingAtOnceWhereStructuresAreFew) {
     EXPECT_LT(field->parameters[1].low, 2e-4);
     EXPECT_GT(field->parameters[1].high, 2e-4);
     const MechanismParameter& strain = find_mechanism("plate-strain-field")->parameters[0];
-    const double place = strain.place_of(field->settings.rim_critical_strain);
+    const double place = strain.place_of(field->model.simulated().rim_critical_strain);
     EXPECT_NEAR(place, strain.rounded(place), 1e-9) << "strengths end at hundredths";
 
     // What is proposed decides.

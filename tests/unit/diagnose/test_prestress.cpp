@@ -2,7 +2,7 @@
 #include "forward.hpp"
 #include "hidden_effects.hpp"
 
-#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>
 

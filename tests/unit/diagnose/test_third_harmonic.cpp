@@ -3,7 +3,7 @@
 #include "forward.hpp"
 #include "hidden_effects.hpp"
 
-#include <coagula/diagnose/extended_model.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/waveform.hpp>
 #include <coagula/mechanics/rheometer.hpp>
 

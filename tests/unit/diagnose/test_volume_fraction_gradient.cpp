@@ -153,9 +153,9 @@ Experiment gap_series(double difference, const std::vector<double>& gaps, double
     return made;
 }
 
-std::vector<double> predicted(const Experiment& experiment, const Settings& settings) {
+std::vector<double> predicted(const Experiment& experiment, const Model& model) {
     const auto rows = observations_of(experiment);
-    const Eigen::VectorXd values = Forward(experiment, rows, *known().simulator).predict(settings);
+    const Eigen::VectorXd values = Forward(experiment, rows, *known().simulator).predict(model);
     return {values.begin(), values.end()};
 }
 
@@ -164,10 +164,8 @@ std::vector<double> predicted(const Experiment& experiment, const Settings& sett
 TEST(VolumeFractionGradient, LowersTheModulusWhereTheGapIsWide) {
     const std::vector<double> gaps{0.5e-3, 1e-3, 2e-3, 4e-3};
     const Experiment experiment = gap_series(0.05, gaps, 0, 1);
-    Settings settled;
-    settled.volume_fraction_difference = 0.05;
-    Settings slipping;
-    slipping.slip = 1e-10;
+    const Model settled({find_mechanism("volume-fraction-gradient")}, std::array{0.05});
+    const Model slipping({find_mechanism("wall-slip")}, std::array{1e-10});
     const std::vector<double> with = predicted(experiment, settled);
     const std::vector<double> slipped = predicted(experiment, slipping);
     const std::vector<double> without = predicted(experiment, {});

@@ -3,9 +3,8 @@
 
 #include <coagula/common/progress.hpp>
 #include <coagula/diagnose/measurement.hpp>
-#include <coagula/diagnose/mechanism.hpp>
+#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/noise.hpp>
-#include <coagula/diagnose/settings.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
 #include <Eigen/Core>
@@ -55,6 +54,7 @@ struct EstimatedParameter {
     double value = 0;
     double low = 0;
     double high = 0;
+    bool at_end = false;  ///< of its physical range, beyond which the data would have it
 };
 
 /// A cause, or several at once ("ageing + wall-slip"), or "none of the catalogue", "base".
@@ -63,8 +63,9 @@ struct Cause {
     std::string words = {};  ///< what it changes
     double posterior = 0;
     double log_evidence = 0;
+    bool leaves_remainder = false;                    ///< it is more probable with a smooth remainder on top than alone
     std::vector<EstimatedParameter> parameters = {};  ///< the stiffness of the particles first, where a modulus shows it
-    Settings settings = {};                           ///< most probable
+    Model model = {};                                 ///< most probable
     Eigen::MatrixXd draws = {};                       ///< from the posterior: parameters x equally probable draws
 };
 
@@ -79,12 +80,19 @@ struct TestedStatistic {
 
 /// Where the base model fails.
 struct Failure {
-    std::string observable;   ///< "storage_modulus", "loss_modulus"
-    std::string axis;         ///< "strain", "angular_frequency", "time", "gap" ..., "normal_stiffness", "sample"
-    double bayes_factor = 1;  ///< of a smooth departure along the axis against none
+    std::string observable;       ///< "storage_modulus", "loss_modulus"
+    std::string axis;             ///< "strain", "angular_frequency", "time", "gap" ..., "normal_stiffness", "sample"
+    double log_bayes_factor = 0;  ///< of a smooth departure along the axis against none
     double from = 0;  ///< value of the axis from which on it departs; stiffness that is asked for; number of the sample, from 1
     double departure = 0;  ///< mean relative difference of data and base model there
     std::string sentence;
+};
+
+/// What a model leaves over.
+struct Remainder {
+    bool detected = false;  ///< p_value is not above the level of the test
+    double p_value = 1;     ///< of the test, applied to that model
+    std::string where;      ///< a sentence; empty where nothing is left over
 };
 
 /// Predictions of a row by models that were fitted without the held-out rows [Pa].
@@ -95,7 +103,8 @@ struct HeldOutPrediction {
     double flexible = 0;
 };
 
-/// What the extended model gains on data that neither model was fitted to; NaN where no rows were held out.
+/// What the diagnosis gains on data that it has not seen: whole samples (or sweeps, or the ends of tables) are held out in turn,
+/// the cause is chosen and fitted on the rest. NaN where no rows were held out.
 struct Gain {
     std::size_t held_out = 0;  ///< numbers
     double rmse_base = unset;  ///< of the relative difference
@@ -106,6 +115,7 @@ struct Gain {
     double elpd_low = unset;         ///< 90 % interval by block bootstrap; NaN with fewer than two blocks of rows
     double elpd_high = unset;
     std::vector<HeldOutPrediction> predictions = {};
+    std::vector<std::string> chosen = {};  ///< cause that the rest of each fold asks for: the same each time if the data are clear
 };
 
 /// A measurement that would tell the causes of a tie apart.
@@ -139,6 +149,8 @@ struct Diagnosis {
     std::vector<std::string> credible_set;  ///< smallest set with 95 % of the posterior; pairs with a member of the set left out
     std::vector<Failure> failures;          ///< strongest first
     double extended_p_value = 1;            ///< of the test, applied to the best cause
+    Remainder remainder;                    ///< that the best cause leaves over
+    bool level_alone = false;               ///< a departure of the level of the moduli alone says as much as the best cause
     Gain gain;
     std::vector<Proposal> proposals;  ///< most informative first
     NoiseSettings noise;

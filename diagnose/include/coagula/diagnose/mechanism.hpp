@@ -1,14 +1,21 @@
-// The catalogue of causes: each is a term of the simulation or of the instrument with its parameters.
+// The catalogue of causes. Each changes one link of the chain from the structures to the numbers that an instrument shows:
+// structures and contacts, the modulus of the material, the geometry of the plates, the tool.
 #pragma once
 
+#include <coagula/common/contact_model.hpp>
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/settings.hpp>
 
+#include <complex>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace coagula::diagnose {
+
+class Simulator;
+struct Observation;
 
 /// A parameter with its physical range, over which the prior is uniform (or uniform in the logarithm).
 struct MechanismParameter {
@@ -17,7 +24,6 @@ struct MechanismParameter {
     double low;
     double high;
     bool logarithmic;
-    double Settings::*value;
     /// The place of a fit is a multiple of this, where it is not 0: runs that take long serve other fits again.
     double step = 0;
 
@@ -28,19 +34,55 @@ struct MechanismParameter {
     double rounded(double place) const;
 };
 
+/// Values of the parameters of a mechanism, in their order.
+using Values = std::span<const double>;
+
+/// What is known where the material is asked for: the experiment, the structures and how they are simulated.
+struct SimulatedSample {
+    const Experiment& experiment;
+    Simulator& simulator;
+    const Settings& settings;
+    bool exact;  ///< run the simulator at the settings themselves instead of between the nodes of its grids
+};
+
+/// Other structures, contacts or images: what the simulation runs.
+struct ChangesSimulation {
+    void (*set)(Settings& settings, Values values);
+};
+
+/// A factor on the modulus of the material in a row.
+struct ScalesMaterial {
+    std::complex<double> (*factor)(const Observation& row, Values values, const SimulatedSample& sample);
+};
+
+/// The modulus that plates or cone show of one of the material [Pa].
+struct ChangesGeometry {
+    std::complex<double> (*apparent)(std::complex<double> modulus, const Observation& row, Values values);
+};
+
+/// The modulus that the tool shows [Pa]. @param torque_per_modulus of the geometry, per angle [m3].
+struct ChangesTool {
+    std::complex<double> (*apparent)(std::complex<double> modulus, const Observation& row, double torque_per_modulus,
+                                     Values values);
+};
+
+using Effect = std::variant<ChangesSimulation, ScalesMaterial, ChangesGeometry, ChangesTool>;
+
 /// One cause.
 struct Mechanism {
     std::string name;       ///< "bond-bending"
     std::string term;       ///< what it changes, in words
     std::string signature;  ///< what it does to the data, in words
     std::vector<MechanismParameter> parameters;
-    bool in_contact;  ///< a term of the contact model, which `coagula shear --model` can run; else of the instrument or the
-                      ///< structure
+    Effect effect;
     /// Whether an experiment says what the mechanism needs (a gap, a plate radius), so that it can be a cause at all.
     bool (*applies)(const Experiment& experiment);
+    bool in_contact = false;  ///< `coagula shear --model` can run it
+    /// Its term in the model of the contact, where `effect` alone does not say it.
+    void (*contact)(ContactModel& model, Values values) = nullptr;
 };
 
-/// All of them.
+/// All of them. Those of the geometry, and those of the tool, act in this order.
 std::span<const Mechanism> catalogue();
 
 /// Null when there is none of this name.

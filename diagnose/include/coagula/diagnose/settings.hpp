@@ -1,12 +1,12 @@
-// Everything that the base model and the mechanisms can set: contact, structure and instrument.
+// Everything that a simulation of the sample can be run with: contacts, structures and their images.
 #pragma once
 
 #include <limits>
 
 namespace coagula::diagnose {
 
-/// One state of the simulation and of the instrument. The defaults are the base model of Schenker et al. 2012: linear normal and
-/// shear springs, bonds without moments, no loss, a perfect instrument.
+/// One state of the simulation. The defaults are the base model of Schenker et al. 2012: linear normal and shear springs, bonds
+/// without moments, no loss.
 struct Settings {
     double normal_stiffness = 100;  ///< of a particle [N/m]
     double stiffness_ratio = 0.1;   ///< shear over normal stiffness
@@ -29,17 +29,6 @@ struct Settings {
     double contact_preload = 0;  ///< Hertz contacts that are as stiff as the springs at this overlap over r0, which they have under
                                  ///< the load at rest; 0: linear springs
 
-    double ageing_per_decade = 0;  ///< stiffness grows by this share of its first value in a decade of time
-    double build_up_exponent =
-        0;  ///< after a shear that destroyed the structure stiffness grows as (1 + t / build_up_time) to this power
-    double build_up_time = 1;  ///< [s]
-    double ageing_start = 1;   ///< age of the sample when the first run begins [s]
-
-    double size_drift = 0;  ///< measured moduli over those simulated exceed 1 by this share times (1000 / particles)^(1/3)
-
-    double volume_fraction_difference = 0;  ///< between the lowest and the highest layer over the nominal gap of the instrument (1
-                                            ///< mm where none is stated); grows in proportion to the gap
-
     double localisation_plane = 0;  ///< standard deviation of measured centres in the plane x-y [m]
     double localisation_axis = 0;   ///< along z [m]
     double missed_share = 0;        ///< of the particles
@@ -48,11 +37,6 @@ struct Settings {
     double size_deviation = 0;  ///< standard deviation of the radii over their mean
     double coagulation_potential =
         std::numeric_limits<double>::infinity();  ///< surface potential of the coagulation [V]; infinite: as the recipe says
-
-    double slip = 0;             ///< wall slip b: apparent modulus G / (1 + 2 G b / gap) [m/Pa]
-    double gap_error = 0;        ///< true gap less the stated one [m]
-    double tool_compliance = 0;  ///< [rad/(N m)], beyond what the instrument corrects
-    double tool_inertia = 0;     ///< [kg m^2], beyond what the instrument corrects
 
     bool operator==(const Settings&) const = default;
 };

@@ -1,10 +1,11 @@
-#include "likelihood.hpp"
+#include "error_model.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/math/distributions/normal.hpp>
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace coagula::diagnose {
 namespace {
@@ -39,6 +40,10 @@ Eigen::MatrixXd model_errors() {
     return errors;
 }
 
+Prediction with_errors(double degrees = std::numeric_limits<double>::infinity()) {
+    return {prediction(), prediction(), {model_errors(), degrees}};
+}
+
 /// By the covariance in full.
 double direct(const DataSet& data, double effect, const Eigen::MatrixXd& errors = Eigen::MatrixXd::Zero(40, 1)) {
     Eigen::MatrixXd covariance = data.noise.covariance() + errors * errors.transpose();
@@ -54,38 +59,33 @@ double direct(const DataSet& data, double effect, const Eigen::MatrixXd& errors 
     return -0.5 * white.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
 }
 
-TEST(Likelihood, AgreesWithTheCovarianceInFull) {
+TEST(ErrorModel, AgreesWithTheCovarianceInFull) {
     const DataSet data = correlated();
-    EXPECT_NEAR(Likelihood(data).log_density(prediction()), direct(data, data.effect), 1e-9);
-    const Likelihood dense(data, Eigen::MatrixXd::Zero(data.size(), data.size()));
-    EXPECT_NEAR(dense.log_density(prediction()), direct(data, data.effect), 1e-9);
-    EXPECT_NEAR(dense.residual(prediction()).squaredNorm(), Likelihood(data).residual(prediction()).squaredNorm(), 1e-9);
+    EXPECT_NEAR(ErrorModel(data).log_density(prediction()), direct(data, data.effect), 1e-9);
 }
 
-TEST(Likelihood, TakesErrorsOfTheModelAsCovariance) {
+TEST(ErrorModel, TakesErrorsOfTheModelAsCovariance) {
     DataSet data = correlated();
     const double exact = direct(data, data.effect, model_errors());
-    EXPECT_NEAR(Likelihood(data).log_density(prediction(), {model_errors()}), exact, 1e-9);
-    const Likelihood dense(data, Eigen::MatrixXd::Zero(data.size(), data.size()));
-    EXPECT_NEAR(dense.log_density(prediction(), {model_errors()}), exact, 1e-9);
+    EXPECT_NEAR(ErrorModel(data).log_density(with_errors()), exact, 1e-9);
     EXPECT_GT(std::abs(exact - direct(data, data.effect)), 0.1) << "the errors make no difference here";
     data.effect = 0;
-    EXPECT_NEAR(Likelihood(data).log_density(prediction(), {model_errors()}), direct(data, 0, model_errors()), 1e-9);
+    EXPECT_NEAR(ErrorModel(data).log_density(with_errors()), direct(data, 0, model_errors()), 1e-9);
 }
 
 /// The most probable errors minimise what they and the residuals cost together.
-TEST(Likelihood, FindsErrorsOfTheModel) {
+TEST(ErrorModel, FindsErrorsOfTheModel) {
     const DataSet data = correlated();
     Eigen::VectorXd true_errors(2);
     true_errors << 1.5, -0.7;
     DataSet moved = data;
     moved.values = prediction() + model_errors() * true_errors;
     moved.noise.deviation *= 1e-3;
-    const Eigen::VectorXd found = Likelihood(moved).effects(prediction(), {model_errors()});
+    const Eigen::VectorXd found = ErrorModel(moved).effects(with_errors());
     ASSERT_EQ(found.size(), 4);
     EXPECT_LT(found.head(2).cwiseAbs().maxCoeff(), 1e-4);
     EXPECT_LT((found.tail(2) - true_errors).cwiseAbs().maxCoeff(), 1e-3);
-    EXPECT_LT(Likelihood(moved).residual(prediction(), {model_errors()}).cwiseAbs().maxCoeff(), 1);
+    EXPECT_LT(ErrorModel(moved).residual(with_errors()).cwiseAbs().maxCoeff(), 1);
 }
 
 /// Logarithm of the mean density over the scale of a deviation that is known from some degrees of freedom.
@@ -100,7 +100,7 @@ double averaged(double degrees, const std::function<double(double)>& log_density
 }
 
 /// By conditioning the effects of samples and the errors on the data in full.
-TEST(Likelihood, SaysHowWellEffectsAndErrorsAreKnown) {
+TEST(ErrorModel, SaysHowWellEffectsAndErrorsAreKnown) {
     const DataSet data = correlated();
     Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(40, 4);
     parts.block(0, 0, 20, 1) = 0.05 * prediction().head(20);
@@ -110,16 +110,16 @@ TEST(Likelihood, SaysHowWellEffectsAndErrorsAreKnown) {
     Eigen::MatrixXd known = Eigen::MatrixXd::Identity(4, 4) - parts.transpose() * all.llt().solve(parts);
     known.topRows(2) *= 0.05;
     known.leftCols(2) *= 0.05;
-    const Eigen::MatrixXd found = Likelihood(data).effect_covariance(prediction(), {model_errors()});
+    const Eigen::MatrixXd found = ErrorModel(data).effect_covariance(with_errors());
     EXPECT_LT((found - known).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_GT(known.bottomRightCorner(2, 2).diagonal().minCoeff(), 1e-3);
 }
 
-TEST(Likelihood, AveragesOverAnUncertainScaleOfTheModelsErrors) {
+TEST(ErrorModel, AveragesOverAnUncertainScaleOfTheModelsErrors) {
     DataSet data = correlated();
     const double exact =
         averaged(3, [&](double scale) { return direct(data, data.effect, Eigen::MatrixXd(scale * model_errors())); });
-    EXPECT_NEAR(Likelihood(data).log_density(prediction(), {model_errors(), 3}), exact, 0.1);
+    EXPECT_NEAR(ErrorModel(data).log_density(with_errors(3)), exact, 0.1);
     EXPECT_GT(std::abs(direct(data, data.effect, model_errors()) - exact), 0.1) << "the uncertainty makes no difference here";
     data.effect_degrees = 4;
     const double both = averaged(4, [&](double effect) {
@@ -127,15 +127,62 @@ TEST(Likelihood, AveragesOverAnUncertainScaleOfTheModelsErrors) {
                         [&](double scale) { return direct(data, effect * data.effect, Eigen::MatrixXd(scale * model_errors())); });
     });
     // Seven pairs stand for all: enough for evidences that count in e-folds.
-    EXPECT_NEAR(Likelihood(data).log_density(prediction(), {model_errors(), 3}), both, 0.5);
+    EXPECT_NEAR(ErrorModel(data).log_density(with_errors(3)), both, 0.5);
 }
 
-TEST(Likelihood, AveragesOverAnUncertainSampleEffect) {
+TEST(ErrorModel, AveragesOverAnUncertainSampleEffect) {
     DataSet data = correlated();
     data.effect_degrees = 4;
     const double exact = averaged(4, [&](double scale) { return direct(data, data.effect * scale); });
-    EXPECT_NEAR(Likelihood(data).log_density(prediction()), exact, 0.1);
+    EXPECT_NEAR(ErrorModel(data).log_density(prediction()), exact, 0.1);
     EXPECT_GT(std::abs(direct(data, data.effect) - exact), 0.1) << "the uncertainty makes no difference here";
+}
+
+/// A prediction may be absurd: the density falls with its square and never exceeds that of one that meets every number.
+TEST(ErrorModel, DoesNotCancelWhereAPredictionIsAbsurd) {
+    const DataSet data = correlated();
+    const ErrorModel model(data);
+    const Eigen::VectorXd unlike = Eigen::VectorXd::LinSpaced(40, 1, -3).array().cube();
+    double before = model.saturated();
+    for (const double size : {1e3, 1e6, 1e9, 1e12, 1e15}) {
+        const Prediction absurd(size * unlike, size * unlike, {size * model_errors(), 3});
+        const double density = model.log_density(absurd);
+        EXPECT_LE(density, before) << size;
+        // The effects of the samples take up what they can of data that such a prediction does not meet; its own level stays.
+        const Prediction alone(size * unlike, Eigen::VectorXd::Zero(40), {});
+        EXPECT_NEAR(model.log_density(alone) / (-0.5 * model.whiten(size * unlike).squaredNorm()), 1, 100 / size);
+        before = density + 30;
+    }
+}
+
+/// The tool's own share of the numbers does not scale with the sample.
+TEST(ErrorModel, LetsASampleScaleTheMaterialAlone) {
+    DataSet data = correlated();
+    const Eigen::VectorXd tool = Eigen::VectorXd::LinSpaced(40, 0, -250);  // through zero, as an inertia does
+    data.values = prediction() + tool;
+    data.values.head(20) += 0.08 * prediction().head(20);
+    data.effect = 0.1;
+    data.noise.deviation.setConstant(0.2);
+    const Prediction seen(prediction() + tool, prediction(), {});
+    EXPECT_NEAR(ErrorModel(data).effects(seen)[0], 0.08, 2e-3);
+    EXPECT_LT(ErrorModel(data).residual(seen).cwiseAbs().maxCoeff(), 1);
+}
+
+/// Deviations that are known from some degrees of freedom: Student's t of the residuals.
+TEST(ErrorModel, AveragesOverUncertainDeviations) {
+    DataSet data = correlated();
+    data.effect = 0;
+    data.observations.resize(40);
+    for (Observation& one : data.observations) {
+        one.errors.degrees = 25;
+    }
+    for (const double offset : {0.0, 10.0}) {
+        const Eigen::VectorXd moved = prediction().array() + offset;
+        const double square = data.noise.whiten(data.values - moved).squaredNorm();
+        const double exact = std::lgamma(0.5 * (25 + 40)) - std::lgamma(0.5 * 25) - 20 * std::log(0.5 * 25) -
+                             0.5 * (25 + 40) * std::log1p(square / 25) - 0.5 * data.noise.log_determinant();
+        EXPECT_NEAR(ErrorModel(data).log_density(moved), exact, 0.02) << offset;
+    }
 }
 
 TEST(RowNoise, WhitensToUnitCovariance) {

@@ -1,0 +1,46 @@
+// Which cause explains the data: the base model, every cause and pairs, each alone and with a remainder on top.
+#pragma once
+
+#include "hypothesis.hpp"
+#include "remainder.hpp"
+
+#include <coagula/common/progress.hpp>
+#include <coagula/diagnose/diagnosis.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Logarithms of prior weights over that of a single mechanism.
+struct Priors {
+    double pair;  ///< of one pair
+    double none;  ///< of a remainder, alone or beside a cause
+};
+
+Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms);
+
+/// A hypothesis without and with a remainder.
+struct Compared {
+    Fit fit;
+    double log_prior = 0;
+    std::optional<SmoothRemainder> remainder = {};  ///< once it was looked for
+
+    double log_weight() const { return fit.log_evidence + log_prior; }
+    double log_weight_with_remainder(const Priors& priors) const;
+    double log_total(const Priors& priors) const;
+};
+
+/// What was compared.
+struct Comparison {
+    std::vector<Compared> all;  ///< the base model first
+    std::size_t winner = 0;     ///< the most probable of all but the base model
+    double p_value = 1;         ///< of the test, applied to the winner
+};
+
+/// Fits single causes; where the best does not pass the test with ease, it is paired with those causes towards which the data still
+/// depart from it.
+Comparison compare(const Fit& base, const Hypothesis& possible, const Inference& inference, const DiagnosisOptions& options,
+                   const Progress& progress = {});
+
+}  // namespace coagula::diagnose

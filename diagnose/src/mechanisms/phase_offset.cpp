@@ -1,0 +1,20 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+/// Rheometers state 0.1 to 2 degrees.
+Mechanism phase_offset() {
+    return {.name = "phase-offset",
+            .term = "the instrument reads the phase with an offset",
+            .signature = "G'' of a stiff solid is a fixed share of G', of either sign, at all frequencies, strains and times",
+            .parameters = {{"phase", "rad", -0.05, 0.05, false}},
+            .effect = ChangesTool{[](std::complex<double> modulus, const Observation&, double, Values values) {
+                return modulus * std::polar(1.0, values[0]);
+            }},
+            .applies = [](const Experiment& experiment) {
+                return any_measurement(experiment,
+                                       [](const Measurement& table) { return find_column(table, "loss_modulus") != nullptr; });
+            }};
+}
+
+}  // namespace coagula::diagnose::mechanisms

@@ -1,0 +1,116 @@
+#include "remainder.hpp"
+
+#include "low_rank.hpp"
+#include "weights.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr double free_deviation = 1e3;  ///< of what follows freely, in standard errors of the numbers together
+
+/// The fit with all that follows a remainder.
+struct Start {
+    Prediction prediction;
+    Eigen::MatrixXd following;  ///< whitened directions of stiffness and parameters, of unit deviation
+};
+
+Start start_of(const Inference& inference, const Fit& fit) {
+    Model model = fit.model;
+    const double known = inference.forward().experiment().sample.normal_stiffness;
+    const double error = inference.stiffness_error();
+    if (std::isfinite(error)) {
+        model.settings.normal_stiffness = known;  // about which it may differ by its error
+    }
+    Fit moved = fit;
+    moved.model = model;
+    const Eigen::MatrixXd slopes = inference.jacobian(moved);
+    const auto parameters = static_cast<Index>(fit.active_end.size());
+    std::vector<Eigen::VectorXd> columns;
+    for (Index column = 0; column <= parameters; ++column) {
+        const Eigen::VectorXd slope = slopes.col(column);
+        const bool stays = column > 0 && fit.active_end[static_cast<std::size_t>(column) - 1];
+        if (stays || slope.norm() == 0) {
+            continue;
+        }
+        columns.emplace_back(column == 0 && std::isfinite(error) ? Eigen::VectorXd(error * slope)
+                                                                 : Eigen::VectorXd(free_deviation / slope.norm() * slope));
+    }
+    Start start{inference.forward().prediction(model), Eigen::MatrixXd(slopes.rows(), static_cast<Index>(columns.size()))};
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        start.following.col(static_cast<Index>(k)) = columns[k];
+    }
+    return start;
+}
+
+Eigen::MatrixXd beside(const Eigen::MatrixXd& first, const Eigen::MatrixXd& second) {
+    Eigen::MatrixXd both(first.rows(), first.cols() + second.cols());
+    both << first, second;
+    return both;
+}
+
+Eigen::MatrixXd whitened(const ErrorModel& errors, Eigen::MatrixXd columns) {
+    for (auto&& column : columns.colwise()) {
+        column = errors.whiten(column);
+    }
+    return columns;
+}
+
+double log_mean(const std::vector<double>& logarithms) {
+    return log_sum(logarithms) - std::log(static_cast<double>(logarithms.size()));
+}
+
+/// Most probable departure along some directions beside what follows.
+Eigen::VectorXd departure_along(const ErrorModel& errors, const Start& start, const Eigen::MatrixXd& factor) {
+    const Eigen::MatrixXd directions = errors.directions(start.prediction);
+    const Index samples = errors.data().samples();
+    const Eigen::MatrixXd others =
+        beside(beside(directions.rightCols(directions.cols() - samples), start.following), whitened(errors, factor));
+    NormalEffects effects(errors.data().effect * directions.leftCols(samples).rowwise().sum(), errors.data().sample, samples,
+                          others);
+    effects.solve(errors.whiten(errors.data().values - start.prediction.values), Eigen::VectorXd::Ones(errors.size()));
+    return factor * effects.most_probable().tail(factor.cols());
+}
+
+}  // namespace
+
+SmoothRemainder find_remainder(const Inference& inference, const Fit& fit) {
+    const ErrorModel& errors = inference.errors();
+    const std::vector<Observation>& observations = errors.data().observations;
+    const Start start = start_of(inference, fit);
+    const bool known = std::isfinite(inference.stiffness_error());
+    const double alone = errors.log_density(start.prediction, start.following);
+    SmoothRemainder found;
+    double best = -std::numeric_limits<double>::infinity();
+    Eigen::MatrixXd best_factor;
+    std::vector<double> all;
+    for (const double length : smooth_lengths) {
+        for (const std::vector<SmoothDeparture>& group : smooth_departures(observations, known)) {
+            std::vector<double> members;
+            for (const SmoothDeparture& departure : group) {
+                const Eigen::MatrixXd factor = factor_of(covariance(departure, observations, start.prediction.values, length));
+                const Eigen::MatrixXd white = whitened(errors, factor);
+                for (const double amplitude : smooth_amplitudes) {
+                    members.push_back(errors.log_density(start.prediction, beside(start.following, amplitude * white)) - alone);
+                    if (members.back() > best) {
+                        best = members.back();
+                        found.best = departure;
+                        best_factor = amplitude * factor;
+                    }
+                }
+            }
+            all.push_back(log_mean(members));
+            if (known && group.front().along.empty()) {
+                found.log_factor_level = all.back();
+            }
+        }
+    }
+    found.log_factor = log_mean(all);
+    found.departure = departure_along(errors, start, best_factor);
+    return found;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,20 @@
+// What a model leaves over: a smooth departure on top of it (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425).
+#pragma once
+
+#include "smooth.hpp"
+
+#include <Eigen/Core>
+
+namespace coagula::diagnose {
+
+struct SmoothRemainder {
+    double log_factor = 0;        ///< on the evidence of the fit, averaged over coordinates, amplitudes and lengths
+    double log_factor_level = 0;  ///< the same of a departure of the level of both moduli alone
+    SmoothDeparture best = {};    ///< of these
+    Eigen::VectorXd departure;    ///< most probable one along that, of every number
+};
+
+/// At a fit, whose stiffness and parameters follow (linearised there; those at an active end of their prior stay).
+SmoothRemainder find_remainder(const Inference& inference, const Fit& fit);
+
+}  // namespace coagula::diagnose
