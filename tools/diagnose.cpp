@@ -11,6 +11,7 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/check_data.hpp>
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/outliers.hpp>
 #include <coagula/diagnose/waveform.hpp>
 
 #include <algorithm>
@@ -211,6 +212,9 @@ void run(const Arguments& arguments) {
     std::vector<diagnose::Measurement> tables;
     for (const CheckedMeasurement& entry : checked) {
         tables.push_back(entry.measurement);
+    }
+    for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(tables)) {
+        file.notes.push_back(outlier.sentence);
     }
     const std::vector<NoiseModel> noises = diagnose::noise_of_tables(tables, file.noise);
     if (!arguments.flag("check")) {

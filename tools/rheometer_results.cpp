@@ -83,10 +83,13 @@ void append_protocol(Results& results, const RheometerResult& result, const mech
     results.push_back(io::scalar(group + "mass_scaling", result.mass_scaling, "1", "mass in the run over the real mass"));
     results.push_back(io::scalar(group + "inertial_number", result.inertial_number, "1",
                                  "largest strain rate times sqrt(mass / normal contact stiffness)"));
-    results.push_back(io::vector(group + "rate_error", over_runs(result, &RheometerRun::rate_error), "1",
-                                 "per orientation: relative change of the stress at a peak when the network comes to rest there"));
-    results.push_back(io::vector(group + "rest_modulus", over_runs(result, &RheometerRun::rest_modulus), "Pa",
-                                 "per orientation: G' from the stress at a peak after the network has come to rest there"));
+    results.push_back(
+        io::vector(group + "rate_error", over_runs(result, &RheometerRun::rate_error), "1",
+                   "per orientation: relative change of the stress at a peak when the network comes to rest there; NaN where it "
+                   "carries none or did not come to rest"));
+    results.push_back(
+        io::vector(group + "rest_modulus", over_runs(result, &RheometerRun::rest_modulus), "Pa",
+                   "per orientation: G' from the stress at a peak after the network has come to rest there; NaN where it did not"));
     results.push_back(io::vector(group + "unbalanced_ratio", over_runs(result, &RheometerRun::unbalanced_ratio), "1",
                                  "per orientation: rms unbalanced force over mean contact force at a peak"));
     results.push_back(io::vector(group + "rest_force", over_runs(result, &RheometerRun::rest_force), "1",

@@ -14,8 +14,9 @@ namespace coagula::diagnose {
 
 /// Logarithms of prior weights over that of a single mechanism.
 struct Priors {
-    double pair;  ///< of one pair
-    double none;  ///< of a remainder, alone or beside a cause
+    double pair;    ///< of one pair
+    double none;    ///< of a remainder alone
+    double beside;  ///< of a remainder beside a cause: all causes together as probable as none of them
 };
 
 Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms);
@@ -38,9 +39,12 @@ struct Comparison {
     double p_value = 1;         ///< of the test, applied to the winner
 };
 
+/// How much is tried: in brief without remainders and with one pair.
+enum class Effort { whole, brief };
+
 /// Fits single causes; where the best does not pass the test with ease, it is paired with those causes towards which the data still
 /// depart from it.
 Comparison compare(const Fit& base, const Hypothesis& possible, const Inference& inference, const DiagnosisOptions& options,
-                   const Progress& progress = {});
+                   Effort effort = Effort::whole, const Progress& progress = {});
 
 }  // namespace coagula::diagnose

@@ -157,7 +157,7 @@ void Checker::leave_out_impossible_cells() {
     }
 }
 
-/// A wrong unit, or a sign.
+/// A wrong unit.
 void Checker::check_level() {
     constexpr double softest = 1e-9;
     constexpr double stiffest = 1e15;
@@ -168,9 +168,11 @@ void Checker::check_level() {
     std::vector<double> values;
     std::copy_if(storage->values.begin(), storage->values.end(), std::back_inserter(values),
                  [](double value) { return std::isfinite(value); });
+    // Raw moduli of a heavy tool fall below zero.
+    std::for_each(values.begin(), values.end(), [](double& value) { value = std::abs(value); });
     const double middle = median(values);
     if (!values.empty() && !(middle >= softest && middle <= stiffest)) {
-        complain("column 'storage_modulus' has a median of " + to_text(middle) + " Pa; from 1e-9 to 1e15 Pa is possible");
+        complain("column 'storage_modulus' has a median size of " + to_text(middle) + " Pa; from 1e-9 to 1e15 Pa is possible");
     }
 }
 

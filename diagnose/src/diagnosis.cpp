@@ -117,13 +117,14 @@ bool contains(const std::string& pair, const std::string& member) {
     return pair.starts_with(member + joint) || pair.ends_with(joint + member);
 }
 
-/// The fewest causes with 95 % of the posterior. A pair of which one member explains the data alone, and better, adds no cause.
+/// The fewest causes with 95 % of the posterior. A pair of which one member explains the data alone, and better, adds no cause, nor
+/// does one that leaves as much over.
 std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
     std::vector<std::string> set;
     double sum = 0;
     for (auto cause = causes.begin(); cause != causes.end() && sum < certain; ++cause) {
         const bool adds = std::none_of(causes.begin(), cause, [&](const Cause& better) {
-            return !better.leaves_remainder && contains(cause->name, better.name);
+            return (!better.leaves_remainder || cause->leaves_remainder) && contains(cause->name, better.name);
         });
         if (adds) {
             set.push_back(cause->name);
@@ -133,13 +134,31 @@ std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
     return set;
 }
 
+/// Weight of "none of the catalogue": a smooth departure from the base model. A departure of the level alone has many causes, in
+/// the structure and in what is taken for known, and a value at the end of its range belongs to a cause that the catalogue does not
+/// have: there it counts as much as the best cause.
+double log_weight_of_none(const Comparison& comparison, const Priors& priors, bool level_alone) {
+    const Compared& winner = comparison.all[comparison.winner];
+    const auto& ends = winner.fit.active_end;
+    const bool at_end = std::find(ends.begin(), ends.end(), true) != ends.end();
+    const double smooth = comparison.all.front().log_weight_with_remainder(priors);
+    return level_alone || at_end ? std::max(smooth, winner.log_total(priors)) : smooth;
+}
+
+/// Whether the base model with a stiffness that nobody knows explains as much as the best cause with the known one.
+bool is_level_alone(const Inference& inference, const Fit& winner) {
+    return std::isfinite(inference.stiffness_error()) &&
+           inference.density_of_free_level() >
+               inference.errors().log_density(inference.forward().prediction(winner.model)) - decisive;
+}
+
 void rank_causes(const Comparison& comparison, const Inference& inference, const Priors& priors, Diagnosis& diagnosis) {
     const Compared& base = comparison.all.front();
     std::vector<double> logarithms;
     for (const Compared& one : comparison.all) {
         logarithms.push_back(&one == &base ? one.log_weight() : one.log_total(priors));
     }
-    logarithms.push_back(base.log_weight_with_remainder(priors));
+    logarithms.push_back(log_weight_of_none(comparison, priors, diagnosis.level_alone));
     const std::vector<double> posterior = probabilities_of(std::move(logarithms));
     for (std::size_t k = 0; k < comparison.all.size(); ++k) {
         diagnosis.causes.push_back(cause_of(comparison.all[k].fit, inference));
@@ -174,20 +193,6 @@ std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vecto
         }
     }
     return propose(inference, simulator, candidates, weights, seed);
-}
-
-/// A departure in the level alone has many causes, in the structure and in what is taken for known; a value at the end of its range
-/// belongs to a cause that the catalogue does not have.
-void doubt(const Comparison& comparison, Diagnosis& diagnosis) {
-    const Compared& base = comparison.all.front();
-    const Compared& winner = comparison.all[comparison.winner];
-    diagnosis.level_alone = base.log_weight() + base.remainder->log_factor_level > winner.log_weight() - decisive;
-    const auto& ends = winner.fit.active_end;
-    const bool at_end = std::find(ends.begin(), ends.end(), true) != ends.end();
-    auto& set = diagnosis.credible_set;
-    if ((diagnosis.level_alone || at_end) && std::find(set.begin(), set.end(), none_name) == set.end()) {
-        set.emplace_back(none_name);
-    }
 }
 
 /// A cause that leaves something over is one if the remainder alone, without it, explains the data far worse.
@@ -235,11 +240,11 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.failures = localise(inference, base, detection);
 
     const Priors priors = priors_of(options, possible.size());
-    const Comparison comparison = compare(base, possible, inference, options, progress);
+    const Comparison comparison = compare(base, possible, inference, options, Effort::whole, progress);
     const Compared& winner = comparison.all[comparison.winner];
     diagnosis.extended_p_value = comparison.p_value;
+    diagnosis.level_alone = is_level_alone(inference, winner.fit);
     rank_causes(comparison, inference, priors, diagnosis);
-    doubt(comparison, diagnosis);
     diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
     diagnosis.remainder = {.detected = comparison.p_value <= options.level, .p_value = comparison.p_value, .where = {}};
     if (diagnosis.remainder.detected) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -16,6 +17,7 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr int most_rounds = 20;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Equally probable variances about an estimate from some degrees of freedom: scaled inverse chi-square.
 std::vector<double> variances_about(double estimate, double degrees) {
@@ -78,22 +80,38 @@ Eigen::MatrixXd ErrorModel::directions(const Prediction& prediction) const {
     return parts;
 }
 
-namespace {
+/// Departures of the data from a prediction with what they share.
+struct ErrorModel::Shared {
+    Shared(const ErrorModel& model, const Prediction& prediction, const Eigen::MatrixXd& further)
+        : plain(model.white_ - model.whiten(prediction.values)), scales(Eigen::VectorXd::Ones(0)) {
+        const Eigen::MatrixXd all = model.directions(prediction);
+        const Index samples = model.data_.samples();
+        level = all.leftCols(samples).rowwise().sum();
+        errors = all.cols() - samples;
+        others.resize(all.rows(), errors + further.cols());
+        others.leftCols(errors) = all.rightCols(errors);
+        if (further.cols() > 0) {
+            others.rightCols(further.cols()) = further;
+        }
+        scales = Eigen::VectorXd::Ones(others.cols());
+    }
 
-/// Effects of the samples, of this deviation, and errors of the prediction about a whitened departure.
-NormalEffects effects_about(const ErrorModel& model, const Prediction& prediction, double deviation) {
-    Eigen::MatrixXd directions = model.directions(prediction);
-    const Index samples = model.data().samples();
-    const Eigen::VectorXd level = deviation * directions.leftCols(samples).rowwise().sum();
-    return {level, model.data().sample, samples, directions.rightCols(directions.cols() - samples)};
-}
+    NormalEffects effects(const ErrorModel& model) const {
+        return {plain, level, model.data_.sample, model.data_.samples(), others, model.scaled_, model.degrees_.size() + 1};
+    }
 
-}  // namespace
+    Eigen::VectorXd plain;
+    Eigen::VectorXd level;
+    Eigen::MatrixXd others;
+    Eigen::VectorXd scales;  ///< deviations of the others
+    Index errors = 0;        ///< of the prediction
+};
 
 Eigen::VectorXd ErrorModel::effects(const Prediction& prediction) const {
     const double deviation = std::max(data_.effect, 0.0);
-    NormalEffects effects = effects_about(*this, prediction, deviation);
-    effects.solve(white_ - whiten(prediction.values), Eigen::VectorXd::Ones(size()));
+    const Shared shared(*this, prediction, {});
+    NormalEffects effects = shared.effects(*this);
+    effects.solve(deviation, shared.scales, std::vector<double>(degrees_.size() + 1, 1.0));
     Eigen::VectorXd all = effects.most_probable();
     all.head(data_.samples()) *= deviation;
     return all;
@@ -101,8 +119,9 @@ Eigen::VectorXd ErrorModel::effects(const Prediction& prediction) const {
 
 Eigen::MatrixXd ErrorModel::effect_covariance(const Prediction& prediction) const {
     const double deviation = std::max(data_.effect, 0.0);
-    NormalEffects effects = effects_about(*this, prediction, deviation);
-    effects.solve(white_ - whiten(prediction.values), Eigen::VectorXd::Ones(size()));
+    const Shared shared(*this, prediction, {});
+    NormalEffects effects = shared.effects(*this);
+    effects.solve(deviation, shared.scales, std::vector<double>(degrees_.size() + 1, 1.0));
     Eigen::MatrixXd all = effects.covariance();
     all.topRows(data_.samples()) *= deviation;
     all.leftCols(data_.samples()) *= deviation;
@@ -113,42 +132,24 @@ Eigen::VectorXd ErrorModel::residual(const Prediction& prediction) const {
     return white_ - whiten(prediction.values) - directions(prediction) * effects(prediction);
 }
 
-/// The factors on the variances of rows whose deviations were estimated.
+/// The factors on the variances of rows, the first of those whose deviations are known: 1.
 class ErrorModel::Scales {
 public:
     explicit Scales(const ErrorModel& model)
-        : model_(model), variances_(model.degrees_.size(), 1.0), counts_(model.degrees_.size(), 0.0) {
+        : degrees_(model.degrees_), variances_(model.degrees_.size() + 1, 1.0), counts_(variances_.size(), 0.0) {
         for (const std::size_t scale : model.scaled_) {
-            if (scale > 0) {
-                counts_[scale - 1] += 1;
-            }
+            counts_[scale] += 1;
         }
     }
 
-    bool any() const { return !variances_.empty(); }
+    const std::vector<double>& variances() const { return variances_; }
 
-    /// Of each row, by which its squares count.
-    Eigen::VectorXd weights() const {
-        Eigen::VectorXd weights = Eigen::VectorXd::Ones(model_.size());
-        for (Index row = 0; any() && row < weights.size(); ++row) {
-            if (const std::size_t scale = model_.scaled_[static_cast<std::size_t>(row)]; scale > 0) {
-                weights[row] /= variances_[scale - 1];
-            }
-        }
-        return weights;
-    }
-
-    /// One step towards the most probable variances. @param squares expected ones of the residuals. Returns the largest change.
-    double update(const Eigen::VectorXd& squares) {
-        std::vector<double> sums = model_.degrees_;
-        for (Index row = 0; row < squares.size(); ++row) {
-            if (const std::size_t scale = model_.scaled_[static_cast<std::size_t>(row)]; scale > 0) {
-                sums[scale - 1] += squares[row];
-            }
-        }
+    /// One step towards the most probable variances. @param squares expected sums of the residuals. Returns the largest change.
+    double update(const std::vector<double>& squares) {
         double change = 0;
-        for (std::size_t k = 0; k < sums.size(); ++k) {
-            const double next = sums[k] / (model_.degrees_[k] + counts_[k]);
+        for (std::size_t k = 1; k < variances_.size(); ++k) {
+            const double degrees = degrees_[k - 1];
+            const double next = (degrees + squares[k]) / (degrees + counts_[k]);
             change = std::max(change, std::abs(std::log(next / variances_[k])));
             variances_[k] = next;
         }
@@ -158,28 +159,29 @@ public:
     /// What they add to the logarithm of the density: of the rows' errors, of their priors, and of their own uncertainty.
     double log_density() const {
         double sum = 0;
-        for (std::size_t k = 0; k < variances_.size(); ++k) {
-            sum += log_prior_of_scale(variances_[k], model_.degrees_[k]) - 0.5 * counts_[k] * std::log(variances_[k]) +
-                   0.5 * std::log(4 * std::numbers::pi / (model_.degrees_[k] + counts_[k]));
+        for (std::size_t k = 1; k < variances_.size(); ++k) {
+            const double degrees = degrees_[k - 1];
+            sum += log_prior_of_scale(variances_[k], degrees) - 0.5 * counts_[k] * std::log(variances_[k]) +
+                   0.5 * std::log(4 * std::numbers::pi / (degrees + counts_[k]));
         }
         return sum;
     }
 
 private:
-    const ErrorModel& model_;
+    const std::vector<double>& degrees_;
     std::vector<double> variances_;
     std::vector<double> counts_;
 };
 
-/// With effects of the samples along `level` and unit normal errors along `others`, but for the rows' determinant.
-double ErrorModel::log_marginal(const Eigen::VectorXd& plain, const Eigen::VectorXd& level, const Eigen::MatrixXd& others) const {
-    constexpr double converged = 1e-6;
-    NormalEffects effects(level, data_.sample, data_.samples(), others);
-    Scales scales(*this);
-    effects.solve(plain, scales.weights());
-    for (int round = 0; scales.any() && round < most_rounds; ++round) {
+/// At these deviations of effects and others, but for the rows' determinant. @param scales where to start, and what is most
+/// probable.
+double ErrorModel::log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others,
+                                Scales& scales) const {
+    constexpr double converged = 1e-2;  // at the most probable variances the density does not depend on them
+    effects.solve(effect, scales_of_others, scales.variances());
+    for (int round = 0; !degrees_.empty() && round < most_rounds; ++round) {
         const double change = scales.update(effects.expected_squares());
-        effects.solve(plain, scales.weights());
+        effects.solve(effect, scales_of_others, scales.variances());
         if (change < converged) {
             break;
         }
@@ -188,21 +190,15 @@ double ErrorModel::log_marginal(const Eigen::VectorXd& plain, const Eigen::Vecto
 }
 
 double ErrorModel::log_density(const Prediction& prediction, const Eigen::MatrixXd& further) const {
-    const Eigen::MatrixXd all = directions(prediction);
-    const Eigen::VectorXd level = all.leftCols(data_.samples()).rowwise().sum();
-    const Index errors = prediction.errors.changes.cols();
-    Eigen::MatrixXd others(size(), errors + further.cols());
-    const std::vector<double> scales = variances_about(1, errors > 0 ? prediction.errors.degrees : INFINITY);
-    const Eigen::VectorXd plain = white_ - whiten(prediction.values);
+    Shared shared(*this, prediction, further);
+    NormalEffects effects = shared.effects(*this);
+    const std::vector<double> variances = variances_about(1, shared.errors > 0 ? prediction.errors.degrees : infinite);
+    Scales scales(*this);  // hardly others from one deviation of the effects to the next
     std::vector<double> logarithms;
-    for (std::size_t k = 0; k < std::max(variances_.size(), scales.size()); ++k) {
+    for (std::size_t k = 0; k < std::max(variances_.size(), variances.size()); ++k) {
         const double effect = std::sqrt(variances_[variances_.size() > 1 ? k : 0]);
-        const double error = std::sqrt(scales[scales.size() > 1 ? beside.at(k) : 0]);
-        others.leftCols(errors) = error * all.rightCols(errors);
-        if (further.cols() > 0) {
-            others.rightCols(further.cols()) = further;
-        }
-        logarithms.push_back(log_marginal(plain, effect * level, others));
+        shared.scales.head(shared.errors).setConstant(std::sqrt(variances[variances.size() > 1 ? beside.at(k) : 0]));
+        logarithms.push_back(log_marginal(effects, effect, shared.scales, scales));
     }
     const double density = log_sum(logarithms) - std::log(static_cast<double>(logarithms.size())) - 0.5 * log_determinant_;
     if (density > saturated() + 1e-6 * (1 + std::abs(saturated()))) {
@@ -212,8 +208,9 @@ double ErrorModel::log_density(const Prediction& prediction, const Eigen::Matrix
 }
 
 double ErrorModel::saturated() const {
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(size());
-    return log_marginal(none, none, Eigen::MatrixXd(size(), 0)) - 0.5 * log_determinant_;
+    Scales scales(*this);
+    scales.update(std::vector<double>(degrees_.size() + 1, 0.0));
+    return scales.log_density() - 0.5 * log_determinant_;
 }
 
 }  // namespace coagula::diagnose

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "data_set.hpp"
+#include "low_rank.hpp"
 #include "prediction.hpp"
 
 #include <Eigen/Core>
@@ -51,7 +52,8 @@ public:
 
 private:
     class Scales;
-    double log_marginal(const Eigen::VectorXd& plain, const Eigen::VectorXd& level, const Eigen::MatrixXd& others) const;
+    struct Shared;
+    double log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others, Scales& scales) const;
 
     const DataSet& data_;
     Eigen::VectorXd white_;  ///< the data

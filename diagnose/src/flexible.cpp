@@ -31,7 +31,7 @@ Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& 
         }
     };
     for (const double length : smooth_lengths) {
-        for (const std::vector<SmoothDeparture>& group : smooth_departures(data.observations, false)) {
+        for (const std::vector<SmoothDeparture>& group : smooth_departures(data.observations)) {
             for (const SmoothDeparture& departure : group) {
                 const Eigen::MatrixXd unit = covariance(departure, data.observations, base, length);
                 for (const double amplitude : smooth_amplitudes) {

@@ -42,6 +42,7 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
       simulator_(simulator),
       largest_strains_before_(largest_strains_before()) {
     for (const Observation& observation : observations_) {
+        torques_per_modulus_.push_back(torque_per_modulus(observation));
         const Measurement& table = experiment_.measurements[observation.measurement];
         if (table.kind != MeasurementKind::structure_series) {
             continue;
@@ -59,12 +60,13 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
 }
 
 /// Under plates or a cone, by a tool.
-Complex Forward::seen_by_instrument(const Model& model, const Observation& observation, Complex modulus) const {
+Complex Forward::seen_by_instrument(const Model& model, std::size_t number, Complex modulus) const {
+    const Observation& observation = observations_[number];
     model.for_each<ChangesGeometry>(
         [&](const ChangesGeometry& effect, Values values) { modulus = effect.apparent(modulus, observation, values); });
-    const double factor = torque_per_modulus(observation);
-    model.for_each<ChangesTool>(
-        [&](const ChangesTool& effect, Values values) { modulus = effect.apparent(modulus, observation, factor, values); });
+    model.for_each<ChangesTool>([&](const ChangesTool& effect, Values values) {
+        modulus = effect.apparent(modulus, observation, torques_per_modulus_[number], values);
+    });
     return modulus;
 }
 
@@ -164,7 +166,7 @@ Eigen::VectorXd Forward::seen(const Model& model, const Eigen::VectorXcd& moduli
             predicted[i] = seen_of_structure(settings, observation, exact);
         } else {
             const double stiffness = is_fluid(observation) ? 1.0 : settings.normal_stiffness;
-            const Complex modulus = seen_by_instrument(model, observation, stiffness * moduli[i]);
+            const Complex modulus = seen_by_instrument(model, k, stiffness * moduli[i]);
             predicted[i] = observation.loss ? modulus.imag() : modulus.real();
         }
     }
@@ -186,7 +188,15 @@ Prediction Forward::prediction(const Model& model) const {
     constexpr double step = 1e-5;
     const Eigen::MatrixXcd& moduli = remembered_material(model, false);
     const Eigen::VectorXd mean = seen(model, moduli.col(0), false);
-    Eigen::VectorXd level_slope = (seen(model, (1 + step) * moduli.col(0), false) - mean) / step;
+    // What neither geometry nor tool change is in proportion to the modulus of the material.
+    const bool plain = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
+        return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
+               std::holds_alternative<ChangesTool>(one.mechanism->effect);
+    });
+    Eigen::VectorXd level_slope = mean;
+    if (!plain) {
+        level_slope = (seen(model, (1 + step) * moduli.col(0), false) - mean) / step;
+    }
     Eigen::MatrixXd changes(moduli.rows(), moduli.cols() - 1);
     for (Index error = 0; error < changes.cols(); ++error) {
         changes.col(error) = seen(model, moduli.col(error + 1), false) - mean;

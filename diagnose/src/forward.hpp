@@ -46,7 +46,7 @@ public:
     double level_error() const { return simulator_.structure_error(); }
 
 private:
-    std::complex<double> seen_by_instrument(const Model& model, const Observation& observation, std::complex<double> modulus) const;
+    std::complex<double> seen_by_instrument(const Model& model, std::size_t number, std::complex<double> modulus) const;
     double seen_of_structure(const Settings& settings, const Observation& observation, bool exact) const;
     bool strain_varies(const Settings& settings, const Observation& observation) const;
     Eigen::VectorXcd breaking_response(const Settings& settings, const Observation& observation, double before) const;
@@ -69,6 +69,7 @@ private:
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
     std::vector<double> largest_strains_before_;
+    std::vector<double> torques_per_modulus_;
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
     mutable std::vector<ActingMechanism> last_acting_;

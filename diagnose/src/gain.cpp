@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t block_rows = 3;
 constexpr int resamples = 2000;
 constexpr std::ptrdiff_t fewest_known = 4;
-constexpr std::size_t most_folds = 4;
+constexpr std::size_t most_folds = 3;
 constexpr Index draws = 32;  ///< from the posterior of a fit
 
 std::vector<Index> rows_where(const std::vector<bool>& held_out, bool wanted) {
@@ -92,7 +92,7 @@ Fit chosen(const Inference& inference, const Fit& base, const Hypothesis& possib
     DiagnosisOptions quick = options;
     quick.bootstrap = std::min(quick.bootstrap, 199);
     const Priors priors = priors_of(options, possible.size());
-    const Comparison comparison = compare(base, possible, inference, quick);
+    const Comparison comparison = compare(base, possible, inference, quick, Effort::brief);
     const Compared& winner = comparison.all[comparison.winner];
     return winner.log_total(priors) > comparison.all.front().log_weight() ? winner.fit : base;
 }

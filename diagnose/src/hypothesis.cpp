@@ -8,6 +8,7 @@
 #include <ceres/ceres.h>
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -253,6 +254,14 @@ bool Inference::is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd plac
         return best_stiffness(model_at(hypothesis, place, 1), std::log(stiffness)).log_weight;
     };
     return (density(low ? 0.0 : 1.0) - density(low ? inside : 1 - inside)) * beyond / inside > 1;
+}
+
+double Inference::density_of_free_level() const {
+    const auto misfit = [&](double log_stiffness) {
+        return -errors_.log_density(forward_.prediction(Model({}, {}, std::exp(log_stiffness))));
+    };
+    constexpr int digits = 20;
+    return -boost::math::tools::brent_find_minima(misfit, log_level_ - 1, log_level_ + 1, digits).second;
 }
 
 /// Draws at equal steps of the cumulated probability.

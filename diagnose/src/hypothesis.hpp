@@ -57,6 +57,9 @@ public:
     /// How far a stiffness is from the known one over that error; NaN where it is not known.
     double stiffness_departure(double log_stiffness) const;
 
+    /// Largest log density of the data by the base model, whatever the stiffness.
+    double density_of_free_level() const;
+
     const Forward& forward() const { return forward_; }
     const ErrorModel& errors() const { return errors_; }
 

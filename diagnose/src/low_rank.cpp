@@ -1,49 +1,73 @@
 #include "low_rank.hpp"
 
-#include <utility>
-
 namespace coagula::diagnose {
 
-NormalEffects::NormalEffects(Eigen::VectorXd level, const std::vector<Index>& sample, Index samples, Eigen::MatrixXd others)
-    : level_(std::move(level)),
-      sample_(sample),
-      others_(std::move(others)),
-      own_(samples),
-      between_(samples, others_.cols()),
-      effects_(samples + others_.cols()) {}
-
-void NormalEffects::solve(const Eigen::VectorXd& numbers, const Eigen::VectorXd& weights) {
-    const Index samples = own_.size();
-    own_.setOnes();
-    between_.setZero();
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(effects_.size());
-    for (Index row = 0; row < numbers.size(); ++row) {
-        if (const Index sample = sample_[static_cast<std::size_t>(row)]; sample >= 0) {
-            const double weighted = weights[row] * level_[row];
-            own_[sample] += weighted * level_[row];
-            right[sample] += weighted * numbers[row];
-            between_.row(sample) += weighted * others_.row(row);
+NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, const std::vector<Index>& sample,
+                             Index samples, const Eigen::MatrixXd& others, const std::vector<std::size_t>& group,
+                             std::size_t groups)
+    : numbers_(numbers), level_(level), sample_(sample), others_(others), group_(group) {
+    const Index count = others.cols();
+    products_.assign(groups, {Eigen::VectorXd::Zero(samples), Eigen::MatrixXd::Zero(samples, count),
+                              Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(samples + count)});
+    for (std::size_t number = 0; number < groups; ++number) {
+        Products& products = products_[number];
+        std::vector<Index> rows;
+        for (Index row = 0; row < numbers.size(); ++row) {
+            if (group[static_cast<std::size_t>(row)] != number) {
+                continue;
+            }
+            rows.push_back(row);
+            if (const Index one = sample[static_cast<std::size_t>(row)]; one >= 0) {
+                products.own[one] += level[row] * level[row];
+                products.right[one] += level[row] * numbers[row];
+                products.between.row(one) += level[row] * others.row(row);
+            }
         }
+        const Eigen::MatrixXd own = others(rows, Eigen::all);
+        products.rest.noalias() = own.transpose() * own;
+        products.right.tail(count) = own.transpose() * numbers(rows);
+    }
+}
+
+void NormalEffects::solve(double effect, const Eigen::VectorXd& scales, const std::vector<double>& variances) {
+    const Index samples = products_.front().own.size();
+    const Index count = others_.cols();
+    deviation_.resize(samples + count);
+    deviation_ << Eigen::VectorXd::Constant(samples, effect), scales;
+    own_ = Eigen::VectorXd::Ones(samples);
+    between_ = Eigen::MatrixXd::Zero(samples, count);
+    Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(count, count);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(samples + count);
+    for (std::size_t group = 0; group < products_.size(); ++group) {
+        const Products& products = products_[group];
+        const double weight = 1 / variances[group];
+        own_ += weight * effect * effect * products.own;
+        between_ += weight * effect * products.between * scales.asDiagonal();
+        rest += weight * scales.asDiagonal() * products.rest * scales.asDiagonal();
+        right += weight * deviation_.cwiseProduct(products.right);
     }
     log_determinant_ = own_.array().log().sum();
-    if (others_.cols() > 0) {
-        const Eigen::MatrixXd weighted = weights.asDiagonal() * others_;
-        Eigen::MatrixXd precision = others_.transpose() * weighted;
-        precision.diagonal().array() += 1;
+    effects_.resize(samples + count);
+    if (count > 0) {
         const Eigen::MatrixXd eliminated = own_.cwiseInverse().asDiagonal() * between_;
-        rest_.compute(precision - between_.transpose() * eliminated);
+        rest_.compute(rest - between_.transpose() * eliminated);
         log_determinant_ += 2 * rest_.matrixLLT().diagonal().array().log().sum();
-        right.tail(others_.cols()) = weighted.transpose() * numbers;
-        effects_.tail(others_.cols()) = rest_.solve(right.tail(others_.cols()) - eliminated.transpose() * right.head(samples));
+        effects_.tail(count) = rest_.solve(right.tail(count) - eliminated.transpose() * right.head(samples));
     }
-    effects_.head(samples) = (right.head(samples) - between_ * effects_.tail(others_.cols())).cwiseQuotient(own_);
-    left_ = numbers - others_ * effects_.tail(others_.cols());
-    for (Index row = 0; row < numbers.size(); ++row) {
-        if (const Index sample = sample_[static_cast<std::size_t>(row)]; sample >= 0) {
-            left_[row] -= level_[row] * effects_[sample];
-        }
+    effects_.head(samples) = (right.head(samples) - between_ * effects_.tail(count)).cwiseQuotient(own_);
+
+    const Eigen::VectorXd moved = deviation_.cwiseProduct(effects_);
+    Eigen::VectorXd left = numbers_ - others_ * moved.tail(count);
+    squares_.assign(products_.size(), 0.0);
+    for (Index row = 0; row < left.size(); ++row) {
+        const Index sample = sample_[static_cast<std::size_t>(row)];
+        const double one = left[row] - (sample >= 0 ? level_[row] * moved[sample] : 0.0);
+        squares_[group_[static_cast<std::size_t>(row)]] += one * one;
     }
-    misfit_ = left_.cwiseAbs2().dot(weights) + effects_.squaredNorm();
+    misfit_ = effects_.squaredNorm();
+    for (std::size_t group = 0; group < squares_.size(); ++group) {
+        misfit_ += squares_[group] / variances[group];
+    }
 }
 
 Eigen::MatrixXd NormalEffects::covariance() const {
@@ -62,17 +86,16 @@ Eigen::MatrixXd NormalEffects::covariance() const {
     return all;
 }
 
-Eigen::VectorXd NormalEffects::expected_squares() const {
-    Eigen::VectorXd squares = left_.cwiseAbs2();
-    Eigen::MatrixXd beyond = others_;  // what the other effects move once those of the samples follow
-    for (Index row = 0; row < squares.size(); ++row) {
-        if (const Index sample = sample_[static_cast<std::size_t>(row)]; sample >= 0) {
-            squares[row] += level_[row] * level_[row] / own_[sample];
-            beyond.row(row) -= level_[row] / own_[sample] * between_.row(sample);
-        }
-    }
-    if (others_.cols() > 0) {
-        squares += rest_.matrixL().solve(beyond.transpose()).colwise().squaredNorm().transpose();
+std::vector<double> NormalEffects::expected_squares() const {
+    const Index samples = own_.size();
+    const Index others = others_.cols();
+    const Eigen::MatrixXd open = deviation_.asDiagonal() * covariance() * deviation_.asDiagonal();
+    std::vector<double> squares = squares_;
+    for (std::size_t group = 0; group < squares.size(); ++group) {
+        const Products& products = products_[group];
+        squares[group] += open.diagonal().head(samples).dot(products.own) +
+                          2 * open.topRightCorner(samples, others).cwiseProduct(products.between).sum() +
+                          open.bottomRightCorner(others, others).cwiseProduct(products.rest).sum();
     }
     return squares;
 }

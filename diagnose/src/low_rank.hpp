@@ -10,35 +10,51 @@ namespace coagula::diagnose {
 
 using Eigen::Index;
 
-/// Independent effects e ~ N(0, 1) on numbers r = X e + n, n ~ N(0, 1 / weight): one of each sample on its own numbers, and others
-/// on any. Nothing in it cancels: the misfit is a sum of squares at the most probable e, however large the numbers.
+/// Independent effects e ~ N(0, 1) on numbers r = X e + n, n ~ N(0, variance of the group of each number): one effect of each
+/// sample on its own numbers, and others on any. Nothing in it cancels: the misfit is a sum of squares at the most probable e,
+/// however large the numbers are. Products of the directions are made once, for all deviations and variances.
 class NormalEffects {
 public:
-    /// @param level of each number by the effect of its sample. @param sample of each number, -1: of none.
-    NormalEffects(Eigen::VectorXd level, const std::vector<Index>& sample, Index samples, Eigen::MatrixXd others);
+    /// @param level of each number by the effect of its sample. @param sample of each number, -1: of none. @param group of each
+    /// number, below `groups`. All must outlive this.
+    NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, const std::vector<Index>& sample, Index samples,
+                  const Eigen::MatrixXd& others, const std::vector<std::size_t>& group, std::size_t groups);
 
-    void solve(const Eigen::VectorXd& numbers, const Eigen::VectorXd& weights);
+    /// @param effect deviation of the effects of the samples. @param scales of the others. @param variances of the groups.
+    void solve(double effect, const Eigen::VectorXd& scales, const std::vector<double>& variances);
 
-    /// Of the samples, then the others.
+    /// Of the samples, then the others, over their deviations.
     const Eigen::VectorXd& most_probable() const { return effects_; }
     Eigen::MatrixXd covariance() const;
-    /// Sum of the weighted squares of what is left and of the squares of the effects.
+    /// Sum of the squares of what is left, over the variances, and of the squares of the effects.
     double misfit() const { return misfit_; }
     /// Of the covariance of the numbers over that of n.
     double log_determinant() const { return log_determinant_; }
-    /// Of n, over what the numbers leave open about e.
-    Eigen::VectorXd expected_squares() const;
+    /// Sum of the squares of n in each group, over what the numbers leave open about e.
+    std::vector<double> expected_squares() const;
 
 private:
-    Eigen::VectorXd level_;
+    /// Of the directions with each other and with the numbers, in one group.
+    struct Products {
+        Eigen::VectorXd own;      ///< of each sample's direction with itself
+        Eigen::MatrixXd between;  ///< samples x others
+        Eigen::MatrixXd rest;     ///< others x others
+        Eigen::VectorXd right;    ///< of all with the numbers
+    };
+
+    const Eigen::VectorXd& numbers_;
+    const Eigen::VectorXd& level_;
     const std::vector<Index>& sample_;
-    Eigen::MatrixXd others_;
-    // Precision of e: diagonal for the samples, in full for the others, and between both.
+    const Eigen::MatrixXd& others_;
+    const std::vector<std::size_t>& group_;
+    std::vector<Products> products_;
+    Eigen::VectorXd deviation_;  ///< of all effects
+    // Precision of e: diagonal for the samples, in full for the others once the samples are eliminated, and between both.
     Eigen::VectorXd own_;
     Eigen::MatrixXd between_;
-    Eigen::LLT<Eigen::MatrixXd> rest_;  ///< of the others once the samples are eliminated
+    Eigen::LLT<Eigen::MatrixXd> rest_;
     Eigen::VectorXd effects_;
-    Eigen::VectorXd left_;
+    std::vector<double> squares_;  ///< left in each group
     double misfit_ = 0;
     double log_determinant_ = 0;
 };

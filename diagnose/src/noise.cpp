@@ -359,8 +359,8 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     constexpr Eigen::Index fewest_conditions = 3;
     const bool enough = data.conditions >= fewest_conditions;
     const bool positive = enough && (mean_levels(data).array() > 0).all();
-    noise.relative_to_complex_modulus = enough && replicates.observable == "loss_modulus" &&
-                                        (sizes_of(replicates).array() > 0).all() && !stands_out(data, sizes_of(replicates));
+    const bool small = enough && (replicates.observable == "loss_modulus" ? !stands_out(data, sizes_of(replicates)) : !positive);
+    noise.relative_to_complex_modulus = small && (sizes_of(replicates).array() > 0).all();
     if (positive || noise.relative_to_complex_modulus) {
         fit_replicates(noise, replicates, data, names, options);
         return noise;

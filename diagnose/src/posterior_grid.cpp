@@ -163,7 +163,7 @@ PosteriorGrid grid_along_axes(Index axes, const EvaluateNode& evaluate) {
 }
 
 PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& factor, const EvaluateNode& evaluate) {
-    const int nodes = nodes_for(mode.size()) > 15 ? 15 : nodes_for(mode.size());
+    const int nodes = std::min(15, nodes_for(mode.size()));
     PosteriorGrid grid;
     grid.log_cell = static_cast<double>(mode.size()) * std::log(2 * reach / nodes) + factor.diagonal().array().abs().log().sum();
     grid.half_widths = reach / nodes * factor.rowwise().norm();

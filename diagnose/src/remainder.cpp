@@ -69,9 +69,11 @@ Eigen::VectorXd departure_along(const ErrorModel& errors, const Start& start, co
     const Index samples = errors.data().samples();
     const Eigen::MatrixXd others =
         beside(beside(directions.rightCols(directions.cols() - samples), start.following), whitened(errors, factor));
-    NormalEffects effects(errors.data().effect * directions.leftCols(samples).rowwise().sum(), errors.data().sample, samples,
-                          others);
-    effects.solve(errors.whiten(errors.data().values - start.prediction.values), Eigen::VectorXd::Ones(errors.size()));
+    const Eigen::VectorXd level = directions.leftCols(samples).rowwise().sum();
+    const Eigen::VectorXd plain = errors.whiten(errors.data().values - start.prediction.values);
+    const std::vector<std::size_t> together(static_cast<std::size_t>(plain.size()), 0);
+    NormalEffects effects(plain, level, errors.data().sample, samples, others, together, 1);
+    effects.solve(errors.data().effect, Eigen::VectorXd::Ones(others.cols()), {1.0});
     return factor * effects.most_probable().tail(factor.cols());
 }
 
@@ -81,14 +83,13 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit) {
     const ErrorModel& errors = inference.errors();
     const std::vector<Observation>& observations = errors.data().observations;
     const Start start = start_of(inference, fit);
-    const bool known = std::isfinite(inference.stiffness_error());
     const double alone = errors.log_density(start.prediction, start.following);
     SmoothRemainder found;
     double best = -std::numeric_limits<double>::infinity();
     Eigen::MatrixXd best_factor;
     std::vector<double> all;
     for (const double length : smooth_lengths) {
-        for (const std::vector<SmoothDeparture>& group : smooth_departures(observations, known)) {
+        for (const std::vector<SmoothDeparture>& group : smooth_departures(observations)) {
             std::vector<double> members;
             for (const SmoothDeparture& departure : group) {
                 const Eigen::MatrixXd factor = factor_of(covariance(departure, observations, start.prediction.values, length));
@@ -103,14 +104,19 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit) {
                 }
             }
             all.push_back(log_mean(members));
-            if (known && group.front().along.empty()) {
-                found.log_factor_level = all.back();
-            }
         }
     }
     found.log_factor = log_mean(all);
+    found.directions = whitened(errors, best_factor);
     found.departure = departure_along(errors, start, best_factor);
     return found;
+}
+
+double log_factor_along(const Inference& inference, const Fit& fit, const Eigen::MatrixXd& directions) {
+    const ErrorModel& errors = inference.errors();
+    const Start start = start_of(inference, fit);
+    return errors.log_density(start.prediction, beside(start.following, directions)) -
+           errors.log_density(start.prediction, start.following);
 }
 
 }  // namespace coagula::diagnose

@@ -8,13 +8,16 @@
 namespace coagula::diagnose {
 
 struct SmoothRemainder {
-    double log_factor = 0;        ///< on the evidence of the fit, averaged over coordinates, amplitudes and lengths
-    double log_factor_level = 0;  ///< the same of a departure of the level of both moduli alone
-    SmoothDeparture best = {};    ///< of these
-    Eigen::VectorXd departure;    ///< most probable one along that, of every number
+    double log_factor = 0;       ///< on the evidence of the fit, averaged over coordinates, amplitudes and lengths
+    SmoothDeparture best = {};   ///< of these
+    Eigen::MatrixXd directions;  ///< whitened ones of that, of unit deviation
+    Eigen::VectorXd departure;   ///< most probable one along them, of every number
 };
 
 /// At a fit, whose stiffness and parameters follow (linearised there; those at an active end of their prior stay).
 SmoothRemainder find_remainder(const Inference& inference, const Fit& fit);
+
+/// Factor on the evidence of the fit by a remainder along these directions alone, as a logarithm.
+double log_factor_along(const Inference& inference, const Fit& fit, const Eigen::MatrixXd& directions);
 
 }  // namespace coagula::diagnose

@@ -59,7 +59,7 @@ Eigen::MatrixXd products(const std::vector<Observation>& observations, const Eig
 
 }  // namespace
 
-std::vector<std::vector<SmoothDeparture>> smooth_departures(const std::vector<Observation>& observations, bool with_level) {
+std::vector<std::vector<SmoothDeparture>> smooth_departures(const std::vector<Observation>& observations) {
     std::vector<SmoothDeparture> varying;  // of any modulus
     for (const Coordinate coordinate : all_coordinates()) {
         const Eigen::VectorXd rank = ranks(observations, coordinate);
@@ -68,7 +68,7 @@ std::vector<std::vector<SmoothDeparture>> smooth_departures(const std::vector<Ob
         }
     }
     std::vector<std::vector<SmoothDeparture>> groups;
-    if (with_level || varying.empty()) {
+    if (varying.empty()) {
         groups.push_back({{Departing::both, {}, {}}});
     }
     for (const Departing departing : {Departing::storage, Departing::loss, Departing::both}) {

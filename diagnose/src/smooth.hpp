@@ -28,8 +28,8 @@ struct SmoothDeparture {
     bool together = false;
 };
 
-/// In groups that are equally probable. @param with_level the level alone is one of them.
-std::vector<std::vector<SmoothDeparture>> smooth_departures(const std::vector<Observation>& observations, bool with_level);
+/// In groups that are equally probable; the level alone where no coordinate varies.
+std::vector<std::vector<SmoothDeparture>> smooth_departures(const std::vector<Observation>& observations);
 
 /// Covariance of one of unit size about a prediction.
 Eigen::MatrixXd covariance(const SmoothDeparture& departure, const std::vector<Observation>& observations,

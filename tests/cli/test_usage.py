@@ -1,6 +1,8 @@
 """Help, version and wrong usage."""
 
+import json
 import unittest
+from pathlib import Path
 
 from support import ProgramTest
 
@@ -26,6 +28,14 @@ class Help(ProgramTest):
     def test_quantities_have_unit_default_and_range(self):
         line = next(line for line in self.succeed("shear", "--help").split("\n") if "--normal-stiffness" in line)
         self.assertIn("[unit N/m; default 100N/m; range 1e-12 .. 1e+15]", line)
+
+    def test_the_manual_has_the_catalogue_of_causes(self):
+        printed = self.succeed("diagnose", "--catalogue")
+        manual = (Path(__file__).resolve().parents[2] / "docs" / "diagnosis.md").read_text()
+        self.assertIn(printed, manual)
+        causes = json.loads(self.succeed("diagnose", "--catalogue", "--json"))
+        self.assertEqual(len(causes), len(printed.splitlines()) - 2)
+        self.assertEqual(causes[0]["parameters"]["shear_over_normal"], {"low": 0.05, "high": 1, "unit": "1", "prior": "uniform in the logarithm"})
 
     def test_version(self):
         self.assertRegex(self.succeed("--version"), r"^coagula \d+\.\d+\.\d+ \(\S+\)\n$")

@@ -6,10 +6,13 @@ import numpy
 
 from material import CONTACTS, KNOWN, LOADS, SWEEP_ROWS
 from series import Series
-from session import Hidden, Noise, Session, full_day, gap_day, level_day, yield_day
+from session import Hidden, Noise, Session, full_day, gap_day, level_day, one_sample, yield_day, GAP, PLATE
 
 LEAST_GAIN, LARGEST_GAIN = 25, 400
 KNOWN_THAT_BREAK = 4  # structures of the diagnosis where bonds break, drawn of those that there are
+FAULTY_GAIN = 36
+VISCOSITIES = (0.5, 2.0, 8.0)
+REMOVED, DENSER = 0.12, 0.45  # share of the contacts; volume fraction where 0.4 is stated
 CRITICAL_STRAIN = 1e-4  # of the bank of breaking structures; the sweep's strains follow from the load
 
 
@@ -153,6 +156,52 @@ def null_series(generator, material):
     return Series(Hidden(), float(numpy.exp(generator.uniform(numpy.log(20), numpy.log(200)))))
 
 
+def with_faults(noise):
+    """An effect in data of which some are wrong."""
+    def draw(generator, material):
+        session = single(generator, material)
+        while session.gain(material) < FAULTY_GAIN * (1 - 1e-6):
+            session = single(generator, material)
+        return replace(session, noise=noise)
+    return draw
+
+
+def null_one_sample(generator, material):
+    return replace(draw_session(generator, material, noise=Noise(correlation=0.6), tables=one_sample()), told_noise=True)
+
+
+def drag(generator, material):
+    """The sample is as large as eight structures."""
+    viscosity = float(generator.choice(VISCOSITIES))
+    return replace(draw_session(generator, material), mean_of_all=True, hidden=Hidden("solvent-drag", viscosity=viscosity))
+
+
+def misstated(kind):
+    """The structure is not what the file says, and the particles' stiffness is known: a departure of the level alone."""
+    def draw(generator, material):
+        session = replace(draw_session(generator, material, tables=level_day()), known_stiffness=True)
+        value = REMOVED if kind == "contacts-removed" else DENSER
+        return replace(session, hidden=Hidden(kind, contact=(kind, value)))
+    return draw
+
+
+def negative_storage(generator, material):
+    """An inertia so large that G' falls below zero."""
+    session = draw_session(generator, material)
+    inertia = float(numpy.exp(generator.uniform(numpy.log(1e-5), numpy.log(8e-5))))
+    whole = numpy.pi * PLATE**4 / (2 * GAP) * material.modulus(session.structure) / 100 / (2 * numpy.pi * 30)**2
+    stiffness = inertia / whole / float(generator.uniform(1.2, 2.0))  # with that over `whole` G' would be zero at 30 Hz
+    return replace(session, stiffness=stiffness, hidden=Hidden("tool-inertia", inertia=inertia))
+
+
+def with_bump(generator, material):
+    """A cause of the catalogue and something besides."""
+    session = draw_session(generator, material)
+    name = str(generator.choice(["ageing", "tool-inertia"]))
+    known = scaled(session, material, float(generator.uniform(200, 400)), effects(generator, session)[name]).hidden
+    return replace(session, hidden=replace(known, bump=(float(generator.uniform(0.02, 0.04)), 3.0, 0.25)))
+
+
 def outside(generator, material):
     session = draw_session(generator, material)
     kind = generator.choice(["resonance", "drift", "warmth"])
@@ -165,5 +214,7 @@ def outside(generator, material):
 ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlated, "null-offsets": null_offsets, "single": single,
         "pair": pair, "tie": tie, "outside": outside, "null-series": null_series, "structure-series": structure_series,
         "tie-level": tie_of_level, "tie-stiffening": tie_of_stiffening, "tie-yield": tie_of_yield,
-        "bond-strength-cone": bond_strength_under_cone}
+        "bond-strength-cone": bond_strength_under_cone, "wrong-rows": with_faults(Noise(wrong_rows=2)), "slid-sample": with_faults(Noise(slid="B")),
+        "null-one-sample": null_one_sample, "drag": drag, "contacts-removed": misstated("contacts-removed"),
+        "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})

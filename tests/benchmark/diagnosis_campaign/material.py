@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import zlib
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
@@ -75,11 +76,12 @@ class Material:
         done = subprocess.run([self.program, *map(str, words), "--threads", "1", "--json"], capture_output=True, text=True, check=True)
         return json.loads(done.stdout)
 
-    def structure(self, number, seed=1000, coordination=None):
+    def structure(self, number, seed=1000, coordination=None, fraction=0.4):
         words = [] if coordination is None else ["--target-coordination", coordination]
-        path = self.bank / f"hidden_{'_'.join(map(str, [PARTICLES, *words[1:], seed + number]))}.h5"
+        denser = [] if fraction == 0.4 else [fraction]
+        path = self.bank / f"hidden_{'_'.join(map(str, [PARTICLES, *denser, *words[1:], seed + number]))}.h5"
         if not path.exists():
-            self.run("generate", "vem", "--particles", PARTICLES, "--voids", PARTICLES // 2, "--volume-fraction", 0.4,
+            self.run("generate", "vem", "--particles", PARTICLES, "--voids", PARTICLES // 2, "--volume-fraction", fraction,
                      "--radius", RADIUS, "--seed", seed + number, *words, "-o", path)
         return path
 
@@ -95,6 +97,39 @@ class Material:
         new.write_text(json.dumps(self.known))
         new.rename(self.results)
 
+    def with_fewer_contacts(self, path, share):
+        """The same particles of which some have shrunk a little, so that about this share of the bonds is none any more."""
+        made = self.folder / f"fewer_{path.name}"
+        if not made.exists():
+            points = self.folder / "points.csv"
+            self.run("export", path, "--format", "csv", "-o", points, "--force")
+            edges = self.run("info", path)["box"]
+            header, *rows = points.read_text().splitlines()
+            names = header.split(",")
+            radius = next(k for k, name in enumerate(names) if name.startswith("radius"))
+            generator = numpy.random.default_rng(zlib.crc32(path.name.encode()))
+            table = [row.split(",") for row in rows]
+            for row in table:
+                # A bond is lost where either of its ends has shrunk by more than the distance of bonds.
+                row[radius] = f"{float(row[radius]) * (0.97 if generator.random() < 1 - (1 - share)**0.5 else 1.0):.12g}"
+            points.write_text("\n".join([header, *map(",".join, table)]) + "\n")
+            self.run("import", points, "--box", ",".join(f"{edge}m" for edge in edges), "-o", made, "--force")
+        return made
+
+    def mean_drag(self, ratio, frequencies):
+        """G* over the elastic G' of all structures together with a solvent that drags, whose viscosity over the particles' stiffness is `ratio`."""
+        def compute(number):
+            model = self.folder / "drag.toml"
+            model.write_text(f"solvent_viscosity = {ratio * STIFFNESS}\n")
+            found = self.shear(self.structure(number), "--model", model, "--frequency", ",".join(f"{each}Hz" for each in frequencies))
+            return [numpy.atleast_1d(found[part]["mean"]).tolist() for part in ("storage_modulus", "loss_modulus")]
+        values = [self.remembered(f"drag {number} {ratio:.6g} {list(frequencies)}", lambda number=number: compute(number))
+                  for number in range(STRUCTURES)]
+        plain = numpy.mean([self.remembered(f"plain {number}", lambda number=number: self.shear(self.structure(number))["storage_modulus"]["mean"])
+                            for number in range(STRUCTURES)])
+        storage, loss = numpy.mean(values, axis=0)
+        return (storage + 1j * loss) / plain
+
     def shear(self, path, *words):
         return self.run("shear", path, "-o", self.folder / "sheared.h5", "--force", *words)
 
@@ -109,7 +144,8 @@ class Material:
             model.write_text({"bond-bending": stiffness, "shear-stiffness": f"shear_stiffness = {value * STIFFNESS}\n"}.get(cause, ""))
             words = ["--model", model] if model.stat().st_size else []
             words += ["--bond-tolerance", value] if cause == "bond-range" else []
-            path = self.structure(number, coordination=coordination)
+            path = self.structure(number, coordination=coordination, fraction=value if cause == "volume-fraction" else 0.4)
+            path = self.with_fewer_contacts(path, value) if cause == "contacts-removed" else path
             found = self.explicit(path, "--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude", *words)
             return float(numpy.mean([each[-1] for each in found["oscillations"]["fundamental_storage_modulus"]]))
         return self.remembered(f"modulus {number} {cause} {value} {coordination}", compute)

@@ -43,7 +43,9 @@ class Hidden:
     resonance: tuple = ()   # size, frequency [Hz]
     drift: float = 0.0      # stress offset after ten minutes over G times the small strain
     warmth: tuple = ()      # size, period [s]
-    contact: tuple = ()     # cause, value
+    contact: tuple = ()     # cause, value; or "contacts-removed", share; "volume-fraction", true one
+    viscosity: float = 0.0  # of the solvent, felt by the particles [Pa.s]
+    bump: tuple = ()        # size, place [Hz], width in decades: of G'' over G'
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
 
 
@@ -54,6 +56,8 @@ class Noise:
     sample: float = 0.08
     tail: float = numpy.inf
     correlation: float = 0.0
+    wrong_rows: int = 0     # read ten times too large
+    slid: str = ""          # a sample that slides between its plates: it shows two fifths of its modulus
 
 
 @dataclass
@@ -67,23 +71,32 @@ class Session:
     known_stiffness: bool = False
     known_structures: tuple = (0, 1)
     storage_only: bool = False
+    mean_of_all: bool = False    # the sample is as large as all structures together
+    told_fraction: float = 0.4   # volume fraction that the experiment file states
+    told_noise: bool = False     # the file states the errors that there are
 
     def write(self, material, folder, generator):
         """The experiment file and its tables."""
         folder.mkdir(parents=True, exist_ok=True)
         structures = [material.known_structure(number) for number in self.known_structures]
         offsets = {}
-        lines = ["[sample]", 'particle_radius = "0.25 um"', "volume_fraction = 0.4", "", "[instrument]", 'geometry = "plate-plate"',
+        lines = ["[sample]", 'particle_radius = "0.25 um"', f"volume_fraction = {self.told_fraction}", "", "[instrument]", 'geometry = "plate-plate"',
                  f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
         if self.known_stiffness:
             lines[3:3] = [f"normal_stiffness = {self.stiffness}", "normal_stiffness_error = 0.05"]
+        if self.told_noise:
+            lines += ["[noise]", f"stated_relative = {self.noise.torque}", f"stated_phase = {self.noise.phase}",
+                      f"stated_sample = {self.noise.sample}", ""]
+        wrong = set(generator.choice(sum(len(table.strain) for table in self.tables), self.noise.wrong_rows, replace=False).tolist())
         for number, table in enumerate(self.tables):
-            clean = reading(material, self, table)
+            clean = reading(material, self.sliding(material, table), table)
             self.moduli.append(clean)
             spread = 0.0 if numpy.isfinite(table.viscosity) else self.noise.sample
             offset = offsets.setdefault(table.sample, 1 + spread * generator.standard_normal())
             size = offset * (1 + self.noise.torque * errors(generator, self.noise, len(clean)))
             measured = clean * size * numpy.exp(1j * self.noise.phase * errors(generator, self.noise, len(clean)))
+            first = sum(len(each.strain) for each in self.tables[:number])
+            measured *= numpy.array([10.0 if first + row in wrong else 1.0 for row in range(len(clean))])
             columns = {"strain [1]": table.strain, "frequency [Hz]": table.frequency, "time [s]": table.time, "gap [m]": table.gap,
                        "storage_modulus [Pa]": measured.real, "loss_modulus [Pa]": measured.imag}
             if table.cone:
@@ -99,6 +112,13 @@ class Session:
         path = folder / "experiment.toml"
         path.write_text("\n".join(lines))
         return path
+
+    def sliding(self, material, table):
+        """The session as this table sees it."""
+        if table.sample != self.noise.slid:
+            return self
+        modulus = abs(reading(material, replace(self, hidden=Hidden()), table)[0])
+        return replace(self, hidden=replace(self.hidden, slip=0.75 * GAP / modulus))
 
     def gain(self, material):
         """By how much chi-square falls when the true model takes the place of the base model, stiffness and sample effects fitted in both."""
@@ -148,6 +168,11 @@ def full_day(largest_strain, rows):
     return list(placed(tables))
 
 
+def one_sample():
+    """One sample: nothing tells the errors of a row."""
+    return [table for table in full_day(4e-4, 14) if table.sample == "A"]
+
+
 def gap_day():
     return list(placed([sweep("gap-series", name, 0, SMALL_STRAIN, 1.0, 1, gap=numpy.geomspace(0.3e-3, 3e-3, 8)) for name in "ABC"]))
 
@@ -190,14 +215,20 @@ def true_modulus(material, session, table):
     hidden = session.hidden
     if numpy.isfinite(table.viscosity):
         return 2j * numpy.pi * table.frequency * table.viscosity
-    level = material.mean_modulus(*hidden.contact) if session.known_stiffness else material.modulus(session.structure)
+    whole = session.known_stiffness or session.mean_of_all
+    level = material.mean_modulus(*hidden.contact) if whole else material.modulus(session.structure)
     modulus = numpy.full(len(table.strain), level * session.stiffness / 100, dtype=complex)
     if hidden.loss:
         modulus *= material.losses(session.structure, *hidden.loss, table.frequency)
+    if hidden.viscosity:
+        modulus *= material.mean_drag(hidden.viscosity / session.stiffness, table.frequency)
     if hidden.loads and table.kind == "amplitude-sweep":
         modulus *= material.mean_breaking(*hidden.loads, rim=hidden.rim and not table.cone)
     if hidden.ageing:
         modulus *= 1 + hidden.ageing * numpy.log10(1 + table.start + table.time)
+    if hidden.bump:
+        size, place, width = hidden.bump
+        modulus += 1j * size * abs(modulus) * numpy.exp(-0.5 * (numpy.log10(table.frequency / place) / width)**2)
     if hidden.warmth:
         size, period = hidden.warmth
         modulus *= 1 + size * numpy.sin(2 * numpy.pi * (table.start + table.time) / period)

@@ -1,0 +1,30 @@
+// Rows and samples that no law of the errors makes: a slipped decimal point, a bubble, a sample that slid.
+#pragma once
+
+#include <coagula/diagnose/measurement.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+struct Outlier {
+    std::size_t measurement;         ///< from 0
+    std::optional<std::size_t> row;  ///< from 0; none: the whole sample, of which this is one table
+    double factor;                   ///< value over what neighbours or the other samples say
+    std::string sentence;
+};
+
+/// Leaves out, with a reason, the moduli of
+/// - a row that lies beside both of its neighbours to the same side, and beside the same row of the other samples where three or
+/// more
+///   were measured alike, by more than eight robust standard deviations and a fifth;
+/// - every table of a sample whose level lies beside that of two or more others by more than six times their scatter, or the tenth
+/// by
+///   which samples may differ.
+/// What two samples differ by is told of none of them.
+std::vector<Outlier> leave_out_outliers(std::vector<Measurement>& tables);
+
+}  // namespace coagula::diagnose

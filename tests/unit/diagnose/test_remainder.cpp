@@ -1,0 +1,121 @@
+// What a named cause leaves over, departures of the level alone, and values at an end of their range.
+#include <coagula/diagnose/diagnosis.hpp>
+
+#include <coagula/common/logarithmic_steps.hpp>
+
+#include "hidden_effects.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace coagula::diagnose {
+namespace {
+
+constexpr double level = 6e5;      // Pa, of the hidden sample
+constexpr double relative = 0.02;  // errors of G', and of G'' over |G*|
+
+using Modulus = std::function<std::complex<double>(double angular_frequency)>;
+
+/// Frequency sweeps on three samples.
+Experiment sweeps_of(const Modulus& modulus, std::uint64_t seed) {
+    Experiment experiment;
+    experiment.sample.particle_radius = 0.25e-6;
+    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
+    for (const char* sample : {"A", "B", "C"}) {
+        Measurement table;
+        table.label = std::string("sweep of ") + sample;
+        table.sample = sample;
+        Column storage{"storage_modulus", "Pa", {}};
+        Column loss{"loss_modulus", "Pa", {}};
+        const std::vector<double> frequencies = logarithmic_steps(0.5, 600, 16);
+        for (std::size_t row = 0; row < frequencies.size(); ++row) {
+            const std::complex<double> value = modulus(frequencies[row]);
+            const double error = relative * std::abs(value);
+            storage.values.push_back(value.real() + error * drawn_normal(seed, 2 * row));
+            loss.values.push_back(value.imag() + error * drawn_normal(seed, 2 * row + 1));
+            storage.standard_errors.push_back(error);
+            loss.standard_errors.push_back(error);
+        }
+        ++seed;
+        table.columns = {{"angular_frequency", "rad/s", frequencies}, storage, loss};
+        experiment.measurements.push_back(table);
+    }
+    return experiment;
+}
+
+Diagnosis diagnosed(const Experiment& experiment) {
+    DiagnosisOptions options;
+    options.bootstrap = 399;
+    options.noise.sample = 0.02;
+    return diagnose(experiment, simulator(), options);
+}
+
+double per_torque() {
+    return 2 * 1e-3 / (std::numbers::pi * std::pow(0.0125, 4));  // modulus per torque and angle between these plates
+}
+
+std::complex<double> with_inertia(double frequency) {
+    return level - 3e-5 * frequency * frequency * per_torque();
+}
+
+TEST(Remainder, IsNothingWhereTheCauseExplainsAll) {
+    const Diagnosis found = diagnosed(sweeps_of(with_inertia, 100));
+    ASSERT_EQ(found.verdict, Verdict::named);
+    EXPECT_EQ(found.credible_set.front(), "tool-inertia");
+    EXPECT_FALSE(found.remainder.detected);
+    EXPECT_TRUE(found.remainder.where.empty());
+    EXPECT_FALSE(found.causes.front().leaves_remainder);
+    EXPECT_FALSE(found.level_alone);
+}
+
+/// The inertia is there although a bump of G'' at 12 rad/s, which nothing in the catalogue makes, is left over.
+TEST(Remainder, IsPlacedBesideACauseThatStaysNamed) {
+    const auto bumped = [](double frequency) {
+        const double bump = 0.15 * level * std::exp(-0.5 * std::pow(std::log10(frequency / 12) / 0.25, 2));
+        return with_inertia(frequency) + std::complex<double>(0, bump);
+    };
+    const Diagnosis found = diagnosed(sweeps_of(bumped, 100));
+    ASSERT_EQ(found.verdict, Verdict::named) << found.credible_set.front();
+    EXPECT_EQ(found.credible_set.front(), "tool-inertia");
+    EXPECT_TRUE(found.causes.front().leaves_remainder);
+    EXPECT_TRUE(found.remainder.detected);
+    EXPECT_NE(found.remainder.where.find("G'' lies above the model"), std::string::npos) << found.remainder.where;
+    EXPECT_NE(found.remainder.where.find("angular frequency"), std::string::npos) << found.remainder.where;
+    const EstimatedParameter& inertia = found.causes.front().parameters.back();
+    EXPECT_LT(inertia.low, 3.05e-5);
+    EXPECT_GT(inertia.high, 2.95e-5);
+}
+
+/// All that is seen is a level below that of the known particles: many causes lower it.
+TEST(Remainder, OfTheLevelAloneNamesNoCauseAlone) {
+    Experiment experiment = sweeps_of([](double) { return level; }, 13);
+    const double stiffness = level / simulator().linear_modulus({}) * Settings{}.normal_stiffness;
+    experiment.sample.normal_stiffness = 1.5 * stiffness;
+    experiment.sample.normal_stiffness_error = 0.03;
+    const Diagnosis found = diagnosed(experiment);
+    EXPECT_TRUE(found.detected);
+    EXPECT_TRUE(found.level_alone);
+    EXPECT_NE(found.verdict, Verdict::named);
+    const auto& set = found.credible_set;
+    EXPECT_NE(std::find(set.begin(), set.end(), "none of the catalogue"), set.end());
+}
+
+/// A tool far heavier than any: the value stays at the end of the range, which is said.
+TEST(Remainder, AValueAtTheEndOfItsRangeIsFlagged) {
+    const auto heavy = [](double frequency) { return std::complex<double>(level - 2.5e-4 * frequency * frequency * per_torque()); };
+    const Diagnosis found = diagnosed(sweeps_of(heavy, 17));
+    EXPECT_TRUE(found.detected);
+    EXPECT_NE(found.verdict, Verdict::named);
+    const auto inertia =
+        std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& cause) { return cause.name == "tool-inertia"; });
+    ASSERT_NE(inertia, found.causes.end());
+    EXPECT_TRUE(inertia->parameters.back().at_end);
+    EXPECT_NEAR(inertia->parameters.back().value, 1e-4, 1e-5);
+}
+
+}  // namespace
+}  // namespace coagula::diagnose
