@@ -8,9 +8,11 @@
 #include "cache_key.hpp"
 #include "interpolation.hpp"
 #include "springpot.hpp"
+#include "unit_stiffness.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace coagula::diagnose {
@@ -89,16 +91,65 @@ const std::vector<Complex>& Simulator::drag_curve(std::size_t group) {
     return curve;
 }
 
+/// The same of one structure, over the linear modulus of the first of all.
+const std::vector<Complex>& Simulator::own_drag_curve(std::size_t structure) {
+    std::vector<Complex>& curve = own_drag_curves_[structure];
+    if (curve.empty()) {
+        const Settings base;
+        const double own = linear_moduli(structure, base.stiffness_ratio, 0, base.bond_tolerance).front() / unit_stiffness;
+        const double unit = linear_moduli(0, base.stiffness_ratio, 0, base.bond_tolerance).front() / unit_stiffness;
+        const std::vector<double>& moduli = drag_nodes(structure);
+        for (std::size_t node = 0; node < static_cast<std::size_t>(drag_axis.count); ++node) {
+            const Complex lost = (Complex(moduli[2 * node], moduli[2 * node + 1]) - own) / unit;
+            curve.push_back(std::log(lost / Complex(0, drag_axis.node(static_cast<int>(node)))));
+        }
+    }
+    return curve;
+}
+
+/// Drag on a particle over its stiffness, times the angular frequency.
+double Simulator::reduced_drag(const Settings& settings, double angular_frequency) const {
+    const Complex springs = 1.0 + springpot(settings, angular_frequency);
+    return translation_drag(radius_) * settings.felt_viscosity * angular_frequency /
+           (settings.normal_stiffness * std::abs(springs));
+}
+
 Complex Simulator::drag_response(const Settings& settings, double angular_frequency, std::size_t group) {
     if (settings.felt_viscosity <= 0) {
         return 1;
     }
-    const Complex springs = 1.0 + springpot(settings, angular_frequency);
-    const double drag =
-        translation_drag(radius_) * settings.felt_viscosity * angular_frequency / (settings.normal_stiffness * std::abs(springs));
+    const double drag = reduced_drag(settings, angular_frequency);
     const std::vector<Complex>& curve = drag_curve(group);
     const Complex logarithm = interpolate_nodes(drag_axis, drag, [&](int node) { return curve[static_cast<std::size_t>(node)]; });
     return 1.0 + Complex(0, std::min(drag, drag_axis.high)) * std::exp(logarithm);
+}
+
+std::vector<Complex> Simulator::drag_errors(const Settings& settings, double angular_frequency, std::size_t group) {
+    constexpr double of_one = 0.5;
+    const std::vector<std::size_t> structures = members(group);
+    const auto count = static_cast<double>(structures.size());
+    const Complex mean = drag_response(settings, angular_frequency, group) - 1.0;
+    std::vector<Complex> errors(structures_.size(), 0);
+    if (structures.size() == 1) {
+        errors[structures.front()] = of_one * mean;
+        return errors;
+    }
+    const double drag = reduced_drag(settings, angular_frequency);
+    Complex sum = 0;
+    for (const std::size_t k : structures) {
+        const std::vector<Complex>& curve = own_drag_curve(k);
+        errors[k] = std::exp(interpolate_nodes(drag_axis, drag, [&](int node) { return curve[static_cast<std::size_t>(node)]; }));
+        sum += errors[k];
+    }
+    for (const std::size_t k : structures) {
+        errors[k] = mean * (count * errors[k] / sum - 1.0) / std::sqrt(count * (count - 1));
+    }
+    return errors;
+}
+
+double Simulator::drag_degrees() const {
+    const auto count = static_cast<double>(structures_.size());
+    return count > 1 ? count - 1 : std::numeric_limits<double>::infinity();
 }
 
 Complex Simulator::exact_drag_response(const Settings& settings, double angular_frequency, std::size_t group) {

@@ -122,12 +122,38 @@ Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
         }
     }
     Eigen::MatrixXcd all = moduli.asDiagonal() * amplitude_factors(settings, exact);
+    if (!exact && settings.felt_viscosity > 0) {
+        const Eigen::MatrixXcd moved = moved_by_structures(settings, all.col(0));
+        const Index columns = all.cols();
+        all.conservativeResize(Eigen::NoChange, columns + moved.cols());
+        all.rightCols(moved.cols()) = moved;
+    }
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         if (const Observation& observation = observations_[k]; is_fluid(observation)) {
             all.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * observation.angular_frequency));
         }
     }
     return all;
+}
+
+/// These moduli with one standard error of the drag that each structure leaves.
+Eigen::MatrixXcd Forward::moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const {
+    Eigen::MatrixXcd moved(moduli.size(), 0);
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        if (!is_modulus(observation) || is_fluid(observation) || !std::isfinite(observation.angular_frequency)) {
+            continue;
+        }
+        const std::vector<Complex> errors = simulator_.drag_errors(settings, observation.angular_frequency, observation.structures);
+        if (moved.cols() == 0) {
+            moved = moduli.replicate(1, static_cast<Index>(errors.size()));
+        }
+        const Complex response = simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
+        for (std::size_t error = 0; error < errors.size(); ++error) {
+            moved(static_cast<Index>(k), static_cast<Index>(error)) *= 1.0 + errors[error] / response;
+        }
+    }
+    return moved;
 }
 
 const Eigen::MatrixXcd& Forward::remembered_material(const Model& model, bool exact) const {
@@ -184,6 +210,18 @@ Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
     return seen(model, remembered_material(model, exact).col(0), exact);
 }
 
+/// Of the errors that structures leave, the fewest.
+double Forward::degrees_of_errors(const Settings& settings, bool any) const {
+    double degrees = std::numeric_limits<double>::infinity();
+    if (any && settings.felt_viscosity > 0) {
+        degrees = simulator_.drag_degrees();
+    }
+    if (any && std::isfinite(with_weakest_bonds(settings).critical_strain)) {
+        degrees = std::min(degrees, simulator_.yield_degrees());
+    }
+    return degrees;
+}
+
 Prediction Forward::prediction(const Model& model) const {
     constexpr double step = 1e-5;
     const Eigen::MatrixXcd& moduli = remembered_material(model, false);
@@ -201,9 +239,7 @@ Prediction Forward::prediction(const Model& model) const {
     for (Index error = 0; error < changes.cols(); ++error) {
         changes.col(error) = seen(model, moduli.col(error + 1), false) - mean;
     }
-    return {mean,
-            std::move(level_slope),
-            {std::move(changes), moduli.cols() > 1 ? simulator_.yield_degrees() : std::numeric_limits<double>::infinity()}};
+    return {mean, std::move(level_slope), {std::move(changes), degrees_of_errors(model.simulated(), moduli.cols() > 1)}};
 }
 
 Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {

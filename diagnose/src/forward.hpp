@@ -31,8 +31,8 @@ public:
     Eigen::VectorXd predict(const Model& model, bool exact = false) const;
 
     /// The same between the nodes, with how it changes with the level of a sample and with the independent standard errors that so
-    /// few structures leave in the way in which they yield (Simulator::amplitude_response; none where no bonds break or there is
-    /// one structure).
+    /// few structures leave: in how they yield (Simulator::amplitude_response) and in how a solvent drags on them
+    /// (Simulator::drag_errors).
     Prediction prediction(const Model& model) const;
 
     const Experiment& experiment() const { return experiment_; }
@@ -62,6 +62,8 @@ private:
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
     std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
     Eigen::MatrixXcd material(const Model& model, bool exact) const;
+    Eigen::MatrixXcd moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const;
+    double degrees_of_errors(const Settings& settings, bool any) const;
     const Eigen::MatrixXcd& remembered_material(const Model& model, bool exact) const;
     Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
 

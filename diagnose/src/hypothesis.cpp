@@ -26,8 +26,9 @@ constexpr double log_stiffness_range = 18.42;  ///< of eight decades
 constexpr int posterior_draws = 64;
 constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit stays away
 
-/// Logarithm of the density that a grid lacks at its best node where it misses the crest of a ridge.
-constexpr double missed = 0.5;
+/// Logarithm of the density that a grid lacks at its best node where it misses the crest of a ridge; one along the axes lies beside
+/// the mode by half a cell at most, which is less.
+constexpr double missed = 3;
 
 /// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
 constexpr double enough_nodes = 2.5;

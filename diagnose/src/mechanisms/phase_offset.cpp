@@ -2,12 +2,12 @@
 
 namespace coagula::diagnose::mechanisms {
 
-/// Rheometers state 0.1 to 2 degrees.
+/// Up to a degree: of what an instrument is calibrated to, and what its corrections leave at high frequencies.
 Mechanism phase_offset() {
     return {.name = "phase-offset",
             .term = "the instrument reads the phase with an offset",
             .signature = "G'' of a stiff solid is a fixed share of G', of either sign, at all frequencies, strains and times",
-            .parameters = {{"phase", "rad", -0.05, 0.05, false}},
+            .parameters = {{"phase", "rad", -0.02, 0.02, false}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation&, double, Values values) {
                 return modulus * std::polar(1.0, values[0]);
             }},

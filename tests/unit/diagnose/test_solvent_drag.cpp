@@ -63,6 +63,30 @@ TEST(SolventDrag, CurveAgreesWithTheSolver) {
     }
 }
 
+/// The standard error of the mean of two structures is half of what they differ by, each counting by its own stiffness.
+TEST(SolventDrag, TheStructuresLeaveAnErrorOfWhatTheyDifferBy) {
+    SimulationCache cache;
+    Simulator first({structure(200, 1)}, {"first"}, cache);
+    Simulator second({structure(200, 2)}, {"second"}, cache);
+    const double stiff = first.exact_linear_modulus({});
+    const double other = second.exact_linear_modulus({});
+    for (const double reduced : {1e-6, 1e-3, 1.0}) {
+        const Settings settings = with_drag(reduced);
+        const double mean = 0.5 * (stiff + other);
+        const Complex lost = stiff / mean * (first.exact_drag_response(settings, 1) - 1.0);
+        const Complex besides = other / mean * (second.exact_drag_response(settings, 1) - 1.0);
+        const std::vector<Complex> errors = simulator().drag_errors(settings, 1);
+        ASSERT_EQ(errors.size(), 2U);
+        // One standard error along two directions of unit deviation that are each other's opposite.
+        const double deviation = std::sqrt(std::norm(errors[0]) + std::norm(errors[1]));
+        EXPECT_NEAR(deviation / (0.5 * std::abs(lost - besides)), 1, 0.03) << reduced;
+        EXPECT_LT(std::abs(errors[0] + errors[1]), 1e-9 * deviation);
+    }
+    EXPECT_EQ(simulator().drag_degrees(), 1);
+    const Settings settings = with_drag(1e-3);
+    EXPECT_LT(std::abs(first.drag_errors(settings, 1)[0] - 0.5 * (first.drag_response(settings, 1) - 1.0)), 1e-12);
+}
+
 Measurement sweep(const std::vector<double>& frequencies, const std::vector<Complex>& moduli, double error, std::uint64_t seed) {
     Column frequency{"angular_frequency", "rad/s", {}};
     Column storage{"storage_modulus", "Pa", {}};

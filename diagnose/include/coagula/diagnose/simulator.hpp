@@ -96,6 +96,12 @@ public:
     /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; springpots beside
     /// the springs are in both.
     std::complex<double> drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
+    /// What one standard error of the mean over so few structures changes that by: a value for each structure of all, 0 for those
+    /// of other groups. Nearly floppy structures differ by orders of magnitude. One structure alone tells nothing: half of its
+    /// drag.
+    std::vector<std::complex<double>> drag_errors(const Settings& settings, double angular_frequency, std::size_t group = 0);
+    /// Degrees of freedom from which their common scale is known.
+    double drag_degrees() const;
     std::complex<double> exact_drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
 
     /// G under a tension in all contacts over G without it, at vanishing strain.
@@ -144,6 +150,8 @@ private:
     double prestressed_modulus(std::size_t structure, const Settings& settings);
     const std::vector<double>& drag_nodes(std::size_t structure);
     const std::vector<std::complex<double>>& drag_curve(std::size_t group);
+    const std::vector<std::complex<double>>& own_drag_curve(std::size_t structure);
+    double reduced_drag(const Settings& settings, double angular_frequency) const;
     std::vector<double> shells(double plane, double axis);
     const std::vector<double>& shell_node(int plane, int axis);
     const std::vector<double>& shells_about_places();
@@ -160,8 +168,9 @@ private:
     std::map<std::array<double, 3>, double> exponents_;  ///< of the volume fraction, by ratio, bending and tolerance
     std::map<std::pair<int, int>, std::vector<double>> shell_nodes_;
     std::map<std::pair<int, int>, std::vector<double>> image_nodes_;
-    std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;  ///< by group
-    double scatter_ = -1;                                                   ///< between structures, once it has been asked for
+    std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;      ///< by group
+    std::map<std::size_t, std::vector<std::complex<double>>> own_drag_curves_;  ///< by structure
+    double scatter_ = -1;                                                       ///< between structures, once it has been asked for
     SimulationCache& cache_;
     Progress progress_;
     double radius_;
