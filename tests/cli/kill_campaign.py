@@ -214,6 +214,7 @@ def main():
     try:
         while sum(campaign.kills.values()) < arguments.kills:
             campaign.round()
+            print("kills so far:", sum(campaign.kills.values()), flush=True)
     finally:
         print(json.dumps(campaign.kills, indent=2), "kills:", sum(campaign.kills.values()), flush=True)
     campaign.close()
