@@ -11,22 +11,20 @@ Simulator over(SimulationCache& cache) {
     return Simulator({packing}, {"one"}, cache);
 }
 
-/// `ask` has the same answer when every result in the cache has lost its last number, or all of them.
+/// `ask` has the same answer when every result in the cache has lost its last number.
 template <class Ask>
 void expect_made_again(const Ask& ask) {
     SimulationCache whole;
     Simulator first = over(whole);
     const auto answer = ask(first);
     ASSERT_FALSE(whole.empty());
-    for (const bool all : {false, true}) {
-        SimulationCache damaged = whole;
-        for (auto& [key, values] : damaged) {
-            values.resize(all ? 0 : values.size() - 1);
-        }
-        Simulator again = over(damaged);
-        EXPECT_EQ(ask(again), answer);
-        EXPECT_EQ(damaged, whole);
+    SimulationCache damaged = whole;
+    for (auto& [key, values] : damaged) {
+        values.pop_back();
     }
+    Simulator again = over(damaged);
+    EXPECT_EQ(ask(again), answer);
+    EXPECT_EQ(damaged, whole);
 }
 
 TEST(StoredResults, AreMadeAgainWhereNumbersAreLost) {
