@@ -6,6 +6,7 @@
 #include "provenance.hpp"
 #include "report.hpp"
 #include "result_folder.hpp"
+#include "simulation_cache.hpp"
 
 #include <coagula/diagnose/power.hpp>
 

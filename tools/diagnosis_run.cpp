@@ -7,6 +7,7 @@
 #include "progress_bar.hpp"
 #include "provenance.hpp"
 #include "result_folder.hpp"
+#include "simulation_cache.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>

@@ -352,7 +352,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
     for (const io::PlainTable* chosen : tables) {
         const std::string label = name + (several ? ", section " + std::to_string(chosen->section) : "") +
                                   (chosen->point > 0 ? ", point " + std::to_string(chosen->point) : "");
-        diagnose::Measurement measurement = to_measurement(file, *chosen, *kind, label, rules);
+        diagnose::Measurement measurement = to_measurement(*chosen, *kind, label, rules);
         setting.give_to(measurement);
         select(measurement, selection);
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {

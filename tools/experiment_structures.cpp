@@ -1,14 +1,10 @@
 #include "experiment_structures.hpp"
 
-#include "arguments.hpp"
 #include "structure_recipe.hpp"
 
 #include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/common/checks.hpp>
-#include <coagula/io/input_file.hpp>
 #include <coagula/io/structure_file.hpp>
-
-#include <sstream>
 
 namespace coagula::tools {
 
@@ -96,38 +92,6 @@ std::vector<std::string> structure_sentences(const diagnose::Experiment& experim
                             structures.hashes[k]);
     }
     return sentences;
-}
-
-diagnose::SimulationCache read_cache(const std::filesystem::path& path) {
-    diagnose::SimulationCache cache;
-    if (!std::filesystem::exists(path)) {
-        return cache;
-    }
-    std::istringstream file(io::read_file(path.string()));
-    for (std::string line; std::getline(file, line);) {
-        const std::size_t tab = line.find('\t');
-        if (tab == std::string::npos) {
-            continue;  // a line cut off by an interruption
-        }
-        std::vector<double> values;
-        for (const std::string& word : split(line.substr(tab + 1), ' ')) {
-            values.push_back(std::strtod(word.c_str(), nullptr));
-        }
-        cache[line.substr(0, tab)] = std::move(values);
-    }
-    return cache;
-}
-
-std::string cache_text(const diagnose::SimulationCache& cache) {
-    std::string text;
-    for (const auto& [key, values] : cache) {
-        text += key + "\t";
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            text += (k > 0 ? " " : "") + to_text(values[k]);
-        }
-        text += "\n";
-    }
-    return text;
 }
 
 }  // namespace coagula::tools

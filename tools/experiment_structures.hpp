@@ -1,4 +1,4 @@
-// The structures that an experiment file names or describes, and what has been simulated of them.
+// The structures that an experiment file names or describes.
 #pragma once
 
 #include <coagula/common/packing.hpp>
@@ -6,7 +6,6 @@
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,9 +23,5 @@ ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progr
 
 /// Each in one sentence: where it is from, its particles and hash.
 std::vector<std::string> structure_sentences(const diagnose::Experiment& experiment, const ExperimentStructures& structures);
-
-/// What was simulated before: one line per result, key, tab, numbers. Empty when there is no such file.
-diagnose::SimulationCache read_cache(const std::filesystem::path& path);
-std::string cache_text(const diagnose::SimulationCache& cache);
 
 }  // namespace coagula::tools

@@ -2,6 +2,7 @@
 #include "brownian_checkpoint.hpp"
 #include "brownian_results.hpp"
 #include "checkpoint_file.hpp"
+#include "checkpoint_lock.hpp"
 #include "generate.hpp"
 #include "output_file.hpp"
 #include "potential_options.hpp"
@@ -102,6 +103,7 @@ BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, cons
     if (path.empty()) {
         return simulate_brownian(start, potential, options, progress);
     }
+    const CheckpointLock lock(path);
     const std::string signature = fingerprint(arguments) + io::positions_sha256(start);
     std::optional<BrownianCheckpoint> resumed;
     if (std::filesystem::exists(path)) {

@@ -10,7 +10,7 @@ namespace coagula::tools {
 namespace {
 
 /// Read on a screen and on paper; colours by Okabe and Ito (2008), which the colour-blind tell apart.
-constexpr std::string_view style = R"css(
+constexpr std::string_view page_style = R"css(
 :root { --ink: #1d2329; --soft: #5b6770; --rule: #d5dade; --pale: #f3f5f7; --base: #d55e00; --extended: #0072b2; --good: #009e73; }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 2.2rem 1.6rem 3rem; max-width: 66rem; color: var(--ink); background: #fff;
@@ -182,7 +182,8 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
 std::string html_page(const std::string& title, const std::string& body) {
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-           escaped(title) + "</title>\n<style>" + std::string(style) + "</style>\n</head>\n<body>\n" + body + "</body>\n</html>\n";
+           escaped(title) + "</title>\n<style>" + std::string(page_style) + "</style>\n</head>\n<body>\n" + body +
+           "</body>\n</html>\n";
 }
 
 }  // namespace coagula::tools

@@ -12,14 +12,6 @@ namespace coagula::tools {
 
 namespace {
 
-Results read_all_results(const std::string& path) {
-    Results results = io::read_results(path, "/characterization");
-    for (io::Dataset& dataset : io::read_results(path, "/mechanics")) {
-        results.push_back(std::move(dataset));
-    }
-    return results;
-}
-
 std::string value_text(const io::Dataset& dataset) {
     if (const auto* text = std::get_if<std::string>(&dataset.values)) {
         return *text;
@@ -127,9 +119,7 @@ std::map<std::string, std::size_t> own_bonds(const Results& results) {
 
 void run(const Arguments& arguments) {
     const std::string path = arguments.input();
-    const io::Structure structure = io::read_structure(path);
-    const Results results = read_all_results(path);
-    const std::vector<io::Provenance> history = io::read_provenance(path);
+    const auto [structure, results, history] = io::read_contents(path);
 
     Json json = structure_json(structure);
     const std::map<std::string, std::size_t> own = own_bonds(results);

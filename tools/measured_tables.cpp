@@ -19,9 +19,8 @@ bool has_numbers(const io::PlainColumn& column) {
 /// Builds one measurement.
 class Converter {
 public:
-    Converter(const io::MeasuredFile& file, const io::PlainTable& table, diagnose::MeasurementKind kind, const std::string& label,
-              const ColumnRules& rules)
-        : file_(file), table_(table), rules_(rules) {
+    Converter(const io::PlainTable& table, diagnose::MeasurementKind kind, const std::string& label, const ColumnRules& rules)
+        : table_(table), rules_(rules) {
         measurement_.kind = kind;
         measurement_.label = label;
     }
@@ -169,7 +168,6 @@ private:
         measurement_.columns.push_back(std::move(time));
     }
 
-    const io::MeasuredFile& file_;
     const io::PlainTable& table_;
     const ColumnRules& rules_;
     diagnose::Measurement measurement_;
@@ -182,9 +180,9 @@ bool same_values(const std::vector<double>& one, const std::vector<double>& othe
                       [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
 }
 
-diagnose::Measurement to_measurement(const io::MeasuredFile& file, const io::PlainTable& table, diagnose::MeasurementKind kind,
-                                     const std::string& label, const ColumnRules& rules) {
-    return Converter(file, table, kind, label, rules).run();
+diagnose::Measurement to_measurement(const io::PlainTable& table, diagnose::MeasurementKind kind, const std::string& label,
+                                     const ColumnRules& rules) {
+    return Converter(table, kind, label, rules).run();
 }
 
 }  // namespace coagula::tools

@@ -22,8 +22,8 @@ struct ColumnRules {
 /// waveform without a clock, the time: its samples cover one period. Columns of unknown meaning are dropped; of columns with one
 /// meaning the first with a number is taken. Throws InputError, naming file and column, for a unit that is missing or of the wrong
 /// dimension, or a heading that is not in the file.
-diagnose::Measurement to_measurement(const io::MeasuredFile& file, const io::PlainTable& table, diagnose::MeasurementKind kind,
-                                     const std::string& label, const ColumnRules& rules);
+diagnose::Measurement to_measurement(const io::PlainTable& table, diagnose::MeasurementKind kind, const std::string& label,
+                                     const ColumnRules& rules);
 
 /// As many and the same, or no number in both.
 bool same_values(const std::vector<double>& one, const std::vector<double>& other);

@@ -1,6 +1,7 @@
 #include "rheometer_run.hpp"
 
 #include "checkpoint_file.hpp"
+#include "checkpoint_lock.hpp"
 #include "network_keys.hpp"
 #include "orientation_list.hpp"
 #include "rheometer_checkpoint.hpp"
@@ -69,6 +70,10 @@ Findings rheometer_response(const Arguments& arguments, const Packing& packing, 
     const std::string path = arguments.text("checkpoint", "");
     const std::string signature = path.empty() ? "" : fingerprint(arguments, packing, model);
 
+    std::optional<CheckpointLock> lock;
+    if (!path.empty()) {
+        lock.emplace(path);
+    }
     std::optional<mechanics::RheometerCheckpoint> resumed;
     if (!path.empty() && std::filesystem::exists(path)) {
         resumed = read_checkpoint(path, signature);

@@ -51,7 +51,7 @@ ContactTangent secant(const GeneralContact& law, double rest_overlap, double cha
 /// Stress over strain of Hertz contacts at one load over that of linear springs as stiff at rest.
 double Simulator::secant_modulus(std::size_t structure, double load) {
     const std::string key = key_of("hertz " + names_[structure], {load});
-    if (const auto found = cache_.find(key); found != cache_.end()) {
+    if (const auto found = find_result(cache_, key, 1); found != cache_.end()) {
         return found->second.front();
     }
     progress_.update("simulating", 0.0, "Hertz contacts");
@@ -83,7 +83,7 @@ double Simulator::secant_modulus(std::size_t structure, double load) {
     mechanics::LinearOptions springs;
     const double linear = mechanics::solve_linear(packing, bonds, springs, progress_).elastic_tensor(3, 3);
     const double ratio = linear > 0 ? modulus / linear : 1.0;
-    cache_.emplace(key, std::vector<double>{ratio});
+    cache_.insert_or_assign(key, std::vector<double>{ratio});
     return ratio;
 }
 

@@ -48,7 +48,7 @@ Complex reduced_viscosity(Complex response, double drag) {
 /// G* of one structure [Pa], at all nodes of the axis, for a normal stiffness of 1 N/m.
 const std::vector<double>& Simulator::drag_nodes(std::size_t structure) {
     const std::string key = "drag " + names_[structure];
-    auto found = cache_.find(key);
+    auto found = find_result(cache_, key, 2 * static_cast<std::size_t>(drag_axis.count));
     if (found == cache_.end()) {
         progress_.update("simulating", 0.0, "drag of the solvent");
         Settings settings;
@@ -65,7 +65,7 @@ const std::vector<double>& Simulator::drag_nodes(std::size_t structure) {
         for (const mechanics::FrequencyPoint& point : response.points) {
             values.insert(values.end(), {point.mean_shear_modulus().real(), point.mean_shear_modulus().imag()});
         }
-        found = cache_.emplace(key, std::move(values)).first;
+        found = cache_.insert_or_assign(key, std::move(values)).first;
     }
     return found->second;
 }
@@ -162,13 +162,13 @@ Complex Simulator::exact_drag_response(const Settings& settings, double angular_
             key_of("drag at " + names_[k], {settings.normal_stiffness, settings.stiffness_ratio, settings.bending_ratio,
                                             settings.bond_tolerance, settings.springpot_ratio, settings.springpot_exponent,
                                             settings.tension, settings.felt_viscosity, angular_frequency});
-        auto found = cache_.find(key);
+        auto found = find_result(cache_, key, 2);
         if (found == cache_.end()) {
             progress_.update("simulating", 0.0, "drag of the solvent");
             const ContactNetwork bonds = find_contacts(structures_[k], settings.bond_tolerance);
             const auto response = mechanics::solve_frequency_sweep(structures_[k], bonds, model, {&frequency, 1}, {}, progress_);
             const Complex modulus = response.points.front().mean_shear_modulus();
-            found = cache_.emplace(key, std::vector<double>{modulus.real(), modulus.imag()}).first;
+            found = cache_.insert_or_assign(key, std::vector<double>{modulus.real(), modulus.imag()}).first;
         }
         sum += Complex(found->second[0], found->second[1]);
     }

@@ -89,18 +89,19 @@ const PoreCurve& Simulator::imaged_pores(const std::array<double, 4>& errors) {
         pores.largest = largest_pore * radius_;
         const double diameter = 2 * radius_;
         const ImageErrors image{diameter * errors[0], diameter * errors[1], errors[2], errors[3]};
-        pores.probability = mean_over_structures("imaged pores", {errors.begin(), errors.end()}, [&](const Packing& structure) {
-            progress_.update("simulating", 0.0, "pores in images");
-            const Index draws = 1 + least_particles_drawn / structure.size();
-            std::vector<double> mean(radii, 0.0);
-            for (Index draw = 0; draw < draws; ++draw) {
-                const PoreCurve one = measured_pores(as_imaged(structure, image, static_cast<std::uint64_t>(draw)));
-                for (std::size_t k = 0; k < mean.size(); ++k) {
-                    mean[k] += one.at(pores.largest * static_cast<double>(k) / (radii - 1)) / static_cast<double>(draws);
+        pores.probability =
+            mean_over_structures("imaged pores", radii, {errors.begin(), errors.end()}, [&](const Packing& structure) {
+                progress_.update("simulating", 0.0, "pores in images");
+                const Index draws = 1 + least_particles_drawn / structure.size();
+                std::vector<double> mean(radii, 0.0);
+                for (Index draw = 0; draw < draws; ++draw) {
+                    const PoreCurve one = measured_pores(as_imaged(structure, image, static_cast<std::uint64_t>(draw)));
+                    for (std::size_t k = 0; k < mean.size(); ++k) {
+                        mean[k] += one.at(pores.largest * static_cast<double>(k) / (radii - 1)) / static_cast<double>(draws);
+                    }
                 }
-            }
-            return mean;
-        });
+                return mean;
+            });
     }
     return pores;
 }

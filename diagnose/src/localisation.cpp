@@ -15,17 +15,16 @@ constexpr Axis error_axis{0.02, 0.9, 9};
 
 }  // namespace
 
-/// Numbers that are measured of every structure at a place, from the cache where they are known: mean over the structures.
-std::vector<double> Simulator::mean_over_structures(const std::string& what, const std::vector<double>& place,
+/// So many numbers that are measured of every structure at a place, from the cache where they are known: mean over the structures.
+std::vector<double> Simulator::mean_over_structures(const std::string& what, std::size_t count, const std::vector<double>& place,
                                                     const std::function<std::vector<double>(const Packing&)>& measure) {
-    std::vector<double> mean;
+    std::vector<double> mean(count, 0.0);
     for (std::size_t k = 0; k < structures_.size(); ++k) {
         const std::string key = key_of(what + " " + names_[k], place);
-        auto found = cache_.find(key);
+        auto found = find_result(cache_, key, count);
         if (found == cache_.end()) {
-            found = cache_.emplace(key, measure(structures_[k])).first;
+            found = cache_.insert_or_assign(key, measure(structures_[k])).first;
         }
-        mean.resize(found->second.size());
         for (std::size_t entry = 0; entry < mean.size(); ++entry) {
             mean[entry] += found->second[entry] / static_cast<double>(structures_.size());
         }
@@ -35,7 +34,7 @@ std::vector<double> Simulator::mean_over_structures(const std::string& what, con
 
 /// Neighbours in every shell for errors in the plane and along z over the diameter.
 std::vector<double> Simulator::shells(double plane, double axis) {
-    return mean_over_structures("neighbours", {plane, axis}, [&](const Packing& structure) {
+    return mean_over_structures("neighbours", shell_count, {plane, axis}, [&](const Packing& structure) {
         return shells_of_structure(structure, 2 * radius_ * plane, 2 * radius_ * axis);
     });
 }
@@ -51,7 +50,7 @@ const std::vector<double>& Simulator::shell_node(int plane, int axis) {
 /// As of the function.
 const std::vector<double>& Simulator::shells_about_places() {
     if (shells_about_places_.empty()) {
-        shells_about_places_ = mean_over_structures("places", {}, shells_about_free_places);
+        shells_about_places_ = mean_over_structures("places", shell_count + 1, {}, shells_about_free_places);
     }
     return shells_about_places_;
 }
@@ -59,7 +58,7 @@ const std::vector<double>& Simulator::shells_about_places() {
 /// Standard deviations as they are seen over the true ones, and the share of centres that are not found again although they are in
 /// both images.
 std::vector<double> Simulator::matched_images(double plane, double axis) {
-    return mean_over_structures("images", {plane, axis}, [&](const Packing& structure) -> std::vector<double> {
+    return mean_over_structures("images", 3, {plane, axis}, [&](const Packing& structure) -> std::vector<double> {
         const auto seen = images_of_structure(structure, 2 * radius_ * plane, 2 * radius_ * axis).values;
         return {seen[0] / plane, seen[1] / axis, seen[2]};
     });

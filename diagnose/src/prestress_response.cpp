@@ -21,7 +21,7 @@ constexpr Axis tension_axis{1e-4, 1e-2, 7};
 double Simulator::prestressed_modulus(std::size_t structure, const Settings& settings) {
     const std::string key = key_of("prestress " + names_[structure],
                                    {settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance, settings.tension});
-    if (const auto found = cache_.find(key); found != cache_.end()) {
+    if (const auto found = find_result(cache_, key, 1); found != cache_.end()) {
         return found->second.front();
     }
     progress_.update("simulating", 0.0, "linear modulus under tension");
@@ -35,7 +35,7 @@ double Simulator::prestressed_modulus(std::size_t structure, const Settings& set
     mechanics::LinearOptions options;
     options.bond_tangents = mechanics::bond_tangents(packing, bonds, contact_model_of(part, radius_));
     const double modulus = mechanics::solve_linear(packing, bonds, options, progress_).mean_shear_modulus();
-    cache_.emplace(key, std::vector<double>{modulus});
+    cache_.insert_or_assign(key, std::vector<double>{modulus});
     return modulus;
 }
 

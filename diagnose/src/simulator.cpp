@@ -75,8 +75,8 @@ double Simulator::particles(std::size_t group) const {
 /// Moduli of one structure for unit stiffness: mean over the orientations, then the three shear planes.
 const std::vector<double>& Simulator::linear_moduli(std::size_t structure, double ratio, double bending, double tolerance) {
     const std::string key = key_of("linear " + names_[structure], {ratio, bending, tolerance});
-    auto found = cache_.find(key);
-    if (found == cache_.end() || found->second.size() < 4) {
+    auto found = find_result(cache_, key, 4);
+    if (found == cache_.end()) {
         progress_.update("simulating", 0.0, "linear modulus");
         const ContactNetwork bonds = find_contacts(structures_[structure], tolerance);
         const auto response = solve(structures_[structure], bonds, ratio, bending, radius_, progress_);

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 static long* calls; /* shared with child processes */
@@ -49,6 +50,19 @@ ssize_t write(int descriptor, const void* bytes, size_t size) {
         die();
     }
     const ssize_t done = NEXT(write)(descriptor, bytes, end == 'h' ? size / 2 : size);
+    if (end != 0) {
+        die();
+    }
+    return done;
+}
+
+/* Half of these buffers is the first of them. */
+ssize_t writev(int descriptor, const struct iovec* buffers, int count) {
+    const int end = is_our_descriptor(descriptor) ? fate() : 0;
+    if (end == 'b') {
+        die();
+    }
+    const ssize_t done = NEXT(writev)(descriptor, buffers, end == 'h' ? 1 : count);
     if (end != 0) {
         die();
     }

@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -22,6 +23,17 @@ import h5py
 HERE = Path(__file__).resolve().parent
 CSV = "x [um],y [um],z [um]\n1,1,1\n2.1,1,1\n1,2.1,1\n2.1,2.1,1.2\n5,5,5\n"
 MODULI = "doh_a,storage_modulus [Pa]\n" + "".join(f"{0.5 + 0.05 * k},{1e5 * (0.2 + 0.05 * k) ** 1.5 * (1 + 0.01 * (-1) ** k)}\n" for k in range(8))
+SWEEP = "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]\n" + "".join(f"{10 ** (k / 2 - 1)},{1e5 + 1e4 * k},{2e4 + 400 * (-1) ** k}\n" for k in range(6))
+EXPERIMENT = """[sample]
+particle_radius = "0.5 um"
+[structures]
+files = ["gel.h5"]
+[[measurement]]
+kind = "frequency-sweep"
+file = "sweep.csv"
+sample = "one"
+"""
+GEL = ["generate", "vem", "--particles", "60", "--volume-fraction", "0.4", "--radius", "0.5um", "-o", "gel.h5"]
 BROWNIAN = ["generate", "brownian", "--particles", "60", "--volume-fraction", "0.3", "--radius", "0.25um", "--surface-potential", "0mV",
             "--equilibration-time", "10us", "--stop-time", "0.2ms", "--sample-interval", "10us"]
 DEM = ["shear", "small.h5", "--method", "dem", "--boundary", "periodic", "--bond-tolerance", "0.2", "--oscillations", "6",
@@ -38,7 +50,12 @@ CALLS = {
     "export": ("small.csv.out.csv", ["export", "small.h5", "--format", "csv", "-o", "small.csv.out.csv", "--force"]),
     "calibrate": ("table.csv", ["calibrate", "small.h5", "--from", "50N/m", "--to", "100N/m", "--steps", "2", "-o", "table.csv",
                                 "--force"]),
+    "fit power-law": ("profile.csv", ["fit", "power-law", "moduli.csv", "--a", "doh_a", "--modulus", "storage_modulus", "--points", "20",
+                                      "-o", "profile.csv", "--force"]),
+    "diagnose": ("diagnosis", ["diagnose", "experiment.toml", "-o", "diagnosis", "--bootstrap", "99", "--causes", "contact-loss",
+                               "--force"]),
 }
+KEY_FILE = "diagnosis.json"  # where it stands, all files of the folder are of one run
 # Runs with checkpoints: the call and its result.
 RESUMED = {
     "generate brownian": ("brownian.h5", [*BROWNIAN, "--checkpoint", "state.h5", "--checkpoint-interval", "0s", "-o", "brownian.h5"]),
@@ -60,6 +77,19 @@ def data_sets(path):
     return found
 
 
+def values_of(path):
+    """What a file holds, apart from when and how fast it was made; of a folder by name."""
+    if path.is_dir():
+        return {part.name: values_of(part) for part in path.iterdir() if part.name != ".new"}
+    if path.suffix == ".h5":
+        return data_sets(path)
+    if path.suffix == ".json":
+        return {name: value for name, value in json.loads(path.read_bytes()).items() if name != "seconds"}
+    if path.suffix == ".html":
+        return re.sub(rb"\d{4}-\d\d-\d\dT[\d:]+Z(, [\d.e-]+ s)?", b"", path.read_bytes())
+    return path.read_bytes()
+
+
 def checksum(path):
     return hashlib.sha256(path.read_bytes()).hexdigest() if path.exists() else ""
 
@@ -73,7 +103,9 @@ class Campaign:
         self.draw = random.Random(seed)
         self.library = self.folder.with_suffix(".so")
         subprocess.run(["cc", "-shared", "-fPIC", "-O1", str(HERE / "kill_at.c"), "-o", str(self.library), "-ldl"], check=True)
-        (self.folder / "small.csv").write_text(CSV)
+        for name, text in (("small.csv", CSV), ("moduli.csv", MODULI), ("sweep.csv", SWEEP), ("experiment.toml", EXPERIMENT)):
+            (self.folder / name).write_text(text)
+        self.succeed(GEL)
         self.run(CALLS["import"][1])
         os.rename(self.folder / "made.h5", self.folder / "small.h5")
         self.kills = {}
@@ -84,7 +116,7 @@ class Campaign:
 
     def run(self, words, **environment):
         return subprocess.run([self.program, *words, "--quiet"], cwd=self.folder, env={**os.environ, **environment}, start_new_session=True,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=120)
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=600)
 
     def kill(self, name, words, at, when):
         """True when the call was killed; otherwise it ended before and did well."""
@@ -100,25 +132,23 @@ class Campaign:
         assert done.returncode == 0, f"{words}: {done.stderr}"
 
     def require_clean(self):
-        hidden = [path.name for path in self.folder.iterdir() if path.name.startswith(".")]
+        hidden = [path.name for path in self.folder.rglob(".*")]
         assert not hidden, f"left behind: {hidden}"
 
     def require_whole(self, name, path, reference):
         """The values of the new file, which replaced an old one of the same values; only its history may differ."""
-        if path.suffix == ".h5":
-            assert data_sets(path) == reference, f"{name}: {path.name} holds other values"
-        else:
-            assert path.read_bytes() == reference, f"{name}: {path.name} holds other values"
-
-    def values(self, path):
-        return data_sets(path) if path.suffix == ".h5" else path.read_bytes()
+        found = values_of(path)
+        if path.is_dir():
+            assert KEY_FILE not in found or found.keys() == reference.keys(), f"{name}: only {sorted(found)} are there"
+            reference = {part: reference[part] for part in found}
+        assert found == reference, f"{name}: {path.name} holds other values"
 
     def kill_everywhere(self, name):
         """Every call of the verb, at every moment of it."""
         output, words = CALLS[name]
         path = self.folder / output
         self.succeed(words)
-        reference = self.values(path)
+        reference = values_of(path)
         at = 1
         while True:
             killed = [self.kill(name, words, at, when) for when in ("before", "half", "after")]
@@ -128,6 +158,7 @@ class Campaign:
             at += 1
         assert at > 3, f"{name} wrote, synced and renamed less than expected"
         self.succeed(words)
+        assert values_of(path) == reference, f"{name}: the run after the kills ends with other values"
         self.require_clean()
 
     def kill_a_new_file(self, name):
@@ -158,8 +189,9 @@ class Campaign:
                 break
             if checksum(state) != before:
                 data_sets(state)
-            if path.exists():
-                break  # killed behind the last rename
+            if path.exists():  # killed behind the last rename
+                self.succeed([*words, "--force"])  # and what that left goes
+                break
         assert data_sets(path) == data_sets(self.folder / "whole.h5"), f"{name}: the pieces differ from the whole"
         path.unlink()
         state.unlink()
@@ -183,6 +215,7 @@ def main():
     try:
         while sum(campaign.kills.values()) < arguments.kills:
             campaign.round()
+            print("kills so far:", sum(campaign.kills.values()), flush=True)
     finally:
         print(json.dumps(campaign.kills, indent=2), "kills:", sum(campaign.kills.values()), flush=True)
     campaign.close()

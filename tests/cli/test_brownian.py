@@ -126,6 +126,22 @@ class Restart(ProgramTest):
         os.remove(self.folder / "pieces.h5")
         self.fail_with(2, *words, "--seed", "2", says="other options")
 
+    def test_a_checkpoint_belongs_to_one_run_at_a_time(self):
+        words = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "1s", "--checkpoint", "state.h5", "--checkpoint-interval", "0s"]
+        first = subprocess.Popen([PROGRAM, *words, "-o", "first.h5"], cwd=self.folder, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        self.addCleanup(first.kill)
+        while not (self.folder / "state.h5").exists():
+            self.assertIsNone(first.poll())
+            time.sleep(0.02)
+        for other in ([], ["--seed", "2"]):
+            said = self.run_program(*words, *other, "-o", "second.h5")
+            self.assertEqual(said.returncode, 2, said.stderr)
+            self.check_sentence(said.stderr, says="another run is using the checkpoint state.h5: wait for its end")
+        first.send_signal(signal.SIGKILL)
+        first.wait()
+        self.check_sentence(self.run_program(*words, "--seed", "2", "-o", "second.h5").stderr, says="other options")
+        self.assertFalse((self.folder / ".state.h5.lock").exists())
+
     def test_full_disk_keeps_the_last_checkpoint(self):
         words = [*self.LONG, "--checkpoint", "state.h5", "--checkpoint-interval", "0s", "-o", "b.h5"]
         self.write("state.h5", "no checkpoint")

@@ -103,6 +103,21 @@ class Diagnosis(ProgramTest):
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="report.html is there already; use --force")
         self.assertEqual((results / "report.html").read_text(), "mine")
 
+    def test_a_damaged_cache_of_simulations_is_refused(self):
+        self.smooth_sweep(6)
+        words = ("diagnose", "experiment.toml", "-o", "results", "--force", "--bootstrap", "99", "--causes", "contact-loss")
+        first = self.succeed_json(*words)
+        cache = self.folder / "results" / "simulations.txt"
+        whole = cache.read_text()
+        key, numbers = whole.splitlines()[0].split("\t")
+        for text, line in ((whole[:-3], 1), (whole + "rest", 2), (f"{key}\t\n", 1), (f"{key}\t1 2,5 3 4\n", 1), (f"{key}\tnan 2 3 4\n", 1)):
+            with self.subTest(text=text):
+                cache.write_text(text)
+                self.fail_with(2, *words, says=f"simulations.txt: line {line} is no whole result of a simulation; remove the file")
+        cache.write_text(f"{key}\t{numbers.rsplit(' ', 1)[0]}\n")
+        self.assertEqual(self.succeed_json(*words)["rows"], first["rows"])
+        self.assertEqual(cache.read_text(), whole)
+
     def test_structures_that_are_not_the_sample_are_noted(self):
         self.smooth_sweep()
         self.write("experiment.toml", EXPERIMENT.replace('"0.25 um"', '"2.5 um"\nvolume_fraction = 0.3'))

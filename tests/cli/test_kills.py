@@ -17,7 +17,7 @@ class Kills(unittest.TestCase):
         self.addCleanup(self.campaign.close)
 
     def test_every_moment_of_a_write(self):
-        for name in ("characterize", "shear", "export"):
+        for name in ("characterize", "shear", "export", "fit power-law", "diagnose"):
             with self.subTest(verb=name):
                 self.assertIn(name, CALLS)
                 self.campaign.kill_everywhere(name)

@@ -8,6 +8,7 @@
 #include "child_process.hpp"
 #include "layout.hpp"
 #include "packed.hpp"
+#include "results.hpp"
 
 namespace coagula::io {
 
@@ -220,6 +221,22 @@ std::optional<ContactNetwork> read_bonds(const File& file, const Packing& packin
     return bonds;
 }
 
+/// Group and structure as a child process has read them. The checks run in the calling process: they use threads, and their
+/// sentences come from values alone.
+Structure take_structure(Unpacker& found, const std::string& path) {
+    const auto group = found.take<std::string>();
+    auto structure = found.take<Structure>();
+    try {
+        check(structure.packing, path + ": " + group);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(error.what());
+    }
+    if (const double fraction = volume_fraction(structure.packing); fraction > 1) {
+        throw InputError(path + ": " + group + " is overfull: its spheres take " + to_text(fraction) + " of the volume of the box");
+    }
+    return structure;
+}
+
 }  // namespace
 
 std::string particles_group(const File& file) {
@@ -241,7 +258,6 @@ Structure read_structure(const File& file) {
     return {packing, read_bonds(file, packing)};
 }
 
-// The checks run in the calling process: they use threads, and their sentences come from values alone.
 Structure read_structure(const std::string& path) {
     Unpacker found(run_in_child(path, [&](ReadingLimits& /*limits*/) {
         const File file = File::open(path);
@@ -249,17 +265,23 @@ Structure read_structure(const std::string& path) {
         packer(particles_group(file), read_structure(file));
         return packer.take();
     }));
-    const auto group = found.take<std::string>();
-    const auto structure = found.take<Structure>();
-    try {
-        check(structure.packing, path + ": " + group);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(error.what());
+    return take_structure(found, path);
+}
+
+Contents read_contents(const std::string& path) {
+    Unpacker found(run_in_child(path, [&](ReadingLimits& /*limits*/) {
+        const File file = File::open(path);
+        Packer packer;
+        packer(particles_group(file), read_structure(file), results_in(file, "/characterization"), results_in(file, "/mechanics"),
+               results_in(file, layout::provenance));
+        return packer.take();
+    }));
+    Contents contents{take_structure(found, path), found.take<std::vector<Dataset>>(), {}};
+    for (Dataset& dataset : found.take<std::vector<Dataset>>()) {
+        contents.results.push_back(std::move(dataset));
     }
-    if (const double fraction = volume_fraction(structure.packing); fraction > 1) {
-        throw InputError(path + ": " + group + " is overfull: its spheres take " + to_text(fraction) + " of the volume of the box");
-    }
-    return structure;
+    contents.history = history_of(found.take<std::vector<Dataset>>());
+    return contents;
 }
 
 }  // namespace coagula::io

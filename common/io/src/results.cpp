@@ -49,25 +49,6 @@ std::string provenance_name(const File& file, std::string stage) {
     return number.data() + stage;
 }
 
-std::vector<Dataset> results_in(const File& file, const std::string& group) {
-    std::vector<Dataset> results;
-    for (const std::string& name : file.datasets_below(group)) {
-        Dataset dataset{name, file.shape(name), {}, file.attribute(name, "unit"), file.attribute(name, "description")};
-        const Content content = file.content(name);
-        if (content == Content::real) {
-            dataset.values = file.read<double>(name);
-        } else if (content == Content::integer) {
-            dataset.values = file.read<std::int64_t>(name);
-        } else if (content == Content::text && dataset.shape.empty()) {
-            dataset.values = file.read_text(name);
-        } else {
-            continue;  // not one of ours
-        }
-        results.push_back(std::move(dataset));
-    }
-    return results;
-}
-
 /// Sets the field of an entry of the history that a dataset holds, if there is one of this name and type.
 void set_field(Provenance& entry, const std::string& name, const Dataset& dataset) {
     const std::map<std::string, std::string*> texts = {{"stage", &entry.stage},     {"command_line", &entry.command_line},
@@ -152,6 +133,25 @@ void write_datasets(const std::string& path, const std::vector<Dataset>& dataset
     write_file(path, file.close(), overwrite);
 }
 
+std::vector<Dataset> results_in(const File& file, const std::string& group) {
+    std::vector<Dataset> results;
+    for (const std::string& name : file.datasets_below(group)) {
+        Dataset dataset{name, file.shape(name), {}, file.attribute(name, "unit"), file.attribute(name, "description")};
+        const Content content = file.content(name);
+        if (content == Content::real) {
+            dataset.values = file.read<double>(name);
+        } else if (content == Content::integer) {
+            dataset.values = file.read<std::int64_t>(name);
+        } else if (content == Content::text && dataset.shape.empty()) {
+            dataset.values = file.read_text(name);
+        } else {
+            continue;  // not one of ours
+        }
+        results.push_back(std::move(dataset));
+    }
+    return results;
+}
+
 std::vector<Dataset> read_results(const std::string& path, const std::string& group) {
     return Unpacker(run_in_child(path,
                                  [&](ReadingLimits& /*limits*/) {
@@ -162,10 +162,10 @@ std::vector<Dataset> read_results(const std::string& path, const std::string& gr
         .take<std::vector<Dataset>>();
 }
 
-std::vector<Provenance> read_provenance(const std::string& path) {
+std::vector<Provenance> history_of(const std::vector<Dataset>& datasets) {
     std::map<std::string, Provenance> history;  // by the name of the entry, which begins with its number
     const std::string prefix = std::string(layout::provenance) + "/";
-    for (Dataset& dataset : read_results(path, layout::provenance)) {
+    for (const Dataset& dataset : datasets) {
         const std::size_t slash = dataset.path.find('/', prefix.size());
         if (slash != std::string::npos) {
             set_field(history[dataset.path.substr(prefix.size(), slash - prefix.size())], dataset.path.substr(slash + 1), dataset);
@@ -176,6 +176,10 @@ std::vector<Provenance> read_provenance(const std::string& path) {
         entries.push_back(std::move(entry));
     }
     return entries;
+}
+
+std::vector<Provenance> read_provenance(const std::string& path) {
+    return history_of(read_results(path, layout::provenance));
 }
 
 }  // namespace coagula::io

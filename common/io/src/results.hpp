@@ -7,6 +7,12 @@
 
 namespace coagula::io {
 
+/// All datasets below a group, sorted by path.
+std::vector<Dataset> results_in(const hdf5::File& file, const std::string& group);
+
+/// The history, oldest first, from the datasets below /provenance.
+std::vector<Provenance> history_of(const std::vector<Dataset>& datasets);
+
 /// Writes a dataset, replacing one of the same path. Throws std::invalid_argument when the shape does not fit the values.
 void write_dataset(hdf5::File& file, const Dataset& dataset);
 

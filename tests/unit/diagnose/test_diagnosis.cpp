@@ -188,7 +188,7 @@ std::vector<std::complex<double>> explicit_sweep(const std::vector<double>& stra
         run.course.push_back({strain / strains.back()});
     }
     std::vector<std::complex<double>> moduli(strains.size());
-    for (const std::uint64_t seed : {77, 78, 79}) {
+    for (const std::uint64_t seed : {77U, 78U, 79U}) {
         const Packing packing = structure(250, seed);
         const auto result = mechanics::run_rheometer(packing, find_contacts(packing, 0.01), run, {{2, 0}, {0, 1}, {1, 2}});
         for (const auto& one : result.runs) {

@@ -46,7 +46,7 @@ TEST(Polydispersity, WidensThePeakOfTheContactsAndKeepsCoordination) {
 TEST(Polydispersity, NodesAreTheStructuresThemselves) {
     constexpr double deviation = 0.4;  // the last node
     double counted = 0;
-    for (const std::uint64_t seed : {1, 2}) {
+    for (const std::uint64_t seed : {1U, 2U}) {
         counted +=
             0.5 * neighbours_between(structure_with_sizes(recipe_particles, seed, SizeKind::lognormal, deviation), 0.95, 1.05);
     }
@@ -92,7 +92,7 @@ TEST(Polydispersity, StructuresAreMadeOnceAndOnlyWhenAskedFor) {
 /// Sizes that are normal, not lognormal, in structures of another number of particles, are seen through coordinates.
 TEST(Polydispersity, HiddenInCoordinatesIsNamed) {
     std::vector<Measurement> tables;
-    for (const std::uint64_t seed : {31, 32}) {
+    for (const std::uint64_t seed : {31U, 32U}) {
         tables.push_back(seen_by_microscope(structure_with_sizes(700, seed, SizeKind::normal, 0.12), 0, 0, 0, seed));
     }
     const Diagnosis found = diagnose_by_recipe(tables);

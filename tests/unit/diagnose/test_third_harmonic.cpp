@@ -122,7 +122,7 @@ TEST(ThirdHarmonic, OfBreakingBondsIsThatOfExplicitSteps) {
     mechanics::RheometerOptions options = options_of(contact_model_of(settings, 0.25e-6), strains);
     options.steps_per_oscillation = 24000;
     Complex simulated = 0;
-    for (const std::uint64_t seed : {1, 2}) {
+    for (const std::uint64_t seed : {1U, 2U}) {
         const Packing packing = structure(200, seed);
         const auto run = mechanics::run_rheometer(packing, find_contacts(packing, 0.01), options, {{}});
         const std::vector<Measurement> rows = waveforms_of(run.runs.front());

@@ -161,7 +161,7 @@ TEST(Mount, RepeatsTheStructureInThePlates) {
     const MountedSample mounted = mount(packing, sample().bonds, options, {2, 0});
     const double height = packing.cell.lengths().z();
     const double thickness = 6 * 0.25e-6;
-    ASSERT_EQ(mounted.packing.size(), static_cast<Index>(packing.size() + mounted.lower.size() + mounted.upper.size()));
+    ASSERT_EQ(mounted.packing.size(), packing.size() + static_cast<Index>(mounted.lower.size() + mounted.upper.size()));
     const auto expected = std::count_if(packing.positions.row(2).begin(), packing.positions.row(2).end(),
                                         [&](double z) { return z >= height - thickness; });
     EXPECT_EQ(static_cast<Index>(mounted.lower.size()), expected);

@@ -157,7 +157,7 @@ private:
     const std::vector<double>& shells_about_places();
     std::vector<double> matched_images(double plane, double axis);
     const std::vector<double>& image_node(int plane, int axis);
-    std::vector<double> mean_over_structures(const std::string& what, const std::vector<double>& place,
+    std::vector<double> mean_over_structures(const std::string& what, std::size_t count, const std::vector<double>& place,
                                              const std::function<std::vector<double>(const Packing&)>& measure);
 
     Structures structures_;

@@ -90,6 +90,16 @@ void write_structure(const std::string& path, const Structure& structure, const 
 /// inconsistent.
 Structure read_structure(const std::string& path);
 
+/// What a file holds.
+struct Contents {
+    Structure structure;
+    std::vector<Dataset> results;     ///< below /characterization, then those below /mechanics
+    std::vector<Provenance> history;  ///< oldest first
+};
+
+/// read_structure, read_results and read_provenance at the cost of one of them.
+Contents read_contents(const std::string& path);
+
 /// Copies `source` to `target` (may be the same file) with the groups in `replaced` removed, then adds bonds (if given), fields,
 /// results and a provenance entry; by temporary file and rename. What coagula does not know in the source is kept.
 /// With target != source an existing target needs `overwrite`. `bond_fields` belong to `bonds`.
