@@ -142,7 +142,8 @@ TEST(CheckData, RefusesModuliThatNothingHas) {
 TEST(CheckData, AcceptsModuliBelowZero) {
     Measurement table;
     table.label = "raw";
-    table.columns = {{"angular_frequency", "rad/s", {1, 10, 50, 100, 200}}, {"storage_modulus", "Pa", {9e4, 8e4, -5e4, -4e5, -2e6}}};
+    table.columns = {{"angular_frequency", "rad/s", {1, 10, 50, 100, 200}},
+                     {"storage_modulus", "Pa", {9e4, 8e4, -5e4, -4e5, -2e6}}};
     const CheckedMeasurement checked = check_data(table);
     EXPECT_TRUE(checked.problems.empty());
     EXPECT_TRUE(checked.measurement.left_out.empty());
