@@ -195,13 +195,12 @@ std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
     if (gain.held_out == 0) {
         return html + paragraph("There are too few rows to hold some out.");
     }
-    html += paragraph(std::to_string(gain.held_out) +
-                      " numbers were held out before the models were fitted to the rest. Their "
-                      "prediction misses by " +
-                      percent(gain.rmse_base) + " of |G*| (rms) with the base model, by " + percent(gain.rmse_flexible) +
-                      " with a smooth correction of it, and by <b>" + percent(gain.rmse_extended) +
-                      "</b> with the extended model: a factor of " + printed(gain.rmse_ratio) +
-                      ". The log predictive density changes by " + change_of_density(gain, print_number) + ".");
+    html += paragraph(std::to_string(gain.held_out) + " numbers were held out" + (gain.chosen.size() > 1 ? " in turn" : "") +
+                      "; the cause was chosen and fitted on the rest (" + escaped(list_of(gain.chosen)) +
+                      "). Their prediction misses by " + percent(gain.rmse_base) + " of |G*| (rms) with the base model, by " +
+                      percent(gain.rmse_flexible) + " with a smooth correction of it, and by <b>" + percent(gain.rmse_extended) +
+                      "</b> with that cause: a factor of " + printed(gain.rmse_ratio) + ". The log predictive density changes by " +
+                      change_of_density(gain, print_number) + ".");
     for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
         const diagnose::Measurement& table = record.experiment.measurements[k];
         for (const Picture& picture : draw_gain(gnuplot, table, k, record.diagnosis)) {

@@ -62,14 +62,6 @@ Json row_json(const diagnose::PredictedRow& row) {
             {"held_out", row.held_out}};
 }
 
-std::string list(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) {
-        text += (text.empty() ? "" : ", ") + name;
-    }
-    return text;
-}
-
 std::string describe(const Cause& cause) {
     std::string text = "probability " + with_unit(cause.posterior, "1");
     for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
@@ -89,8 +81,9 @@ std::string describe(const diagnose::Gain& gain) {
         return "none: too few rows to hold some out";
     }
     const auto percent = [](double part) { return with_unit(100 * part, "1") + " %"; };
-    return "error " + percent(gain.rmse_base) + " by the base model, " + percent(gain.rmse_extended) + " by the best cause (" +
-           percent(gain.rmse_flexible) + " by a smooth correction); log predictive density " +
+    return "error " + percent(gain.rmse_base) + " by the base model, " + percent(gain.rmse_extended) +
+           " by the cause that the rest asks for (" + percent(gain.rmse_flexible) +
+           " by a smooth correction); log predictive density " +
            change_of_density(gain, [](double value) { return with_unit(value, "1"); });
 }
 
@@ -100,6 +93,14 @@ std::string change_of_density(const diagnose::Gain& gain, const std::function<st
     const std::string change = (gain.elpd_difference < 0 ? "" : "+") + print(gain.elpd_difference);
     return std::isnan(gain.elpd_low) ? change + " (too few rows for an interval)"
                                      : change + " (90 % interval " + print(gain.elpd_low) + " to " + print(gain.elpd_high) + ")";
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
 }
 
 bool is_least_p(const Diagnosis& diagnosis) {
@@ -165,6 +166,7 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
                              {"p_value", diagnosis.remainder.p_value},
                              {"where", diagnosis.remainder.where}};
         json["gain"] = {{"held_out", gain.held_out},
+                        {"chosen", gain.chosen},
                         {"rmse_base", number(gain.rmse_base)},
                         {"rmse_extended", number(gain.rmse_extended)},
                         {"rmse_flexible", number(gain.rmse_flexible)},
@@ -201,7 +203,7 @@ Table table_of(const Diagnosis& diagnosis) {
     for (const diagnose::Failure& failure : diagnosis.failures) {
         lines.emplace_back("where", failure.sentence);
     }
-    lines.emplace_back("95 % set of causes", list(diagnosis.credible_set));
+    lines.emplace_back("95 % set of causes", list_of(diagnosis.credible_set));
     for (const Cause& cause : diagnosis.causes) {
         if (cause.posterior > 0.01) {
             lines.emplace_back("  " + cause.name, describe(cause));

@@ -26,9 +26,9 @@ constexpr double log_stiffness_range = 18.42;  ///< of eight decades
 constexpr int posterior_draws = 64;
 constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit stays away
 
-/// Logarithm of the density that a grid lacks at its best node where it misses the crest of a ridge; one along the axes lies beside
-/// the mode by half a cell at most, which is less.
-constexpr double missed = 3;
+/// Logarithm of the density, for each axis, that a grid lacks at its best node where it misses the crest of a ridge; one along the
+/// axes lies beside the mode by half a cell of each at most, which is less.
+constexpr double missed = 1.5;
 
 /// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
 constexpr double enough_nodes = 2.5;
@@ -233,7 +233,8 @@ PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
                                 ? about->nodes[about->best()].log_weight - grid.nodes[grid.best()].log_weight
                                 : -std::numeric_limits<double>::infinity();
         const bool coarse = grid.effective_nodes() < std::pow(enough_nodes, axes);
-        if (gain > missed || (coarse && gain > -1 && about->effective_nodes() > grid.effective_nodes())) {
+        if (gain > missed * static_cast<double>(axes) ||
+            (coarse && gain > -1 && about->effective_nodes() > grid.effective_nodes())) {
             return *about;
         }
     }

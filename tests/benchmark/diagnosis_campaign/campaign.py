@@ -108,7 +108,8 @@ def run(row, number, program, folder):
     found = diagnose(program, experiment, folder / "simulations.txt", *seed)
     entry = {"row": row, "number": number, "truth": session.hidden.name, "hidden": vars(session.hidden), "stiffness": session.stiffness,
              "gain": session.gain(material), "wall": time.time() - started}
-    keep = ("detected", "p_value", "verdict", "credible_set", "gain", "extended_p_value", "proposed_measurement", "seconds")
+    keep = ("detected", "p_value", "verdict", "credible_set", "gain", "extended_p_value", "proposed_measurement", "seconds",
+            "notes", "remainder", "level_alone")
     entry["found"] = {key: found.get(key) for key in keep}
     entry["found"]["statistics"] = found.get("statistics", [])[:2]
     entry["found"]["causes"] = [{key: cause[key] for key in ("name", "posterior", "parameters")} for cause in found["causes"]

@@ -89,11 +89,11 @@ class Session:
                       f"stated_sample = {self.noise.sample}", ""]
         wrong = set(generator.choice(sum(len(table.strain) for table in self.tables), self.noise.wrong_rows, replace=False).tolist())
         for number, table in enumerate(self.tables):
-            clean = reading(material, self.sliding(material, table), table)
-            self.moduli.append(clean)
             spread = 0.0 if numpy.isfinite(table.viscosity) else self.noise.sample
             offset = offsets.setdefault(table.sample, 1 + spread * generator.standard_normal())
-            size = offset * (1 + self.noise.torque * errors(generator, self.noise, len(clean)))
+            clean = reading(material, self.sliding(material, table), table, offset)
+            self.moduli.append(clean)
+            size = 1 + self.noise.torque * errors(generator, self.noise, len(clean))
             measured = clean * size * numpy.exp(1j * self.noise.phase * errors(generator, self.noise, len(clean)))
             first = sum(len(each.strain) for each in self.tables[:number])
             measured *= numpy.array([10.0 if first + row in wrong else 1.0 for row in range(len(clean))])
@@ -235,10 +235,10 @@ def true_modulus(material, session, table):
     return modulus
 
 
-def reading(material, session, table):
-    """Apparent G* from torque and angle."""
+def reading(material, session, table, level=1.0):
+    """Apparent G* from torque and angle. A sample differs from others in its level; the tool does not."""
     hidden = session.hidden
-    modulus = true_modulus(material, session, table)
+    modulus = level * true_modulus(material, session, table)
     stress = modulus * table.strain
     slip = 0.0 if table.rough or numpy.isfinite(table.viscosity) else hidden.slip
     if table.cone:
