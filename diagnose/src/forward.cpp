@@ -136,18 +136,16 @@ Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
     return all;
 }
 
-/// These moduli with one standard error of the drag that each structure leaves.
+/// These moduli with one standard error of the drag that each structure leaves, also where no row shows it.
 Eigen::MatrixXcd Forward::moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const {
-    Eigen::MatrixXcd moved(moduli.size(), 0);
+    const std::size_t structures = simulator_.drag_errors(settings, 1).size();
+    Eigen::MatrixXcd moved = moduli.replicate(1, static_cast<Index>(structures));
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         if (!is_modulus(observation) || is_fluid(observation) || !std::isfinite(observation.angular_frequency)) {
             continue;
         }
         const std::vector<Complex> errors = simulator_.drag_errors(settings, observation.angular_frequency, observation.structures);
-        if (moved.cols() == 0) {
-            moved = moduli.replicate(1, static_cast<Index>(errors.size()));
-        }
         const Complex response = simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
         for (std::size_t error = 0; error < errors.size(); ++error) {
             moved(static_cast<Index>(k), static_cast<Index>(error)) *= 1.0 + errors[error] / response;

@@ -87,6 +87,20 @@ TEST(SolventDrag, TheStructuresLeaveAnErrorOfWhatTheyDifferBy) {
     EXPECT_LT(std::abs(first.drag_errors(settings, 1)[0] - 0.5 * (first.drag_response(settings, 1) - 1.0)), 1e-12);
 }
 
+/// What is proposed may show nothing of the sample: an oil alone. The errors of the structures are the same ones all the same.
+TEST(SolventDrag, TheStructuresErrorsAreThereWhereNothingShowsThem) {
+    Measurement oil;
+    oil.fluid_viscosity = 1;
+    oil.columns = {{"angular_frequency", "rad/s", {1, 10}}, {"loss_modulus", "Pa", {1, 10}}};
+    Experiment experiment;
+    experiment.measurements = {oil};
+    const auto rows = observations_of(experiment);
+    const Prediction found = Forward(experiment, rows, simulator()).prediction(with_drag(1e-3));
+    ASSERT_EQ(found.errors.changes.cols(), 2);
+    EXPECT_EQ(found.errors.changes.cwiseAbs().maxCoeff(), 0);
+    EXPECT_EQ(found.values, (Eigen::Vector2d{1, 10}));
+}
+
 Measurement sweep(const std::vector<double>& frequencies, const std::vector<Complex>& moduli, double error, std::uint64_t seed) {
     Column frequency{"angular_frequency", "rad/s", {}};
     Column storage{"storage_modulus", "Pa", {}};
