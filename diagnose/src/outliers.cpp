@@ -32,12 +32,15 @@ double median_of(std::vector<double> values) {
     return values.empty() ? unset : median(std::move(values));
 }
 
-/// Deviation of normal numbers of which this is the median size.
+/// Deviation of normal numbers of which a half may be anything: from the size that a quarter of them do not reach.
 double robust_deviation(std::vector<double> values) {
+    constexpr double quarter = 0.3186;  // of normal numbers
     for (double& value : values) {
         value = std::abs(value);
     }
-    return 1.4826 * median_of(std::move(values));
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
+    std::nth_element(values.begin(), place, values.end());
+    return values.empty() ? unset : *place / quarter;
 }
 
 /// Tables that were measured alike: by row of the first one, logarithms of the sizes, tables as columns.
@@ -100,11 +103,14 @@ double by_the_others(const Group& group, std::size_t table, double place) {
     return here + median_of(std::move(shifts));
 }
 
-/// How far a row lies beside both of its neighbours, to the same side: 0 on a slope or a step.
+/// How far a row lies beside both of its neighbours, to the same side and farther than these from each other: 0 on a slope or a
+/// step.
 double beside_neighbours(const std::vector<double>& sizes, std::size_t row) {
     const double before = sizes[row] - sizes[row - 1];
     const double after = sizes[row] - sizes[row + 1];
-    return before * after > 0 ? std::copysign(std::min(std::abs(before), std::abs(after)), before) : 0.0;
+    const double departure = std::copysign(std::min(std::abs(before), std::abs(after)), before);
+    const bool alone = before * after > 0 && std::abs(sizes[row - 1] - sizes[row + 1]) < std::abs(departure);
+    return alone ? departure : 0.0;
 }
 
 void leave_out(Measurement& table, std::size_t row, const std::string& reason) {
@@ -122,34 +128,60 @@ std::string times_text(double departure) {
     return to_text(std::round(10 * factor) / 10) + (departure > 0 ? " times as large as" : " times as small as");
 }
 
-void leave_out_rows(std::vector<Measurement>& tables, std::size_t number, const std::vector<Group>& groups,
-                    std::vector<Outlier>& found) {
-    Measurement& table = tables[number];
-    std::vector<double> sizes;
-    std::vector<std::size_t> rows;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        if (const double size = log_size(table, row); std::isfinite(size)) {
-            sizes.push_back(size);
-            rows.push_back(row);
+/// The sizes of a table that are known, with their rows.
+struct Sizes {
+    explicit Sizes(const Measurement& table) {
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            if (const double size = log_size(table, row); std::isfinite(size)) {
+                values.push_back(size);
+                rows.push_back(row);
+            }
         }
     }
-    std::vector<double> bends;
-    for (std::size_t k = 1; k + 1 < sizes.size(); ++k) {
-        bends.push_back(sizes[k] - 0.5 * (sizes[k - 1] + sizes[k + 1]));
+
+    /// Of a single size about the middle of its neighbours; NaN where there are too few.
+    double deviation() const {
+        std::vector<double> bends;
+        for (std::size_t k = 1; k + 1 < values.size(); ++k) {
+            bends.push_back(values[k] - 0.5 * (values[k - 1] + values[k + 1]));
+        }
+        return bends.size() < 3 ? unset : robust_deviation(std::move(bends)) / std::sqrt(1.5);
     }
-    const double deviation = bends.size() < 3 ? unset : robust_deviation(bends) / std::sqrt(1.5);
-    for (std::size_t k = 1; k + 1 < sizes.size() && std::isfinite(deviation); ++k) {
-        const double departure = beside_neighbours(sizes, k);
-        const double limit = std::max(row_deviations * deviation, least_departure);
-        const double place = axis_of(table)->values[rows[k]];
-        const bool confirmed = std::any_of(groups.begin(), groups.end(), [&](const Group& group) {
-            return std::abs(sizes[k] - by_the_others(group, number, place)) < 0.5 * std::abs(departure);
-        });
-        if (std::abs(departure) > limit && !confirmed) {
+
+    /// How far one lies beside its neighbours; at an end, where there is one, beside that.
+    double departure(std::size_t k) const {
+        if (k == 0 || k + 1 == values.size()) {
+            return values[k] - values[k == 0 ? 1 : k - 1];
+        }
+        return beside_neighbours(values, k);
+    }
+
+    std::vector<double> values;
+    std::vector<std::size_t> rows;
+};
+
+/// @param usual deviation of the sizes of a table.
+void leave_out_rows(std::vector<Measurement>& tables, std::size_t number, const std::vector<Group>& groups, double usual,
+                    std::vector<Outlier>& found) {
+    Measurement& table = tables[number];
+    const Sizes sizes(table);
+    const double own = sizes.deviation();
+    const double deviation = std::isnan(own) ? usual : std::min(own, 3 * usual);
+    for (std::size_t k = 0; k < sizes.values.size() && sizes.values.size() > 2 && std::isfinite(deviation); ++k) {
+        const bool end = k == 0 || k + 1 == sizes.values.size();
+        const double departure = sizes.departure(k);
+        const double place = axis_of(table)->values[sizes.rows[k]];
+        // The others contradict, or there are none, which tells nothing of an end.
+        bool contradicted = !end;
+        for (const Group& group : groups) {
+            const double expected = by_the_others(group, number, place);
+            contradicted = std::isnan(expected) ? contradicted : std::abs(sizes.values[k] - expected) > 0.5 * std::abs(departure);
+        }
+        if (std::abs(departure) > std::max(row_deviations * deviation, least_departure) && contradicted) {
             const std::string what = "|G*| is " + times_text(departure) + " in the rows beside it";
-            leave_out(table, rows[k], "outlier: " + what);
-            found.push_back({number, rows[k], std::exp(departure),
-                             table.label + ", sample '" + table.sample + "': row " + std::to_string(rows[k] + 1) +
+            leave_out(table, sizes.rows[k], "outlier: " + what);
+            found.push_back({number, sizes.rows[k], std::exp(departure),
+                             table.label + ", sample '" + table.sample + "': row " + std::to_string(sizes.rows[k] + 1) +
                                  " is left out as an outlier, " + what});
         }
     }
@@ -199,11 +231,18 @@ std::map<std::string, double> samples_beside(const std::vector<Group>& groups, c
 std::vector<Outlier> leave_out_outliers(std::vector<Measurement>& tables) {
     std::vector<Outlier> found;
     const std::vector<Group> groups = groups_of(tables);
+    std::vector<std::size_t> sweeps;
+    std::vector<double> deviations;
     for (std::size_t number = 0; number < tables.size(); ++number) {
         if (axis_of(tables[number]) != nullptr && find_column(tables[number], "storage_modulus") != nullptr &&
             tables[number].kind != MeasurementKind::structure_series) {
-            leave_out_rows(tables, number, groups, found);
+            sweeps.push_back(number);
+            deviations.push_back(Sizes(tables[number]).deviation());
         }
+    }
+    const double usual = median_of(std::move(deviations));
+    for (const std::size_t number : sweeps) {
+        leave_out_rows(tables, number, groups, usual, found);
     }
     for (const auto& [sample, departure] : samples_beside(groups_of(tables), tables)) {
         for (std::size_t number = 0; number < tables.size(); ++number) {

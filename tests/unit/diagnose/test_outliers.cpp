@@ -50,19 +50,31 @@ TEST(Outliers, FindNothingInErrorsAndSamplesAsUsual) {
 TEST(Outliers, AreRowsBesideTheirNeighboursAndTheOtherSamples) {
     std::vector<Measurement> tables = three_samples();
     multiply(tables[1], 4, 10);
-    multiply(tables[2], 9, 0.1);
+    multiply(tables[1], 11, 0.1);
     const std::vector<Outlier> found = leave_out_outliers(tables);
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0].measurement, 1U);
     EXPECT_EQ(found[0].row, 4U);
     EXPECT_NEAR(found[0].factor, 10, 1);
-    EXPECT_EQ(found[1].measurement, 2U);
-    EXPECT_EQ(found[1].row, 9U);
+    EXPECT_EQ(found[1].measurement, 1U);
+    EXPECT_EQ(found[1].row, 11U);
     EXPECT_TRUE(std::isnan(tables[1].columns[1].values[4]));
     EXPECT_TRUE(std::isnan(tables[1].columns[2].values[4]));
-    ASSERT_EQ(tables[1].left_out.size(), 2U);
+    ASSERT_EQ(tables[1].left_out.size(), 4U);
     EXPECT_NE(tables[1].left_out[0].reason.find("outlier"), std::string::npos);
     EXPECT_TRUE(std::isfinite(tables[0].columns[1].values[4]));
+}
+
+/// At an end there is one neighbour: only the other samples tell.
+TEST(Outliers, AtAnEndAreToldByTheOtherSamples) {
+    std::vector<Measurement> tables = three_samples();
+    multiply(tables[0], 13, 10);
+    const std::vector<Outlier> found = leave_out_outliers(tables);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].row, 13U);
+    std::vector<Measurement> alone{three_samples()[0]};
+    multiply(alone[0], 13, 10);
+    EXPECT_TRUE(leave_out_outliers(alone).empty());
 }
 
 /// What every sample shows in a row is no outlier, nor is a step, after which all is different.
