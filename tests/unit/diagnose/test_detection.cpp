@@ -36,9 +36,8 @@ Experiment both_sweeps() {
     const auto yielding = [](double strain) { return 6e5 / (1 + std::pow(strain / 0.03, 2)); };
     Experiment experiment;
     experiment.sample.particle_radius = 0.25e-6;
-    experiment.measurements = {
-        sweep(MeasurementKind::frequency_sweep, few, logarithmic_steps(0.5, 600, 16), yielding, 1),
-        sweep(MeasurementKind::amplitude_sweep, logarithmic_steps(1e-4, 0.1, 16), one, yielding, 2)};
+    experiment.measurements = {sweep(MeasurementKind::frequency_sweep, few, logarithmic_steps(0.5, 600, 16), yielding, 1),
+                               sweep(MeasurementKind::amplitude_sweep, logarithmic_steps(1e-4, 0.1, 16), one, yielding, 2)};
     return experiment;
 }
 
@@ -83,7 +82,8 @@ TEST_F(Detected, AlongACoordinateAreTheTablesThatSweepIt) {
 /// Sorted by frequency, the rows of the amplitude sweep would be a dip at 10 rad/s.
 TEST_F(Detected, AFallAlongStrainIsNoneAlongFrequency) {
     ASSERT_FALSE(sentences_along(Coordinate::strain).empty());
-    EXPECT_NE(sentences_along(Coordinate::strain).front().find("G' falls relative to the base model along strain"), std::string::npos);
+    EXPECT_NE(sentences_along(Coordinate::strain).front().find("G' falls relative to the base model along strain"),
+              std::string::npos);
     for (const std::string& sentence : sentences_along(Coordinate::angular_frequency)) {
         EXPECT_NE(sentence.find("all along angular frequency"), std::string::npos) << sentence;
     }
