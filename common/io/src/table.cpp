@@ -73,6 +73,7 @@ std::vector<Eigen::VectorXd> read_table(const std::string& path, const std::vect
         }
     }
     std::vector<Eigen::VectorXd> result;
+    result.reserve(values.size());
     for (const std::vector<double>& column : values) {
         result.emplace_back(Eigen::VectorXd::Map(column.data(), static_cast<Index>(column.size())));
     }
