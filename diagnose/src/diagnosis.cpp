@@ -25,7 +25,7 @@ constexpr const char* none_name = "none of the catalogue";
 bool shows_stiffness(const Inference& inference) {
     const auto& observations = inference.errors().data().observations;
     return std::any_of(observations.begin(), observations.end(),
-                       [](const Observation& one) { return is_modulus(one) && !std::isfinite(one.fluid_viscosity); });
+                       [](const Observation& one) { return is_modulus(one) && !is_fluid(one); });
 }
 
 Cause cause_of(const Fit& fit, const Inference& inference) {

@@ -43,95 +43,6 @@ double log_prior_of_scale(double variance, double degrees) {
 
 }  // namespace
 
-ErrorModel::ErrorModel(const DataSet& data)
-    : data_(data),
-      white_(data.noise.whiten(data.values)),
-      log_determinant_(data.noise.log_determinant()),
-      variances_(variances_about(data.effect * data.effect, data.effect_degrees)) {
-    std::map<std::pair<double, bool>, std::size_t> numbers;
-    for (const Observation& one : data.observations) {
-        const double degrees = one.errors.degrees;
-        if (!std::isfinite(degrees)) {
-            scaled_.push_back(0);
-            continue;
-        }
-        const auto [found, added] = numbers.try_emplace({degrees, one.loss}, degrees_.size() + 1);
-        if (added) {
-            degrees_.push_back(degrees);
-        }
-        scaled_.push_back(found->second);
-    }
-    scaled_.resize(static_cast<std::size_t>(data.size()), 0);
-}
-
-Eigen::MatrixXd ErrorModel::directions(const Prediction& prediction) const {
-    const Index errors = prediction.errors.changes.cols();
-    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(size(), data_.samples() + errors);
-    // Rows of different samples have independent errors: whitening keeps each in its column.
-    const Eigen::VectorXd level = whiten(prediction.level_slope);
-    for (Index row = 0; row < size(); ++row) {
-        if (const Index sample = data_.sample[static_cast<std::size_t>(row)]; sample >= 0) {
-            parts(row, sample) = level[row];
-        }
-    }
-    for (Index error = 0; error < errors; ++error) {
-        parts.col(data_.samples() + error) = whiten(prediction.errors.changes.col(error));
-    }
-    return parts;
-}
-
-/// Departures of the data from a prediction with what they share.
-struct ErrorModel::Shared {
-    Shared(const ErrorModel& model, const Prediction& prediction, const Eigen::MatrixXd& further)
-        : plain(model.white_ - model.whiten(prediction.values)), scales(Eigen::VectorXd::Ones(0)) {
-        const Eigen::MatrixXd all = model.directions(prediction);
-        const Index samples = model.data_.samples();
-        level = all.leftCols(samples).rowwise().sum();
-        errors = all.cols() - samples;
-        others.resize(all.rows(), errors + further.cols());
-        others.leftCols(errors) = all.rightCols(errors);
-        if (further.cols() > 0) {
-            others.rightCols(further.cols()) = further;
-        }
-        scales = Eigen::VectorXd::Ones(others.cols());
-    }
-
-    NormalEffects effects(const ErrorModel& model) const {
-        return {plain, level, model.data_.sample, model.data_.samples(), others, model.scaled_, model.degrees_.size() + 1};
-    }
-
-    Eigen::VectorXd plain;
-    Eigen::VectorXd level;
-    Eigen::MatrixXd others;
-    Eigen::VectorXd scales;  ///< deviations of the others
-    Index errors = 0;        ///< of the prediction
-};
-
-Eigen::VectorXd ErrorModel::effects(const Prediction& prediction) const {
-    const double deviation = std::max(data_.effect, 0.0);
-    const Shared shared(*this, prediction, {});
-    NormalEffects effects = shared.effects(*this);
-    effects.solve(deviation, shared.scales, std::vector<double>(degrees_.size() + 1, 1.0));
-    Eigen::VectorXd all = effects.most_probable();
-    all.head(data_.samples()) *= deviation;
-    return all;
-}
-
-Eigen::MatrixXd ErrorModel::effect_covariance(const Prediction& prediction) const {
-    const double deviation = std::max(data_.effect, 0.0);
-    const Shared shared(*this, prediction, {});
-    NormalEffects effects = shared.effects(*this);
-    effects.solve(deviation, shared.scales, std::vector<double>(degrees_.size() + 1, 1.0));
-    Eigen::MatrixXd all = effects.covariance();
-    all.topRows(data_.samples()) *= deviation;
-    all.leftCols(data_.samples()) *= deviation;
-    return all;
-}
-
-Eigen::VectorXd ErrorModel::residual(const Prediction& prediction) const {
-    return white_ - whiten(prediction.values) - directions(prediction) * effects(prediction);
-}
-
 /// The factors on the variances of rows, the first of those whose deviations are known: 1.
 class ErrorModel::Scales {
 public:
@@ -173,6 +84,99 @@ private:
     std::vector<double> counts_;
 };
 
+ErrorModel::ErrorModel(const DataSet& data)
+    : data_(data),
+      white_(data.noise.whiten(data.values)),
+      log_determinant_(data.noise.log_determinant()),
+      variances_(variances_about(data.effect * data.effect, data.effect_degrees)) {
+    std::map<std::pair<double, bool>, std::size_t> numbers;
+    for (const Observation& one : data.observations) {
+        const double degrees = one.errors.degrees;
+        if (!std::isfinite(degrees)) {
+            scaled_.push_back(0);
+            continue;
+        }
+        const auto [found, added] = numbers.try_emplace({degrees, one.loss}, degrees_.size() + 1);
+        if (added) {
+            degrees_.push_back(degrees);
+        }
+        scaled_.push_back(found->second);
+    }
+    scaled_.resize(static_cast<std::size_t>(data.size()), 0);
+    Scales scales(*this);
+    scales.update(std::vector<double>(degrees_.size() + 1, 0.0));
+    saturated_ = scales.log_density() - 0.5 * log_determinant_;
+}
+
+Eigen::MatrixXd ErrorModel::directions(const Prediction& prediction) const {
+    const Index errors = prediction.errors.changes.cols();
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(size(), data_.samples() + errors);
+    // Rows of different samples have independent errors: whitening keeps each in its column.
+    const Eigen::VectorXd level = whiten(prediction.level_slope);
+    for (Index row = 0; row < size(); ++row) {
+        if (const Index sample = data_.sample[static_cast<std::size_t>(row)]; sample >= 0) {
+            parts(row, sample) = level[row];
+        }
+    }
+    for (Index error = 0; error < errors; ++error) {
+        parts.col(data_.samples() + error) = whiten(prediction.errors.changes.col(error));
+    }
+    return parts;
+}
+
+/// Departures of the data from a prediction with what they share.
+struct ErrorModel::Shared {
+    Shared(const ErrorModel& model, const Prediction& prediction, const Eigen::MatrixXd& further)
+        : plain(model.white_ - model.whiten(prediction.values)) {
+        const Eigen::MatrixXd all = model.directions(prediction);
+        const Index samples = model.data_.samples();
+        level = all.leftCols(samples).rowwise().sum();
+        errors = all.cols() - samples;
+        others.resize(all.rows(), errors + further.cols());
+        others.leftCols(errors) = all.rightCols(errors);
+        if (further.cols() > 0) {
+            others.rightCols(further.cols()) = further;
+        }
+        scales = Eigen::VectorXd::Ones(others.cols());
+    }
+
+    NormalEffects effects(const ErrorModel& model) const {
+        return {plain, level, model.data_.sample, model.data_.samples(), others, model.scaled_, model.degrees_.size() + 1};
+    }
+
+    /// At the stated deviations.
+    NormalEffects solved(const ErrorModel& model) const {
+        NormalEffects all = effects(model);
+        all.solve(model.data_.effect, scales, std::vector<double>(model.degrees_.size() + 1, 1.0));
+        return all;
+    }
+
+    Eigen::VectorXd plain;
+    Eigen::VectorXd level;
+    Eigen::MatrixXd others;
+    Eigen::VectorXd scales;  ///< deviations of the others
+    Index errors = 0;        ///< of the prediction
+};
+
+Eigen::VectorXd ErrorModel::effects(const Prediction& prediction) const {
+    const Shared shared(*this, prediction, {});
+    Eigen::VectorXd all = shared.solved(*this).most_probable();
+    all.head(data_.samples()) *= data_.effect;
+    return all;
+}
+
+Eigen::MatrixXd ErrorModel::effect_covariance(const Prediction& prediction) const {
+    const Shared shared(*this, prediction, {});
+    Eigen::MatrixXd all = shared.solved(*this).covariance();
+    all.topRows(data_.samples()) *= data_.effect;
+    all.leftCols(data_.samples()) *= data_.effect;
+    return all;
+}
+
+Eigen::VectorXd ErrorModel::residual(const Prediction& prediction) const {
+    return white_ - whiten(prediction.values) - directions(prediction) * effects(prediction);
+}
+
 /// At these deviations of effects and others, but for the rows' determinant. @param scales where to start, and what is most
 /// probable.
 double ErrorModel::log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others,
@@ -200,17 +204,11 @@ double ErrorModel::log_density(const Prediction& prediction, const Eigen::Matrix
         shared.scales.head(shared.errors).setConstant(std::sqrt(variances[variances.size() > 1 ? beside.at(k) : 0]));
         logarithms.push_back(log_marginal(effects, effect, shared.scales, scales));
     }
-    const double density = log_sum(logarithms) - std::log(static_cast<double>(logarithms.size())) - 0.5 * log_determinant_;
-    if (density > saturated() + 1e-6 * (1 + std::abs(saturated()))) {
+    const double density = log_mean(logarithms) - 0.5 * log_determinant_;
+    if (density > saturated_ + 1e-6 * (1 + std::abs(saturated_))) {
         throw std::logic_error("the density of the data exceeds that of a prediction that meets every number");
     }
     return density;
-}
-
-double ErrorModel::saturated() const {
-    Scales scales(*this);
-    scales.update(std::vector<double>(degrees_.size() + 1, 0.0));
-    return scales.log_density() - 0.5 * log_determinant_;
 }
 
 }  // namespace coagula::diagnose

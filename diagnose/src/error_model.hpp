@@ -44,7 +44,7 @@ public:
     /// @param further whitened directions, of unit deviation each, in which the data may depart besides.
     double log_density(const Prediction& prediction, const Eigen::MatrixXd& further = {}) const;
     /// What that of no prediction exceeds: that of one that meets every number.
-    double saturated() const;
+    double saturated() const { return saturated_; }
 
     /// Whitened errors of the rows, then the effects of the samples over their deviation, as this model draws them: heavy tails and
     /// the uncertainty of estimated deviations and correlations included.
@@ -58,6 +58,7 @@ private:
     const DataSet& data_;
     Eigen::VectorXd white_;  ///< the data
     double log_determinant_;
+    double saturated_;
     std::vector<double> variances_;    ///< equally probable ones of the sample effect
     std::vector<std::size_t> scaled_;  ///< of each row the number of its scale, from 1; 0 where its deviation is known
     std::vector<double> degrees_;      ///< of freedom of each scale

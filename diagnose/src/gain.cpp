@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -49,25 +50,17 @@ double squares(const DataSet& held, const Eigen::VectorXd& prediction) {
     return sum;
 }
 
-/// Models drawn from the posterior of a fit.
-std::vector<Model> drawn_from(const Fit& fit) {
-    std::vector<Model> models;
-    for (Index draw = 0; draw < draws; ++draw) {
-        const Eigen::VectorXd values = fit.draws.col(draw * fit.draws.cols() / draws);
-        models.emplace_back(fit.hypothesis, Values(values.data() + 1, static_cast<std::size_t>(values.size()) - 1), values[0]);
-    }
-    return models;
-}
-
 /// Log predictive density of each block of held-out neighbours, given the rest.
 std::vector<double> log_densities(const DataSet& data, const std::vector<Index>& known, const std::vector<Index>& held,
                                   const Forward& everywhere, const Fit& fit) {
-    std::vector<Prediction> predictions;
-    for (const Model& model : drawn_from(fit)) {
-        predictions.push_back(everywhere.prediction(model));
-    }
     const DataSet rest = data.part(known);
     const ErrorModel errors(rest);
+    std::vector<Prediction> predictions;
+    std::vector<double> before;  // of the rest
+    for (const Model& model : fit.drawn(draws)) {
+        predictions.push_back(everywhere.prediction(model));
+        before.push_back(errors.log_density(rows_of(predictions.back(), known)));
+    }
     std::vector<double> densities;
     for (std::size_t first = 0; first < held.size(); first += block_rows) {
         std::vector<Index> rows = known;
@@ -78,11 +71,10 @@ std::vector<double> log_densities(const DataSet& data, const std::vector<Index>&
         const DataSet more = data.part(rows);
         const ErrorModel with_block(more);
         std::vector<double> logarithms;
-        for (const Prediction& prediction : predictions) {
-            logarithms.push_back(with_block.log_density(rows_of(prediction, rows)) -
-                                 errors.log_density(rows_of(prediction, known)));
+        for (std::size_t draw = 0; draw < predictions.size(); ++draw) {
+            logarithms.push_back(with_block.log_density(rows_of(predictions[draw], rows)) - before[draw]);
         }
-        densities.push_back(log_sum(logarithms) - std::log(static_cast<double>(draws)) - 0.5 * added * std::log(2 * M_PI));
+        densities.push_back(log_mean(logarithms) - 0.5 * added * std::log(2 * std::numbers::pi));
     }
     return densities;
 }

@@ -83,8 +83,7 @@ double Inference::log_level() const {
         std::vector<double> ratios;
         for (std::size_t k = 0; k < observations.size(); ++k) {
             const double ratio = observations[k].value / predicted[static_cast<Index>(k)];
-            if (is_modulus(observations[k]) && !std::isfinite(observations[k].fluid_viscosity) && ratio > 0 &&
-                std::isfinite(ratio)) {
+            if (is_modulus(observations[k]) && !is_fluid(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
                 ratios.push_back(ratio);
             }
         }
@@ -350,6 +349,15 @@ std::vector<double> Fit::values() const {
         all.insert(all.end(), found->values.begin(), found->values.end());
     }
     return all;
+}
+
+std::vector<Model> Fit::drawn(Index count) const {
+    std::vector<Model> models;
+    for (Index draw = 0; draw < count; ++draw) {
+        const Eigen::VectorXd place = draws.col(draw * draws.cols() / count);
+        models.emplace_back(hypothesis, Values(place.data() + 1, static_cast<std::size_t>(place.size()) - 1), place[0]);
+    }
+    return models;
 }
 
 }  // namespace coagula::diagnose

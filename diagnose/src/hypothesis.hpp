@@ -35,6 +35,8 @@ struct Fit {
 
     /// Of all parameters, in their order.
     std::vector<double> values() const;
+    /// Some models of the posterior, evenly spread over its draws.
+    std::vector<Model> drawn(Index count) const;
 };
 
 /// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the

@@ -22,11 +22,6 @@ constexpr int data_per_draw = 4;
 constexpr double certain = 0.95;
 constexpr double least_deviation = 1e-9;  ///< of a modulus [Pa], also where it is predicted to be 0
 
-Model model_of(const Fit& fit, Index draw) {
-    const Eigen::VectorXd values = fit.draws.col(draw);
-    return {fit.hypothesis, Values(values.data() + 1, static_cast<std::size_t>(values.size()) - 1), values[0]};
-}
-
 /// What is known beforehand of the errors of a measurement: those of the data so far.
 struct ExpectedErrors {
     double relative = 0;  ///< of a modulus
@@ -61,9 +56,10 @@ Belief belief_in(const Fit& fit, const Inference& inference) {
     const Index errors = best.errors.changes.cols();
     belief.covariance = inference.errors().effect_covariance(best).bottomRightCorner(errors, errors);
     belief.errors.resize(errors, draws_per_cause);
-    for (int draw = 0; draw < draws_per_cause; ++draw) {
-        belief.draws.push_back(model_of(fit, draw * fit.draws.cols() / draws_per_cause));
-        belief.errors.col(draw) = inference.errors().effects(forward.prediction(belief.draws.back())).tail(errors);
+    belief.draws = fit.drawn(draws_per_cause);
+    for (std::size_t draw = 0; draw < belief.draws.size(); ++draw) {
+        belief.errors.col(static_cast<Index>(draw)) =
+            inference.errors().effects(forward.prediction(belief.draws[draw])).tail(errors);
     }
     return belief;
 }

@@ -59,10 +59,6 @@ Eigen::MatrixXd whitened(const ErrorModel& errors, Eigen::MatrixXd columns) {
     return columns;
 }
 
-double log_mean(const std::vector<double>& logarithms) {
-    return log_sum(logarithms) - std::log(static_cast<double>(logarithms.size()));
-}
-
 /// Most probable departure along some directions beside what follows.
 Eigen::VectorXd departure_along(const ErrorModel& errors, const Start& start, const Eigen::MatrixXd& factor) {
     const Eigen::MatrixXd directions = errors.directions(start.prediction);

@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace coagula::diagnose {

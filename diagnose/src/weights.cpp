@@ -17,6 +17,10 @@ double log_sum(const std::vector<double>& logarithms) {
     return largest + std::log(sum);
 }
 
+double log_mean(const std::vector<double>& logarithms) {
+    return log_sum(logarithms) - std::log(static_cast<double>(logarithms.size()));
+}
+
 std::vector<double> probabilities_of(std::vector<double> logarithms) {
     const double total = log_sum(logarithms);
     for (double& value : logarithms) {

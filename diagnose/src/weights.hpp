@@ -9,6 +9,9 @@ namespace coagula::diagnose {
 /// Logarithm of the sum of what these are the logarithms of.
 double log_sum(const std::vector<double>& logarithms);
 
+/// That of their mean.
+double log_mean(const std::vector<double>& logarithms);
+
 /// Probabilities in proportion to what these are the logarithms of.
 std::vector<double> probabilities_of(std::vector<double> logarithms);
 
