@@ -2,6 +2,8 @@
 
 #include "weights.hpp"
 
+#include <boost/math/distributions/normal.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -200,6 +202,28 @@ double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residua
     return value;
 }
 
+/// As many standard deviations as a normal number would lie above its mean with the same probability: by a gamma distribution of
+/// the same mean and variance, which squares of normal numbers have (Wilson and Hilferty 1931), of those values that are not the
+/// least of all, at which a sum may be cut off.
+Eigen::ArrayXd standardised(const Eigen::ArrayXd& values) {
+    const Eigen::ArrayXd above = values - values.minCoeff();
+    const auto count = static_cast<double>((above > 0).count());
+    const double mean = above.sum() / std::max(count, 1.0);
+    const double variance = (above > 0).select((above - mean).square(), 0.0).sum() / std::max(count, 1.0);
+    constexpr double constant = 1e-9;  // variance over the square of the mean
+    if (!(variance > constant * mean * mean)) {
+        return Eigen::ArrayXd::Zero(values.size());
+    }
+    const double part = variance / (9 * mean * mean);
+    const double share = count / static_cast<double>(values.size());
+    return above.unaryExpr([=](double value) {
+        const boost::math::normal normal;
+        const double score = (std::cbrt(value / mean) - (1 - part)) / std::sqrt(part);
+        const double probability = share * boost::math::cdf(boost::math::complement(normal, std::min(score, 37.0)));
+        return boost::math::quantile(boost::math::complement(normal, probability));
+    });
+}
+
 }  // namespace
 
 std::span<const Coordinate> all_coordinates() {
@@ -276,14 +300,9 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
     for (Index kind = 0; kind < kinds; ++kind) {
         result.statistics[static_cast<std::size_t>(kind)].value = values(kind, bootstrap);
     }
-    // Standardised with the data among the samples, so that all are on the same footing; the logarithm tames the long tails.
+    // With the data among the samples, so that all are on the same footing.
     for (Index kind = 0; kind < kinds; ++kind) {
-        Eigen::ArrayXd row = values.row(kind).array();
-        const double offset = row.minCoeff() - 1;
-        row = (row - offset).log();
-        const double mean = row.mean();
-        const double deviation = std::max(std::sqrt((row - mean).square().mean()), 1e-12);
-        values.row(kind) = ((row - mean) / deviation).matrix();
+        values.row(kind) = standardised(values.row(kind).transpose().array()).transpose();
     }
     const Eigen::RowVectorXd largest = values.colwise().maxCoeff();
     const double observed = largest[bootstrap];
