@@ -26,7 +26,8 @@ std::size_t heaviest_cause(const std::vector<Compared>& all, const Weight& weigh
 /// Of the base model, and of those causes that explain most, alone or beside the remainder that the base model has: a cause may
 /// hide behind one that makes a part of what is left over.
 void find_remainders(const Inference& inference, std::vector<Compared>& all) {
-    all.front().remainder = find_remainder(inference, all.front().fit);
+    const SmoothDepartures departures = smooth_departures(inference.errors().data().observations);
+    all.front().remainder = find_remainder(inference, all.front().fit, departures);
     const Eigen::MatrixXd& directions = all.front().remainder->directions;
     std::vector<std::pair<double, std::size_t>> alone;
     std::vector<std::pair<double, std::size_t>> beside;
@@ -39,7 +40,7 @@ void find_remainders(const Inference& inference, std::vector<Compared>& all) {
         for (std::size_t place = 0; place < std::min(order->size(), most_with_remainder); ++place) {
             Compared& one = all[(*order)[place].second];
             if (!one.remainder) {
-                one.remainder = find_remainder(inference, one.fit);
+                one.remainder = find_remainder(inference, one.fit, departures);
             }
         }
     }

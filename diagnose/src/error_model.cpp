@@ -96,7 +96,7 @@ ErrorModel::ErrorModel(const DataSet& data)
             scaled_.push_back(0);
             continue;
         }
-        const auto [found, added] = numbers.try_emplace({degrees, one.loss}, degrees_.size() + 1);
+        const auto [found, added] = numbers.try_emplace({degrees, one.of_phase}, degrees_.size() + 1);
         if (added) {
             degrees_.push_back(degrees);
         }
@@ -193,16 +193,21 @@ double ErrorModel::log_marginal(NormalEffects& effects, double effect, const Eig
     return scales.log_density() - 0.5 * (effects.log_determinant() + effects.misfit());
 }
 
-double ErrorModel::log_density(const Prediction& prediction, const Eigen::MatrixXd& further) const {
+double ErrorModel::log_density(const Prediction& prediction, const Eigen::MatrixXd& further, Accuracy accuracy) const {
     Shared shared(*this, prediction, further);
     NormalEffects effects = shared.effects(*this);
     const std::vector<double> variances = variances_about(1, shared.errors > 0 ? prediction.errors.degrees : infinite);
     Scales scales(*this);  // hardly others from one deviation of the effects to the next
+    const auto at = [&](std::size_t of_effect, std::size_t of_error) {
+        shared.scales.head(shared.errors).setConstant(std::sqrt(variances[variances.size() > 1 ? of_error : 0]));
+        return log_marginal(effects, std::sqrt(variances_[variances_.size() > 1 ? of_effect : 0]), shared.scales, scales);
+    };
+    if (accuracy == Accuracy::middle) {
+        return at(beside.size() / 2, beside.size() / 2) - 0.5 * log_determinant_;
+    }
     std::vector<double> logarithms;
     for (std::size_t k = 0; k < std::max(variances_.size(), variances.size()); ++k) {
-        const double effect = std::sqrt(variances_[variances_.size() > 1 ? k : 0]);
-        shared.scales.head(shared.errors).setConstant(std::sqrt(variances[variances.size() > 1 ? beside.at(k) : 0]));
-        logarithms.push_back(log_marginal(effects, effect, shared.scales, scales));
+        logarithms.push_back(at(k, beside.at(k)));
     }
     const double density = log_mean(logarithms) - 0.5 * log_determinant_;
     if (density > saturated_ + 1e-6 * (1 + std::abs(saturated_))) {

@@ -19,6 +19,10 @@
 
 namespace coagula::diagnose {
 
+/// Whether deviations that were estimated are integrated out as a whole, or taken at the middle of what they may be: then the
+/// density has its maximum nearly at the same prediction.
+enum class Accuracy { whole, middle };
+
 class ErrorModel {
 public:
     /// @param data must outlive this.
@@ -42,7 +46,8 @@ public:
 
     /// Logarithm of the density of the data, but for n/2 log(2 pi).
     /// @param further whitened directions, of unit deviation each, in which the data may depart besides.
-    double log_density(const Prediction& prediction, const Eigen::MatrixXd& further = {}) const;
+    double log_density(const Prediction& prediction, const Eigen::MatrixXd& further = {},
+                       Accuracy accuracy = Accuracy::whole) const;
     /// What that of no prediction exceeds: that of one that meets every number.
     double saturated() const { return saturated_; }
 

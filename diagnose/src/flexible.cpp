@@ -1,41 +1,28 @@
 #include "flexible.hpp"
 
-#include "smooth.hpp"
-
-#include <Eigen/Cholesky>
+#include "low_rank.hpp"
 
 #include <limits>
 
 namespace coagula::diagnose {
 
-namespace {
-
-double log_normal_density(const Eigen::VectorXd& residual, const Eigen::LLT<Eigen::MatrixXd>& factor) {
-    const Eigen::VectorXd white = factor.matrixL().solve(residual);
-    return -0.5 * white.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum();
-}
-
-}  // namespace
-
-Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& base, const std::vector<Index>& known) {
-    const Eigen::VectorXd residual = (data.values - base)(known);
-    const Eigen::MatrixXd noise = data.noise.covariance();
+Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& base, const std::vector<Index>& known,
+                                    const SmoothDepartures& departures) {
+    const RowNoise noise = data.part(known).noise;
+    const Eigen::VectorXd white = noise.whiten((data.values - base)(known));
+    const Eigen::VectorXd level = complex_moduli(data.observations, base);
     double best = -std::numeric_limits<double>::infinity();
     Eigen::VectorXd prediction = base;
-    const auto consider = [&](const Eigen::MatrixXd& smooth) {
-        const Eigen::LLT<Eigen::MatrixXd> factor((noise + smooth)(known, known));
-        const double density = log_normal_density(residual, factor);
-        if (density > best) {
-            best = density;
-            prediction = base + smooth(Eigen::all, known) * factor.solve(residual);
-        }
-    };
-    for (const double length : smooth_lengths) {
-        for (const std::vector<SmoothDeparture>& group : smooth_departures(data.observations)) {
-            for (const SmoothDeparture& departure : group) {
-                const Eigen::MatrixXd unit = covariance(departure, data.observations, base, length);
-                for (const double amplitude : smooth_amplitudes) {
-                    consider(amplitude * amplitude * unit);
+    for (const std::vector<SmoothDeparture>& group : departures) {
+        for (const SmoothDeparture& departure : group) {
+            const Eigen::MatrixXd directions = level.asDiagonal() * departure.factor;
+            NormalEffects effects(white, noise.whitened(directions(known, Eigen::all)));
+            for (const double amplitude : smooth_amplitudes) {
+                effects.solve(0, Eigen::VectorXd::Constant(directions.cols(), amplitude), {1.0});
+                const double density = -0.5 * (effects.misfit() + effects.log_determinant());
+                if (density > best) {
+                    best = density;
+                    prediction = base + amplitude * directions * effects.most_probable();
                 }
             }
         }

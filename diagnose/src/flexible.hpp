@@ -2,12 +2,14 @@
 #pragma once
 
 #include "data_set.hpp"
+#include "smooth.hpp"
 
 #include <vector>
 
 namespace coagula::diagnose {
 
 /// Prediction of all observations by the best of the smooth departures from `base`, conditioned on the observations in `known`.
-Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& base, const std::vector<Index>& known);
+Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& base, const std::vector<Index>& known,
+                                    const SmoothDepartures& departures);
 
 }  // namespace coagula::diagnose

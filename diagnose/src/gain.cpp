@@ -195,6 +195,7 @@ Gain measure_gain(const DataSet& data, const std::vector<std::vector<bool>>& fol
         return gain;
     }
     const Forward everywhere(experiment, data.observations, simulator);
+    const SmoothDepartures departures = smooth_departures(data.observations);
     std::vector<std::vector<double>> differences;
     double base_squares = 0;
     double extended_squares = 0;
@@ -211,7 +212,7 @@ Gain measure_gain(const DataSet& data, const std::vector<std::vector<bool>>& fol
         const Fit extended = chosen(inference, base, possible, options);
         const Eigen::VectorXd by_base = everywhere.predict(base.model);
         const Eigen::VectorXd better = everywhere.predict(extended.model);
-        const Eigen::VectorXd flexible = flexible_prediction(data, by_base, known_rows);
+        const Eigen::VectorXd flexible = flexible_prediction(data, by_base, known_rows, departures);
         base_squares += squares(held, by_base(held_rows));
         extended_squares += squares(held, better(held_rows));
         flexible_squares += squares(held, flexible(held_rows));

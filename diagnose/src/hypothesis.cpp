@@ -30,6 +30,9 @@ constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit
 /// axes lies beside the mode by half a cell of each at most, which is less.
 constexpr double missed = 1.5;
 
+/// Logarithms of the weight below the best node from which on one counts for nothing.
+constexpr double negligible = 20;
+
 /// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
 constexpr double enough_nodes = 2.5;
 
@@ -92,46 +95,67 @@ double Inference::log_level() const {
     return std::log(model.settings.normal_stiffness);
 }
 
-/// Gauss and Newton's method for the logarithm of the stiffness: the prediction's logarithmic derivative by a difference, the
-/// density along it by itself.
-Node Inference::best_stiffness(Model model, double start) const {
+/// A function along the logarithm of the stiffness: its value, slope and curvature downwards, by differences.
+struct Inference::AlongStiffness {
+    double value;
+    double slope;
+    double curvature;
+
+    double step() const { return curvature > 0 ? slope / curvature : std::copysign(1.0, slope); }
+    double deviation() const { return 1 / std::sqrt(std::max(curvature, 1e-2)); }
+    /// On the parabola, beside this place.
+    double at(double offset) const { return value + slope * offset - 0.5 * curvature * offset * offset; }
+    double log_width() const { return std::log(deviation() * std::sqrt(2 * pi)); }
+};
+
+/// The prediction by its logarithmic derivative, by a difference, the density by itself.
+Inference::AlongStiffness Inference::density_along(Model model, double log_stiffness, Accuracy accuracy) const {
     constexpr double step = 1e-3;
-    const auto predict = [&](double log_stiffness) {
-        model.settings.normal_stiffness = std::exp(log_stiffness);
+    const auto predict = [&](double place) {
+        model.settings.normal_stiffness = std::exp(place);
         return forward_.prediction(model);
     };
+    const Prediction here = predict(log_stiffness);
+    const Prediction there = predict(log_stiffness + step);
+    const auto density = [&](double offset) {
+        Prediction moved = here;
+        moved.values += offset / step * (there.values - here.values);
+        moved.level_slope += offset / step * (there.level_slope - here.level_slope);
+        return errors_.log_density(moved, {}, accuracy) + log_prior(log_stiffness + offset);
+    };
+    const double value = density(0);
+    const double above = density(step);
+    const double below = density(-step);
+    return {value, (above - below) / (2 * step), (2 * value - above - below) / (step * step)};
+}
+
+/// Newton's method for the logarithm of the stiffness, with the density as a whole near its end only. @param least log weight from
+/// which on the node counts.
+Node Inference::best_stiffness(const Model& model, double start, double least) const {
+    constexpr int most_steps = 40;
+    constexpr double near = 0.1;       // standard deviations, from where a parabola is exact enough
+    constexpr double inaccurate = 20;  // logarithms that the density at the middle of the deviations may be off
+    Accuracy accuracy = Accuracy::middle;
     double place = start;
-    double best = 0;
-    double curvature = 1;
     double longest = 1;  // step; shorter each time that the slope turns, for the density has long tails
+    AlongStiffness along{0, 0, 0};
     double slope_before = 0;
-    for (int iteration = 0; iteration < 40; ++iteration) {
-        const Prediction here = predict(place);
-        const Prediction there = predict(place + step);
-        const auto density = [&](double offset) {
-            Prediction moved = here;
-            moved.values += offset / step * (there.values - here.values);
-            moved.level_slope += offset / step * (there.level_slope - here.level_slope);
-            return errors_.log_density(moved) + log_prior(place + offset);
-        };
-        best = density(0);
-        const double above = density(step);
-        const double below = density(-step);
-        const double slope = (above - below) / (2 * step);
-        curvature = (2 * best - above - below) / (step * step);
-        longest *= slope * slope_before < 0 ? 0.4 : 1.0;
-        slope_before = slope;
-        const double change = curvature > 0 ? slope / curvature : std::copysign(longest, slope);
-        const double moved = std::clamp(place + std::clamp(change, -longest, longest), log_level_ - 0.5 * log_stiffness_range,
+    for (int steps = 0; steps < most_steps; ++steps) {
+        along = density_along(model, place, accuracy);
+        longest *= along.slope * slope_before < 0 ? 0.4 : 1.0;
+        slope_before = along.slope;
+        const double moved = std::clamp(place + std::clamp(along.step(), -longest, longest), log_level_ - 0.5 * log_stiffness_range,
                                         log_level_ + 0.5 * log_stiffness_range);
-        const bool done = std::abs(moved - place) < 1e-3 / std::sqrt(std::max(curvature, 1.0)) + 1e-9;
-        if (done) {
-            break;
+        if (moved == place || (along.curvature > 0 && std::abs(moved - place) < near * along.deviation())) {
+            const double top = along.at(moved - place);
+            if (accuracy == Accuracy::whole || top + along.log_width() < least - inaccurate) {
+                return {moved, along.deviation(), top, top + along.log_width()};
+            }
+            accuracy = Accuracy::whole;
         }
         place = moved;
     }
-    curvature = std::max(curvature, 1e-2);
-    return {place, 1 / std::sqrt(curvature), best, best + 0.5 * std::log(2 * pi / curvature)};
+    return {place, along.deviation(), along.value, along.value + along.log_width()};
 }
 
 /// Whitened residuals by the places of the parameters in their priors, stiffness, sample effects and errors of the model at their
@@ -218,9 +242,11 @@ PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
     const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
     const auto axes = static_cast<Index>(parameters.size());
     double start = log_level_;
+    double best = -std::numeric_limits<double>::infinity();
     const auto evaluate = [&](const Eigen::VectorXd& place) {
-        const Node node = best_stiffness(model_at(hypothesis, place, 1), start);
+        const Node node = best_stiffness(model_at(hypothesis, place, 1), start, best - negligible);
         start = node.log_stiffness;
+        best = std::max(best, node.log_weight);
         return node;
     };
     PosteriorGrid grid = grid_along_axes(axes, evaluate);

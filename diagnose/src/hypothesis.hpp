@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -77,7 +78,9 @@ private:
     bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
     double log_level() const;
     double log_prior(double log_stiffness) const;
-    Node best_stiffness(Model model, double start) const;
+    struct AlongStiffness;
+    AlongStiffness density_along(Model model, double log_stiffness, Accuracy accuracy) const;
+    Node best_stiffness(const Model& model, double start, double least = -std::numeric_limits<double>::infinity()) const;
 
     const Forward& forward_;
     const ErrorModel& errors_;

@@ -307,7 +307,7 @@ std::string place_of(const SmoothRemainder& remainder, const DataSet& data, cons
     std::string text = spoken(observable_of(observations[static_cast<std::size_t>(moved.largest)])) + " lies " +
                        (moved.share[moved.largest] < 0 ? "below" : "above") + " the model by up to " +
                        three_digits(100 * std::abs(moved.share[moved.largest])) + " % of |G*|";
-    for (const Coordinate coordinate : remainder.best.along) {
+    for (const Coordinate coordinate : remainder.along) {
         double low = std::numeric_limits<double>::infinity();
         double high = -low;
         for (const Index row : moved.rows) {

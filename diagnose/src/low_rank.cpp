@@ -5,13 +5,16 @@ namespace coagula::diagnose {
 NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, const std::vector<Index>& sample,
                              Index samples, const Eigen::MatrixXd& others, const std::vector<std::size_t>& group,
                              std::size_t groups)
-    : numbers_(numbers), level_(level), sample_(sample), others_(others), group_(group) {
+    : numbers_(numbers), level_(level), sample_(sample), others_(others) {
     const Index count = others.cols();
-    products_.assign(groups, {Eigen::VectorXd::Zero(samples), Eigen::MatrixXd::Zero(samples, count),
-                              Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(samples + count)});
+    products_.assign(groups, {{},
+                              Eigen::VectorXd::Zero(samples),
+                              Eigen::MatrixXd::Zero(samples, count),
+                              Eigen::MatrixXd::Zero(count, count),
+                              Eigen::VectorXd::Zero(samples + count)});
     for (std::size_t number = 0; number < groups; ++number) {
         Products& products = products_[number];
-        std::vector<Index> rows;
+        std::vector<Index>& rows = products.rows;
         for (Index row = 0; row < numbers.size(); ++row) {
             if (group[static_cast<std::size_t>(row)] != number) {
                 continue;
@@ -28,6 +31,11 @@ NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::Vector
         products.right.tail(count) = own.transpose() * numbers(rows);
     }
 }
+
+NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& others)
+    : NormalEffects(numbers, Eigen::VectorXd::Zero(numbers.size()),
+                    std::vector<Index>(static_cast<std::size_t>(numbers.size()), -1), 0, others,
+                    std::vector<std::size_t>(static_cast<std::size_t>(numbers.size()), 0), 1) {}
 
 void NormalEffects::solve(double effect, const Eigen::VectorXd& scales, const std::vector<double>& variances) {
     const Index samples = products_.front().own.size();
@@ -58,15 +66,15 @@ void NormalEffects::solve(double effect, const Eigen::VectorXd& scales, const st
 
     const Eigen::VectorXd moved = deviation_.cwiseProduct(effects_);
     Eigen::VectorXd left = numbers_ - others_ * moved.tail(count);
-    squares_.assign(products_.size(), 0.0);
-    for (Index row = 0; row < left.size(); ++row) {
+    for (Index row = 0; effect > 0 && row < left.size(); ++row) {
         const Index sample = sample_[static_cast<std::size_t>(row)];
-        const double one = left[row] - (sample >= 0 ? level_[row] * moved[sample] : 0.0);
-        squares_[group_[static_cast<std::size_t>(row)]] += one * one;
+        left[row] -= sample >= 0 ? level_[row] * moved[sample] : 0.0;
     }
     misfit_ = effects_.squaredNorm();
-    for (std::size_t group = 0; group < squares_.size(); ++group) {
-        misfit_ += squares_[group] / variances[group];
+    squares_.clear();
+    for (std::size_t group = 0; group < products_.size(); ++group) {
+        squares_.push_back(left(products_[group].rows).squaredNorm());
+        misfit_ += squares_.back() / variances[group];
     }
 }
 

@@ -16,9 +16,11 @@ using Eigen::Index;
 class NormalEffects {
 public:
     /// @param level of each number by the effect of its sample. @param sample of each number, -1: of none. @param group of each
-    /// number, below `groups`. All must outlive this.
+    /// number, below `groups`.
     NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, const std::vector<Index>& sample, Index samples,
                   const Eigen::MatrixXd& others, const std::vector<std::size_t>& group, std::size_t groups);
+    /// Effects of no sample, numbers of one group.
+    NormalEffects(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& others);
 
     /// @param effect deviation of the effects of the samples. @param scales of the others. @param variances of the groups.
     void solve(double effect, const Eigen::VectorXd& scales, const std::vector<double>& variances);
@@ -34,19 +36,19 @@ public:
     std::vector<double> expected_squares() const;
 
 private:
-    /// Of the directions with each other and with the numbers, in one group.
+    /// The numbers of a group; products of their directions with each other and with the numbers.
     struct Products {
+        std::vector<Index> rows;
         Eigen::VectorXd own;      ///< of each sample's direction with itself
         Eigen::MatrixXd between;  ///< samples x others
         Eigen::MatrixXd rest;     ///< others x others
         Eigen::VectorXd right;    ///< of all with the numbers
     };
 
-    const Eigen::VectorXd& numbers_;
-    const Eigen::VectorXd& level_;
-    const std::vector<Index>& sample_;
-    const Eigen::MatrixXd& others_;
-    const std::vector<std::size_t>& group_;
+    Eigen::VectorXd numbers_;
+    Eigen::VectorXd level_;
+    std::vector<Index> sample_;
+    Eigen::MatrixXd others_;
     std::vector<Products> products_;
     Eigen::VectorXd deviation_;  ///< of all effects
     // Precision of e: diagonal for the samples, in full for the others once the samples are eliminated, and between both.

@@ -52,19 +52,12 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& first, const Eigen::MatrixXd& seco
     return both;
 }
 
-Eigen::MatrixXd whitened(const ErrorModel& errors, Eigen::MatrixXd columns) {
-    for (auto&& column : columns.colwise()) {
-        column = errors.whiten(column);
-    }
-    return columns;
-}
-
 /// Most probable departure along some directions beside what follows.
 Eigen::VectorXd departure_along(const ErrorModel& errors, const Start& start, const Eigen::MatrixXd& factor) {
     const Eigen::MatrixXd directions = errors.directions(start.prediction);
     const Index samples = errors.data().samples();
     const Eigen::MatrixXd others =
-        beside(beside(directions.rightCols(directions.cols() - samples), start.following), whitened(errors, factor));
+        beside(beside(directions.rightCols(directions.cols() - samples), start.following), errors.data().noise.whitened(factor));
     const Eigen::VectorXd level = directions.leftCols(samples).rowwise().sum();
     const Eigen::VectorXd plain = errors.whiten(errors.data().values - start.prediction.values);
     const std::vector<std::size_t> together(static_cast<std::size_t>(plain.size()), 0);
@@ -75,35 +68,33 @@ Eigen::VectorXd departure_along(const ErrorModel& errors, const Start& start, co
 
 }  // namespace
 
-SmoothRemainder find_remainder(const Inference& inference, const Fit& fit) {
+SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const SmoothDepartures& departures) {
     const ErrorModel& errors = inference.errors();
-    const std::vector<Observation>& observations = errors.data().observations;
     const Start start = start_of(inference, fit);
     const double alone = errors.log_density(start.prediction, start.following);
+    const Eigen::VectorXd level = complex_moduli(errors.data().observations, start.prediction.values);
     SmoothRemainder found;
     double best = -std::numeric_limits<double>::infinity();
     Eigen::MatrixXd best_factor;
     std::vector<double> all;
-    for (const double length : smooth_lengths) {
-        for (const std::vector<SmoothDeparture>& group : smooth_departures(observations)) {
-            std::vector<double> members;
-            for (const SmoothDeparture& departure : group) {
-                const Eigen::MatrixXd factor = factor_of(covariance(departure, observations, start.prediction.values, length));
-                const Eigen::MatrixXd white = whitened(errors, factor);
-                for (const double amplitude : smooth_amplitudes) {
-                    members.push_back(errors.log_density(start.prediction, beside(start.following, amplitude * white)) - alone);
-                    if (members.back() > best) {
-                        best = members.back();
-                        found.best = departure;
-                        best_factor = amplitude * factor;
-                    }
+    for (const std::vector<SmoothDeparture>& group : departures) {
+        std::vector<double> members;
+        for (const SmoothDeparture& departure : group) {
+            const Eigen::MatrixXd factor = level.asDiagonal() * departure.factor;
+            const Eigen::MatrixXd white = errors.data().noise.whitened(factor);
+            for (const double amplitude : smooth_amplitudes) {
+                members.push_back(errors.log_density(start.prediction, beside(start.following, amplitude * white)) - alone);
+                if (members.back() > best) {
+                    best = members.back();
+                    found.along = departure.along;
+                    best_factor = amplitude * factor;
                 }
             }
-            all.push_back(log_mean(members));
         }
+        all.push_back(log_mean(members));
     }
     found.log_factor = log_mean(all);
-    found.directions = whitened(errors, best_factor);
+    found.directions = errors.data().noise.whitened(best_factor);
     found.departure = departure_along(errors, start, best_factor);
     return found;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -27,108 +28,129 @@ Eigen::VectorXd ranks(const std::vector<Observation>& observations, Coordinate c
     return rank;
 }
 
-/// Correlation by the distance in these ranks.
-Eigen::MatrixXd correlation(const std::vector<Eigen::VectorXd>& ranks, double length) {
-    const Index count = ranks.front().size();
-    Eigen::ArrayXXd squared = Eigen::ArrayXXd::Zero(count, count);
-    for (const Eigen::VectorXd& rank : ranks) {
-        squared += (rank.replicate(1, count) - rank.transpose().replicate(count, 1)).array().square();
-    }
-    return (-0.5 / (length * length) * squared).exp();
-}
-
 bool takes_part(const Observation& one, Departing departing) {
     return departing == Departing::both || one.loss == (departing == Departing::loss);
 }
 
-/// Products of the levels of two numbers of one observable, where that departs.
-Eigen::MatrixXd products(const std::vector<Observation>& observations, const Eigen::VectorXd& prediction, Departing departing) {
-    const Eigen::VectorXd level = complex_moduli(observations, prediction);
-    Eigen::MatrixXd product = level * level.transpose();
-    for (Index i = 0; i < product.rows(); ++i) {
-        for (Index j = 0; j < product.cols(); ++j) {
-            const Observation& one = observations[static_cast<std::size_t>(i)];
-            const Observation& other = observations[static_cast<std::size_t>(j)];
-            const bool alike =
-                one.loss == other.loss && one.third_harmonic == other.third_harmonic && !one.difference && !other.difference;
-            product(i, j) *= alike && takes_part(one, departing) ? 1.0 : 0.0;
+/// The covariance of a departure of unit size, column by column.
+class SmoothCovariance {
+public:
+    /// @param together the product of the correlations along all coordinates, else their mean.
+    SmoothCovariance(const std::vector<Observation>& observations, Departing departing, std::vector<Eigen::VectorXd> ranks,
+                     bool together, double length)
+        : observations_(observations), departing_(departing), ranks_(std::move(ranks)), together_(together), length_(length) {}
+
+    Eigen::VectorXd column(Index number) const {
+        const Index count = static_cast<Index>(observations_.size());
+        Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(count);
+        Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(count);
+        for (const Eigen::VectorXd& rank : ranks_) {
+            const Eigen::ArrayXd square = ((rank.array() - rank[number]) / length_).square();
+            together_ ? squares += square : sum += (-0.5 * square).exp() / static_cast<double>(ranks_.size());
+        }
+        if (together_ || ranks_.empty()) {
+            sum = (-0.5 * squares).exp();
+        }
+        Eigen::VectorXd all = sum.matrix();
+        for (Index row = 0; row < count; ++row) {
+            all[row] *= depart_alike(number, row) ? 1.0 : 0.0;
+        }
+        return all;
+    }
+
+    /// Cholesky's factor, the largest pivot first, until what is left is small.
+    Eigen::MatrixXd factor() const {
+        constexpr double least = 1e-4;
+        const Index size = static_cast<Index>(observations_.size());
+        Eigen::VectorXd rest(size);
+        for (Index row = 0; row < size; ++row) {
+            rest[row] = depart_alike(row, row) ? 1.0 : 0.0;
+        }
+        const double smallest = least * rest.sum();
+        Eigen::MatrixXd factor(size, size);
+        Index columns = 0;
+        Index pivot = 0;
+        while (columns < size && rest.sum() > smallest && rest.maxCoeff(&pivot) > 0) {
+            const Eigen::VectorXd next = column(pivot) - factor.leftCols(columns) * factor.row(pivot).head(columns).transpose();
+            factor.col(columns) = next / std::sqrt(rest[pivot]);
+            rest = (rest - factor.col(columns).cwiseAbs2()).cwiseMax(0);
+            ++columns;
+        }
+        return factor.leftCols(columns);
+    }
+
+private:
+    /// Two numbers of one observable, where that departs.
+    bool depart_alike(Index number, Index row) const {
+        const Observation& one = observations_[static_cast<std::size_t>(number)];
+        const Observation& other = observations_[static_cast<std::size_t>(row)];
+        return one.loss == other.loss && one.third_harmonic == other.third_harmonic && !one.difference && !other.difference &&
+               takes_part(one, departing_);
+    }
+
+    const std::vector<Observation>& observations_;
+    Departing departing_;
+    std::vector<Eigen::VectorXd> ranks_;
+    bool together_;
+    double length_;
+};
+
+struct Varying {
+    Coordinate coordinate;
+    Eigen::VectorXd rank;
+};
+
+std::vector<Varying> varying_coordinates(const std::vector<Observation>& observations) {
+    std::vector<Varying> varying;
+    for (const Coordinate coordinate : all_coordinates()) {
+        Eigen::VectorXd rank = ranks(observations, coordinate);
+        if (rank.maxCoeff() > 0) {
+            varying.push_back({coordinate, std::move(rank)});
         }
     }
-    return product;
+    return varying;
 }
 
 }  // namespace
 
-std::vector<std::vector<SmoothDeparture>> smooth_departures(const std::vector<Observation>& observations) {
-    std::vector<SmoothDeparture> varying;  // of any modulus
-    for (const Coordinate coordinate : all_coordinates()) {
-        const Eigen::VectorXd rank = ranks(observations, coordinate);
-        if (rank.maxCoeff() > 0) {
-            varying.push_back({Departing::both, {coordinate}, {rank}});
+SmoothDepartures smooth_departures(const std::vector<Observation>& observations) {
+    const std::vector<Varying> varying = varying_coordinates(observations);
+    const auto along = [&](Departing departing, const std::vector<Varying>& some, bool together, double length) {
+        SmoothDeparture one{departing, {}, {}};
+        std::vector<Eigen::VectorXd> own;
+        for (const auto& [coordinate, rank] : some) {
+            one.along.push_back(coordinate);
+            own.push_back(rank);
         }
-    }
-    std::vector<std::vector<SmoothDeparture>> groups;
+        one.factor = SmoothCovariance(observations, departing, std::move(own), together, length).factor();
+        return one;
+    };
     if (varying.empty()) {
-        groups.push_back({{Departing::both, {}, {}}});
+        return {{along(Departing::both, {}, false, 1)}};
     }
-    for (const Departing departing : {Departing::storage, Departing::loss, Departing::both}) {
-        const bool any = std::any_of(observations.begin(), observations.end(),
-                                     [&](const Observation& one) { return takes_part(one, departing); });
-        if (!any || varying.empty()) {
-            continue;
-        }
-        std::vector<SmoothDeparture> one;
-        std::vector<SmoothDeparture> two;
-        SmoothDeparture all{departing, {}, {}, true};
-        for (std::size_t k = 0; k < varying.size(); ++k) {
-            const Coordinate coordinate = varying[k].along.front();
-            const Eigen::VectorXd& rank = varying[k].ranks.front();
-            one.push_back({departing, {coordinate}, {rank}});
-            all.along.push_back(coordinate);
-            all.ranks.push_back(rank);
-            for (std::size_t other = 0; other < k; ++other) {
-                two.push_back({departing, {coordinate, varying[other].along.front()}, {rank, varying[other].ranks.front()}});
+    SmoothDepartures groups;
+    for (const double length : smooth_lengths) {
+        for (const Departing departing : {Departing::storage, Departing::loss, Departing::both}) {
+            if (std::none_of(observations.begin(), observations.end(),
+                             [&](const Observation& one) { return takes_part(one, departing); })) {
+                continue;
             }
-        }
-        groups.push_back(one);
-        if (!two.empty()) {
-            groups.push_back(two);
-            groups.push_back({all});
+            std::vector<SmoothDeparture> single;
+            std::vector<SmoothDeparture> pairs;
+            for (std::size_t k = 0; k < varying.size(); ++k) {
+                single.push_back(along(departing, {varying[k]}, false, length));
+                for (std::size_t other = 0; other < k; ++other) {
+                    pairs.push_back(along(departing, {varying[k], varying[other]}, false, length));
+                }
+            }
+            groups.push_back(std::move(single));
+            if (!pairs.empty()) {
+                groups.push_back(std::move(pairs));
+                groups.push_back({along(departing, varying, true, length)});
+            }
         }
     }
     return groups;
-}
-
-Eigen::MatrixXd covariance(const SmoothDeparture& departure, const std::vector<Observation>& observations,
-                           const Eigen::VectorXd& prediction, double length) {
-    const Eigen::MatrixXd product = products(observations, prediction, departure.departing);
-    if (departure.ranks.empty()) {
-        return product;
-    }
-    if (departure.together) {
-        return product.cwiseProduct(correlation(departure.ranks, length));
-    }
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(product.rows(), product.cols());
-    for (const Eigen::VectorXd& rank : departure.ranks) {
-        sum += correlation({rank}, length);
-    }
-    return product.cwiseProduct(sum) / static_cast<double>(departure.ranks.size());
-}
-
-/// Cholesky's factor, the largest pivot first, until what is left is small.
-Eigen::MatrixXd factor_of(Eigen::MatrixXd rest) {
-    constexpr double least = 1e-4;
-    const Index size = rest.rows();
-    const double smallest = least * rest.diagonal().sum();
-    Eigen::MatrixXd factor(size, size);
-    Index columns = 0;
-    Index pivot = 0;
-    while (columns < size && rest.diagonal().sum() > smallest && rest.diagonal().maxCoeff(&pivot) > 0) {
-        factor.col(columns) = rest.col(pivot) / std::sqrt(rest(pivot, pivot));
-        rest -= factor.col(columns) * factor.col(columns).transpose();
-        ++columns;
-    }
-    return factor.leftCols(columns);
 }
 
 }  // namespace coagula::diagnose

@@ -19,22 +19,16 @@ inline constexpr std::array smooth_lengths{0.2, 0.7};
 /// What a departure is of.
 enum class Departing { storage, loss, both };
 
-/// A smooth departure: of which moduli, and along which coordinates, as the sum of a part along each or along all together.
+/// A smooth departure of unit size: of which moduli, and along which coordinates, as the sum of a part along each or along all
+/// together.
 struct SmoothDeparture {
     Departing departing;
-    std::vector<Coordinate> along;       ///< none: the level
-    std::vector<Eigen::VectorXd> ranks;  ///< of each of these
-    bool together = false;
+    std::vector<Coordinate> along;  ///< none: the level
+    Eigen::MatrixXd factor;         ///< columns U with U U^T = its covariance over |G*|, as far as a ten-thousandth of it
 };
 
-/// In groups that are equally probable; the level alone where no coordinate varies.
-std::vector<std::vector<SmoothDeparture>> smooth_departures(const std::vector<Observation>& observations);
-
-/// Covariance of one of unit size about a prediction.
-Eigen::MatrixXd covariance(const SmoothDeparture& departure, const std::vector<Observation>& observations,
-                           const Eigen::VectorXd& prediction, double length);
-
-/// Columns U with U U^T = that covariance, as far as a ten-thousandth of it.
-Eigen::MatrixXd factor_of(Eigen::MatrixXd covariance);
+/// In groups that are equally probable, of every length; the level alone where no coordinate varies.
+using SmoothDepartures = std::vector<std::vector<SmoothDeparture>>;
+SmoothDepartures smooth_departures(const std::vector<Observation>& observations);
 
 }  // namespace coagula::diagnose
