@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -16,15 +18,52 @@ constexpr std::size_t fewest_observations = 5;
 constexpr std::size_t most_observations = 3000;  ///< covariances of more take many minutes and say little more
 constexpr double least_error = 1e-4;             ///< of a number over it: what no instrument reads better
 
-RowNoise noise_of(const std::vector<Observation>& observations, const Eigen::VectorXd& deviation) {
-    RowNoise noise{deviation, {}, Eigen::VectorXd::Zero(deviation.size())};
+/// For each number the one of the same row that its error is turned towards, -1 if there is none.
+std::vector<Index> partners_of(const std::vector<Observation>& observations) {
+    std::map<std::pair<std::size_t, std::size_t>, Index> storage;
+    std::vector<Index> partners(observations.size(), -1);
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& one = observations[k];
-        const bool follows = k > 0 && same_column(observations[k - 1], one);
-        noise.previous.push_back(follows ? static_cast<Index>(k) - 1 : -1);
-        if (follows) {
-            const auto distance = static_cast<double>(one.row) - static_cast<double>(observations[k - 1].row);
-            noise.correlation[static_cast<Index>(k)] = std::pow(one.errors.correlation, std::abs(distance));
+        if (one.other_error == 0 || one.third_harmonic) {
+            continue;
+        }
+        const auto [found, first] = storage.try_emplace({one.measurement, one.row}, static_cast<Index>(k));
+        if (!first) {
+            partners[k] = found->second;
+            partners[static_cast<std::size_t>(found->second)] = static_cast<Index>(k);
+        }
+    }
+    return partners;
+}
+
+/// @param deviation of each number's own error, or of the number itself where it has no partner.
+RowNoise noise_of(const std::vector<Observation>& observations, const Eigen::VectorXd& deviation) {
+    const Index size = deviation.size();
+    RowNoise noise{deviation,
+                   std::vector<Index>(observations.size(), -1),
+                   Eigen::VectorXd::Zero(size),
+                   partners_of(observations),
+                   Eigen::VectorXd::Ones(size),
+                   Eigen::VectorXd::Zero(size)};
+    std::map<std::tuple<std::size_t, bool, bool>, std::map<std::size_t, Index>> chains;  // errors of one kind by row
+    for (Index k = 0; k < size; ++k) {
+        const Observation& one = observations[static_cast<std::size_t>(k)];
+        chains[{one.measurement, one.of_phase, one.third_harmonic}].emplace(one.row, k);
+        if (noise.partner[static_cast<std::size_t>(k)] >= 0) {
+            noise.cosine[k] = std::cos(one.turned);
+            noise.sine[k] = std::sin(one.turned);
+        }
+    }
+    const auto axis = [&](Index k) {  // of an error in the plane of G' and G''
+        const bool loss = observations[static_cast<std::size_t>(k)].loss;
+        return loss ? Eigen::Vector2d(-noise.sine[k], noise.cosine[k]) : Eigen::Vector2d(noise.cosine[k], noise.sine[k]);
+    };
+    for (const auto& [kind, chain] : chains) {
+        for (auto before = chain.begin(), here = std::next(before); here != chain.end(); ++before, ++here) {
+            const double correlation = observations[static_cast<std::size_t>(here->second)].errors.correlation;
+            noise.previous[static_cast<std::size_t>(here->second)] = before->second;
+            noise.correlation[here->second] = std::copysign(std::pow(correlation, static_cast<double>(here->first - before->first)),
+                                                            axis(here->second).dot(axis(before->second)));
         }
     }
     return noise;
@@ -38,32 +77,42 @@ double scaled_chi_square(double degrees, double normal) {
 }
 
 Eigen::VectorXd RowNoise::whiten(const Eigen::VectorXd& values) const {
-    Eigen::VectorXd white = values.cwiseQuotient(deviation);
-    for (Index row = white.size() - 1; row > 0; --row) {
-        const double c = correlation[row];
-        if (c > 0) {
-            const Index before = previous[static_cast<std::size_t>(row)];
-            white[row] = (white[row] - c * white[before]) / std::sqrt(1 - c * c);
+    Eigen::VectorXd units = values;
+    for (Index storage = 0; storage < static_cast<Index>(partner.size()); ++storage) {
+        if (const Index loss = partner[static_cast<std::size_t>(storage)]; loss > storage) {
+            units[storage] = cosine[storage] * values[storage] + sine[storage] * values[loss];
+            units[loss] = cosine[storage] * values[loss] - sine[storage] * values[storage];
+        }
+    }
+    units = units.cwiseQuotient(deviation);
+    Eigen::VectorXd white = units;
+    for (Index row = 0; row < units.size(); ++row) {
+        if (const double c = correlation[row]; c != 0) {
+            white[row] = (units[row] - c * units[previous[static_cast<std::size_t>(row)]]) / std::sqrt(1 - c * c);
         }
     }
     return white;
 }
 
-double RowNoise::log_determinant() const {
-    return 2 * deviation.array().log().sum() + (1 - correlation.array().square()).log().sum();
+Eigen::MatrixXd RowNoise::whitened(Eigen::MatrixXd columns) const {
+    for (auto&& column : columns.colwise()) {
+        column = whiten(column);
+    }
+    return columns;
 }
 
-Eigen::MatrixXd RowNoise::covariance() const {
-    Eigen::MatrixXd matrix = deviation.cwiseAbs2().asDiagonal();
-    for (Index row = 1; row < deviation.size(); ++row) {
-        double product = 1;
-        for (Index other = row; previous[static_cast<std::size_t>(other)] >= 0;) {
-            product *= correlation[other];
-            other = previous[static_cast<std::size_t>(other)];
-            matrix(row, other) = matrix(other, row) = product * deviation[row] * deviation[other];
+Eigen::VectorXd RowNoise::marginal_deviation() const {
+    Eigen::VectorXd all = deviation;
+    for (Index row = 0; row < static_cast<Index>(partner.size()); ++row) {
+        if (const Index other = partner[static_cast<std::size_t>(row)]; other >= 0) {
+            all[row] = std::hypot(deviation[row] * cosine[row], deviation[other] * sine[row]);
         }
     }
-    return matrix;
+    return all;
+}
+
+double RowNoise::log_determinant() const {
+    return 2 * deviation.array().log().sum() + (1 - correlation.array().square()).log().sum();
 }
 
 DataSet DataSet::part(const std::vector<Index>& rows) const {
@@ -77,6 +126,12 @@ DataSet DataSet::part(const std::vector<Index>& rows) const {
         some.sample.push_back(sample[static_cast<std::size_t>(row)]);
     }
     some.noise = noise_of(some.observations, noise.deviation(rows));
+    const Eigen::VectorXd marginal = noise.marginal_deviation();
+    for (Index row = 0; row < some.size(); ++row) {
+        if (some.noise.partner[static_cast<std::size_t>(row)] < 0) {
+            some.noise.deviation[row] = marginal[rows[static_cast<std::size_t>(row)]];
+        }
+    }
     return some;
 }
 
@@ -129,6 +184,12 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         }
     }
     data.noise = noise_of(data.observations, deviation);
+    for (Index row = 0; row < data.size(); ++row) {
+        const Observation& one = data.observations[static_cast<std::size_t>(row)];
+        if (data.noise.partner[static_cast<std::size_t>(row)] < 0 && one.other_error > 0) {
+            data.noise.deviation[row] = std::hypot(std::cos(one.turned) * deviation[row], std::sin(one.turned) * one.other_error);
+        }
+    }
     return data;
 }
 

@@ -14,16 +14,22 @@
 
 namespace coagula::diagnose {
 
-/// Errors of the rows; those of neighbours in a table may be correlated (first order autoregression).
+/// Errors of the rows, those of torque and phase along and across G*; those of neighbours in a table may be correlated (first order
+/// autoregression).
 struct RowNoise {
     Eigen::VectorXd deviation;
-    std::vector<Index> previous;  ///< the row before it in its table, -1 if there is none
-    Eigen::VectorXd correlation;  ///< with that row
+    std::vector<Index> previous;      ///< the error before it in its table, -1 if there is none
+    Eigen::VectorXd correlation;      ///< with that; negative where its axis is turned the other way
+    std::vector<Index> partner = {};  ///< of G', where its errors are turned: G'' of the same row; else -1
+    Eigen::VectorXd cosine = {};      ///< of the angle by which G' is turned towards that
+    Eigen::VectorXd sine = {};
 
     /// Values over the deviation and freed from the correlation: independent with unit variance if they are such errors.
     Eigen::VectorXd whiten(const Eigen::VectorXd& values) const;
+    Eigen::MatrixXd whitened(Eigen::MatrixXd columns) const;
+    /// Deviation of each value.
+    Eigen::VectorXd marginal_deviation() const;
     double log_determinant() const;
-    Eigen::MatrixXd covariance() const;
 };
 
 /// One experiment's moduli, or some of its rows.

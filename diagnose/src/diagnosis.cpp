@@ -87,14 +87,15 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
     by_extended.values = inference.forward().predict(extended, true);
     const Eigen::VectorXd base_residual = errors.residual(by_base);
     const Eigen::VectorXd extended_residual = errors.residual(by_extended);
+    const Eigen::VectorXd deviation = data.noise.marginal_deviation();
     diagnosis.base_effects = effects_of(errors, by_base);
     diagnosis.extended_effects = effects_of(errors, by_extended);
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);
         diagnosis.rows.push_back({observation.measurement, observation.row, observable_of(observation), observation.value,
-                                  data.noise.deviation[i], by_base.values[i], by_extended.values[i], in_any(folds, k),
-                                  base_residual[i], extended_residual[i]});
+                                  deviation[i], by_base.values[i], by_extended.values[i], in_any(folds, k), base_residual[i],
+                                  extended_residual[i]});
     }
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace coagula::diagnose {
 
@@ -192,7 +191,7 @@ std::vector<Eigen::VectorXd> standardised_residuals(const Replicates& replicates
         for (Eigen::Index table = 0; table < replicates.values.cols(); ++table) {
             if (std::isfinite(replicates.values(row, table))) {
                 const double expected = fit.levels[data.condition[i]] * (1 + fit.effects[data.sample[i]]);
-                const double level = noise.relative_to_complex_modulus ? replicates.complex_moduli[row] : expected;
+                const double level = is_of_phase(noise) ? replicates.levels[row] : expected;
                 rows.back()[table] =
                     (replicates.values(row, table) - expected) / standard_deviation(noise, level, replicates.floor_weights[row]);
                 ++i;
@@ -258,50 +257,20 @@ Eigen::VectorXd where_replicated(const Replicates& replicates, const Eigen::Vect
     return Eigen::VectorXd::Map(chosen.data(), static_cast<Eigen::Index>(chosen.size()));
 }
 
-/// |G*| of the conditions that have replicates.
-Eigen::VectorXd sizes_of(const Replicates& replicates) {
-    return where_replicated(replicates, replicates.complex_moduli);
-}
-
-/// Whether all levels are well above the scatter between replicates, both over |G*|; what a sample has in common is no scatter.
-bool stands_out(const ReplicatedValues& data, const Eigen::VectorXd& sizes) {
-    const Eigen::VectorXd levels = mean_levels(data);
-    if ((data.values.array() <= 0).any()) {
-        return false;
-    }
-    Eigen::VectorXd common = Eigen::VectorXd::Zero(data.samples);
-    Eigen::VectorXd count = Eigen::VectorXd::Zero(data.samples);
-    for (std::size_t i = 0; i < data.condition.size(); ++i) {
-        common[data.sample[i]] += data.values[static_cast<Eigen::Index>(i)] / levels[data.condition[i]];
-        count[data.sample[i]] += 1;
-    }
-    common = common.cwiseQuotient(count);
-    double squares = 0;
-    for (std::size_t i = 0; i < data.condition.size(); ++i) {
-        const Eigen::Index condition = data.condition[i];
-        const double expected = levels[condition] * common[data.sample[i]];
-        squares += std::pow((data.values[static_cast<Eigen::Index>(i)] - expected) / sizes[condition], 2);
-    }
-    const auto values = static_cast<double>(data.values.size());
-    const auto conditions = static_cast<double>(data.conditions);
-    const double error_of_mean = std::sqrt(squares / (values - conditions) * conditions / values);
-    constexpr double clear = 4;
-    return levels.cwiseQuotient(sizes).minCoeff() > clear * error_of_mean;
-}
-
 void fit_replicates(NoiseModel& noise, const Replicates& replicates, const ReplicatedValues& data,
                     const std::vector<std::string>& names, const NoiseOptions& options) {
-    Eigen::VectorXd levels = noise.relative_to_complex_modulus ? sizes_of(replicates) : mean_levels(data);
+    const bool of_phase = is_of_phase(noise);
+    Eigen::VectorXd levels = of_phase ? where_replicated(replicates, replicates.levels) : mean_levels(data);
     const Eigen::VectorXd sizes = levels.cwiseQuotient(data.floor_weights).cwiseAbs();
     const bool with_floor = sizes.maxCoeff() >= options.least_range * sizes.minCoeff();
-    const bool with_sample = data.samples > 1 && !noise.relative_to_complex_modulus;
+    const bool with_sample = data.samples > 1 && !of_phase;
     Eigen::VectorXd effects = Eigen::VectorXd::Zero(data.samples);
     Deviations best = first_guess(data, levels);
     for (int pass = 0; pass < passes; ++pass) {
         const NoiseLikelihood likelihood(data, levels, effects, with_floor, with_sample);
         best = pass == 0 ? best_of_starts(likelihood, best) : likelihood.best(best, -1);
         if (pass + 1 < passes) {
-            if (!noise.relative_to_complex_modulus) {
+            if (!of_phase) {
                 const RestrictedFit fit = likelihood.fit(best);
                 levels = fit.levels;
                 effects = fit.effects;
@@ -315,7 +284,7 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
         for (std::size_t s = 0; with_sample && s < names.size(); ++s) {
             noise.sample_effects.push_back({names[s], fit.effects[static_cast<Eigen::Index>(s)]});
         }
-        noise.levels = fit.levels;
+        noise.levels = of_phase ? levels : fit.levels;
         const std::vector<Eigen::VectorXd> residuals = standardised_residuals(replicates, data, fit, noise);
         noise.autocorrelation = lag_one(residuals);
         noise.excess_kurtosis =
@@ -331,10 +300,7 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
         "restricted maximum likelihood from " + count_text(noise.tables, "table") + " on " + count_text(noise.samples, "sample") +
         ", " + std::to_string(noise.values) + " values" +
         (with_floor ? "" : "; the levels are too alike to tell a floor from the relative part") +
-        (noise.relative_to_complex_modulus ? "; it averages to zero or below, so its scatter is taken relative to |G*|" : "") +
-        (with_sample || noise.relative_to_complex_modulus
-             ? ""
-             : "; one sample tells nothing about differences between samples: stated, not measured");
+        (with_sample || of_phase ? "" : "; one sample tells nothing about differences between samples: stated, not measured");
 }
 
 }  // namespace
@@ -358,34 +324,20 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     noise.values = static_cast<std::size_t>(data.values.size());
     constexpr Eigen::Index fewest_conditions = 3;
     const bool enough = data.conditions >= fewest_conditions;
-    const bool positive = enough && (mean_levels(data).array() > 0).all();
-    const bool small = enough && (replicates.observable == "loss_modulus" ? !stands_out(data, sizes_of(replicates)) : !positive);
-    noise.relative_to_complex_modulus = small && (sizes_of(replicates).array() > 0).all();
-    if (positive || noise.relative_to_complex_modulus) {
+    if (enough && (is_of_phase(noise) || (mean_levels(data).array() > 0).all())) {
         fit_replicates(noise, replicates, data, names, options);
         return noise;
     }
     noise.floor = stated(options.stated_floor);
-    noise.relative = stated(options.stated_relative);
-    noise.sample = stated(options.stated_sample);
-    noise.phase = replicates.observable == "loss_modulus" && !replicates.fluid ? options.stated_phase : 0.0;
-    noise.statement = data.conditions >= fewest_conditions ? "stated, not measured: replicates average to zero or below"
-                                                           : "stated, not measured: there are no replicates";
+    noise.relative = stated(is_of_phase(noise) ? options.stated_phase : options.stated_relative);
+    noise.sample = stated(is_of_phase(noise) ? 0 : options.stated_sample);
+    noise.statement =
+        enough ? "stated, not measured: replicates average to zero or below" : "stated, not measured: there are no replicates";
     return noise;
 }
 
 double standard_deviation(const NoiseModel& noise, double level, double floor_weight) {
     return std::hypot(noise.floor.value * floor_weight, noise.relative.value * level);
-}
-
-Eigen::MatrixXd covariance(const NoiseModel& noise, const Eigen::VectorXd& levels, const Eigen::VectorXd& floor_weights) {
-    require(levels.size() == floor_weights.size(), "covariance: one floor weight per level is needed");
-    Eigen::MatrixXd matrix = noise.sample.value * noise.sample.value * levels * levels.transpose();
-    for (Eigen::Index i = 0; i < levels.size(); ++i) {
-        const double level = levels[i] * std::hypot(1, noise.sample.value);  // root mean square of mu (1 + b)
-        matrix(i, i) += std::pow(standard_deviation(noise, level, floor_weights[i]), 2);
-    }
-    return matrix;
 }
 
 }  // namespace coagula::diagnose

@@ -78,6 +78,23 @@ constexpr std::array<Shown, 4> shown{{{"storage_modulus", false, false},
                                       {"third_harmonic_storage", false, true},
                                       {"third_harmonic_loss", true, true}}};
 
+/// The errors of torque and phase at a row whose table states them: as near as can be, G' has the one and G'' the other.
+void take_polar_errors(const Measurement& table, Observation& one) {
+    const Column& storage = *find_column(table, "storage_modulus");
+    const Column& loss = *find_column(table, "loss_modulus");
+    const double phase = std::atan2(loss.values[one.row], storage.values[one.row]);
+    if (!std::isnan(phase)) {
+        one.turned = std::remainder(phase, std::numbers::pi / 2);
+        const bool liquid = std::lround((phase - one.turned) / (std::numbers::pi / 2)) % 2 != 0;
+        one.of_phase = one.loss != liquid;
+    }
+    const Column& own = one.of_phase ? loss : storage;
+    const Column& other = one.of_phase ? storage : loss;
+    one.errors = own.errors;
+    one.standard_error = own.standard_errors[one.row];
+    one.other_error = other.standard_errors[one.row];
+}
+
 /// A cell of these columns with all that the row says about it; time since the start of its table.
 Observation observation_at(const Experiment& experiment, std::size_t number, std::size_t row, const Shown& what) {
     const Measurement& table = experiment.measurements[number];
@@ -86,26 +103,31 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
     const double gap = cell(table, "gap", row);
     const bool under_cone = std::isfinite(table.cone_angle);
     const double radius = cell(table, "plate_radius", row);
-    return {.measurement = number,
-            .row = row,
-            .loss = what.loss,
-            .value = column.values[row],
-            .standard_error =
-                column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset) : column.standard_errors[row],
-            .strain = cell(table, "strain", row),
-            .angular_frequency = angular_frequency(table, row),
-            .time = series ? unset : time_in(table, row),
-            .gap = under_cone ? unset : (std::isnan(gap) ? experiment.instrument.gap : gap),
-            .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
-            .errors = column.errors,
-            .third_harmonic = what.third_harmonic,
-            .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
-            .rough_plates = table.rough_plates,
-            .fluid_viscosity = table.fluid_viscosity,
-            .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
-            .heterogeneity = cell(table, "heterogeneity", row),
-            .coordination = cell(table, "coordination", row),
-            .volume_fraction = cell(table, "volume_fraction", row)};
+    Observation one{.measurement = number,
+                    .row = row,
+                    .loss = what.loss,
+                    .value = column.values[row],
+                    .standard_error = column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset)
+                                                                     : column.standard_errors[row],
+                    .of_phase = what.loss,
+                    .strain = cell(table, "strain", row),
+                    .angular_frequency = angular_frequency(table, row),
+                    .time = series ? unset : time_in(table, row),
+                    .gap = under_cone ? unset : (std::isnan(gap) ? experiment.instrument.gap : gap),
+                    .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
+                    .errors = column.errors,
+                    .third_harmonic = what.third_harmonic,
+                    .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
+                    .rough_plates = table.rough_plates,
+                    .fluid_viscosity = table.fluid_viscosity,
+                    .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
+                    .heterogeneity = cell(table, "heterogeneity", row),
+                    .coordination = cell(table, "coordination", row),
+                    .volume_fraction = cell(table, "volume_fraction", row)};
+    if (table.polar_errors && !what.third_harmonic) {
+        take_polar_errors(table, one);
+    }
+    return one;
 }
 
 /// The images of a table of centres: one, or those that its column "frame" numbers.

@@ -21,15 +21,19 @@ struct Observation {
     bool loss = false;              ///< G'', else G'
     double value = 0;               ///< [Pa]
     double standard_error = unset;  ///< [Pa]; NaN where the table has none
+    // Errors of torque and phase lie along and across G*: those of its two parts, each turned by at most 45 degrees.
+    bool of_phase = false;   ///< the error is that of the phase, or of a loss modulus alone; else of the torque
+    double turned = 0;       ///< from the axis of G' to that of its error, towards G'' [rad]
+    double other_error = 0;  ///< of the other part of G*, as turned [Pa]
     // Where and when; NaN where the table does not say.
     double strain = unset;             ///< amplitude
     double angular_frequency = unset;  ///< [rad/s]
     double time = unset;               ///< since the first run on the sample [s]
     double gap = unset;                ///< [m]
     double plate_radius = unset;       ///< [m]
-    ErrorLaw errors = {};
-    bool third_harmonic = false;  ///< of the stress over the first, elastic or viscous part, in place of a modulus
-    double cone_angle = unset;    ///< [rad]; NaN where there is no cone
+    ErrorLaw errors = {};              ///< of the errors, torque or phase
+    bool third_harmonic = false;       ///< of the stress over the first, elastic or viscous part, in place of a modulus
+    double cone_angle = unset;         ///< [rad]; NaN where there is no cone
     bool rough_plates = false;
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]
     // Of a structure series.

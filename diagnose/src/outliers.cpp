@@ -53,7 +53,8 @@ struct Group {
 std::vector<Group> groups_of(const std::vector<Measurement>& tables) {
     std::vector<Group> groups;
     for (const Replicates& replicates : find_replicates(tables)) {
-        if (replicates.observable != "storage_modulus" || replicates.values.cols() < fewest_tables) {
+        const bool of_torque = replicates.observable == "storage_modulus" || replicates.observable == "complex_modulus";
+        if (!of_torque || replicates.values.cols() < fewest_tables) {
             continue;
         }
         Group group{{}, {replicates.axis.begin(), replicates.axis.end()}, {}};

@@ -36,7 +36,7 @@ ExpectedErrors errors_of(const DataSet& data) {
     for (Index k = 0; k < data.size(); ++k) {
         const Observation& one = data.observations[static_cast<std::size_t>(k)];
         if (is_modulus(one)) {
-            (one.loss ? phase : relative).push_back(share[k]);
+            (one.of_phase ? phase : relative).push_back(share[k]);
         }
     }
     return {median(relative), median(phase), std::max(data.effect, 0.0)};
@@ -79,8 +79,9 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
             deviation[k] = error_of(*one.difference, moduli[k], one.centres);
             continue;
         }
-        const double turned = one.loss ? errors.phase * sizes[k] : 0.0;
-        deviation[k] = std::max({std::hypot(errors.relative * moduli[k], turned), 1e-6 * sizes[k], least_deviation});
+        const double other = std::sqrt(std::max(0.0, sizes[k] * sizes[k] - moduli[k] * moduli[k]));  // G' of G'', G'' of G'
+        const double own = std::hypot(errors.relative * moduli[k], errors.phase * other);
+        deviation[k] = std::max({own, 1e-6 * sizes[k], least_deviation});
     }
     return deviation;
 }
@@ -112,7 +113,10 @@ Expectation expected_by(const Belief& belief, const Forward& forward, const std:
             const Observation& a = observations[static_cast<std::size_t>(one)];
             const Observation& b = observations[static_cast<std::size_t>(other)];
             if (a.measurement == b.measurement && is_modulus(a) && is_modulus(b)) {
-                covariance(one, other) += errors.sample * errors.sample * mean[one] * mean[other];
+                const double torque = a.row == b.row && a.loss != b.loss ? errors.relative : 0.0;
+                const double phase = torque > 0 ? errors.phase : 0.0;
+                covariance(one, other) +=
+                    (errors.sample * errors.sample + torque * torque - phase * phase) * mean[one] * mean[other];
             }
         }
     }

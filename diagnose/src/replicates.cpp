@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -137,7 +136,14 @@ std::vector<double> floor_weights(const Measurement& table) {
     return weights;
 }
 
-/// Conditions are the axis values of the first table.
+/// Whether both moduli of every table are there.
+bool has_phase(const Group& tables) {
+    return std::all_of(tables.begin(), tables.end(), [](const Measurement* table) {
+        return find_column(*table, "storage_modulus") != nullptr && find_column(*table, "loss_modulus") != nullptr;
+    });
+}
+
+/// The values of a column. Conditions are the axis values of the first table.
 Replicates replicates_in(const Group& tables, const Column& observable) {
     const std::vector<double>& axis = axis_of(*tables.front())->values;
     Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}, false, {}, {}};
@@ -149,7 +155,6 @@ Replicates replicates_in(const Group& tables, const Column& observable) {
     if (replicates.floor_of_stress) {
         replicates.floor_weights = Eigen::VectorXd::Map(weights.data(), replicates.axis.size());
     }
-    replicates.complex_moduli.setConstant(replicates.axis.size(), unset);
     replicates.values.setConstant(replicates.axis.size(), static_cast<Eigen::Index>(tables.size()), unset);
     std::vector<RowsByAxis> rows;
     for (const Measurement* table : tables) {
@@ -158,18 +163,36 @@ Replicates replicates_in(const Group& tables, const Column& observable) {
         replicates.labels.push_back(table->label);
     }
     for (std::size_t row = 0; row < axis.size(); ++row) {
-        std::vector<double> sizes;
         for (std::size_t k = 0; k < tables.size(); ++k) {
             const std::size_t there = std::isfinite(axis[row]) ? rows[k].at(axis[row]).value_or(none) : none;
             if (const Column* column = find_column(*tables[k], observable.name); column != nullptr && there != none) {
                 replicates.values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(k)) = column->values[there];
-                sizes.push_back(complex_modulus(*tables[k], there));
             }
         }
-        replicates.complex_moduli[static_cast<Eigen::Index>(row)] =
-            sizes.empty() ? unset : std::accumulate(sizes.begin(), sizes.end(), 0.0) / static_cast<double>(sizes.size());
     }
     return replicates;
+}
+
+/// |G*| along its mean over the tables, and what lies at right angles to that.
+std::pair<Replicates, Replicates> torque_and_phase(const Replicates& storage, const Replicates& loss) {
+    std::pair<Replicates, Replicates> both{storage, storage};
+    auto& [modulus, phase] = both;
+    modulus.observable = "complex_modulus";
+    phase.observable = "phase";
+    phase.levels.setConstant(storage.axis.size(), unset);
+    for (Eigen::Index row = 0; row < storage.values.rows(); ++row) {
+        const auto known = (storage.values.row(row) + loss.values.row(row)).array().isFinite();
+        const auto mean = [&](const Replicates& part) {
+            return known.select(part.values.row(row).array(), 0.0).sum() / static_cast<double>(known.count());
+        };
+        const double size = std::hypot(mean(storage), mean(loss));
+        const double cosine = mean(storage) / size;
+        const double sine = mean(loss) / size;
+        modulus.values.row(row) = cosine * storage.values.row(row) + sine * loss.values.row(row);
+        phase.values.row(row) = cosine * loss.values.row(row) - sine * storage.values.row(row);
+        phase.levels[row] = size;
+    }
+    return both;
 }
 
 }  // namespace
@@ -177,9 +200,19 @@ Replicates replicates_in(const Group& tables, const Column& observable) {
 std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurements) {
     std::vector<Replicates> all;
     for (const Group& tables : group(measurements)) {
-        for (const char* name : {"storage_modulus", "loss_modulus"}) {
-            if (const Column* observable = find_column(*tables.front(), name)) {
-                all.push_back(replicates_in(tables, *observable));
+        const Measurement& first = *tables.front();
+        // A fluid stores nothing.
+        const Column* storage = std::isnan(first.fluid_viscosity) ? find_column(first, "storage_modulus") : nullptr;
+        const Column* loss = find_column(first, "loss_modulus");
+        if (storage != nullptr && loss != nullptr && has_phase(tables)) {
+            auto [modulus, phase] = torque_and_phase(replicates_in(tables, *storage), replicates_in(tables, *loss));
+            all.push_back(std::move(modulus));
+            all.push_back(std::move(phase));
+            continue;
+        }
+        for (const Column* one : {storage, loss}) {
+            if (one != nullptr) {
+                all.push_back(replicates_in(tables, *one));
             }
         }
     }

@@ -7,11 +7,10 @@ namespace coagula::diagnose {
 namespace {
 
 /// The model whose rows tell most about those of `model`; null if there is none.
-const NoiseModel* teacher_of(const std::vector<NoiseModel>& models, const NoiseModel& model) {
-    const std::string observable = model.fluid ? "storage_modulus" : model.observable;
+const NoiseModel* donor_of(const std::vector<NoiseModel>& models, const NoiseModel& model) {
     const NoiseModel* best = nullptr;
     for (const NoiseModel& other : models) {
-        const bool tells = other.rows_estimated && !other.fluid && other.observable == observable;
+        const bool tells = other.rows_estimated && is_of_phase(other) == is_of_phase(model);
         if (tells && (best == nullptr || other.degrees > best->degrees)) {
             best = &other;
         }
@@ -19,14 +18,11 @@ const NoiseModel* teacher_of(const std::vector<NoiseModel>& models, const NoiseM
     return best;
 }
 
-void borrow(NoiseModel& model, const NoiseModel& teacher) {
-    model.floor = teacher.floor_of_stress == model.floor_of_stress ? teacher.floor : Estimate{};
-    model.relative = teacher.relative;
-    model.relative_to_complex_modulus = teacher.relative_to_complex_modulus;
-    model.phase = 0;
-    model.degrees = teacher.degrees;
-    model.statement =
-        "there are no replicates: as found in those of the " + teacher.observable + " of " + std::string(name_of(teacher.kind));
+void borrow(NoiseModel& model, const NoiseModel& donor) {
+    model.floor = donor.floor_of_stress == model.floor_of_stress ? donor.floor : Estimate{};
+    model.relative = donor.relative;
+    model.degrees = donor.degrees;
+    model.statement = "there are no replicates: as found in those of the " + std::string(name_of(donor.kind));
 }
 
 }  // namespace
@@ -37,9 +33,9 @@ std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurem
         models.push_back(fit_noise(replicates, options));
     }
     for (NoiseModel& model : models) {
-        const NoiseModel* teacher = model.rows_estimated ? nullptr : teacher_of(models, model);
-        if (teacher != nullptr) {
-            borrow(model, *teacher);
+        const NoiseModel* donor = model.rows_estimated ? nullptr : donor_of(models, model);
+        if (donor != nullptr) {
+            borrow(model, *donor);
         }
     }
     return models;
