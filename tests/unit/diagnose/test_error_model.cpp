@@ -1,4 +1,4 @@
-#include "error_model.hpp"
+#include "noise/error_model.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/math/distributions/normal.hpp>

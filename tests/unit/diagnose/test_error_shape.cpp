@@ -1,4 +1,4 @@
-#include "error_model.hpp"
+#include "noise/error_model.hpp"
 
 #include <coagula/common/random.hpp>
 #include <coagula/diagnose/noise.hpp>
