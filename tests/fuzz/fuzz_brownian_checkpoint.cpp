@@ -1,5 +1,5 @@
 // The checkpoint of a Brownian run; see checkpoint_edits.hpp and hdf5_edits.hpp for what the input is.
-#include "brownian_checkpoint.hpp"
+#include "verbs/brownian_checkpoint.hpp"
 #include "checkpoint_edits.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // Each mechanism, switched on in the simulation, shows the signature that the catalogue claims.
-#include "forward.hpp"
+#include "simulate/forward.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/diagnose/model.hpp>

@@ -1,5 +1,5 @@
 // Contacts that pull at rest: what they do to the modulus, the extended model, and whether the pull is told from stiffer contacts.
-#include "forward.hpp"
+#include "simulate/forward.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/diagnose/model.hpp>

@@ -1,5 +1,5 @@
 // Drag of the solvent: its limits, the extended model, and a sweep of another structure in which it is hidden.
-#include "forward.hpp"
+#include "simulate/forward.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/diagnose/model.hpp>

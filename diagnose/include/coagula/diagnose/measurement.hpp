@@ -88,6 +88,7 @@ struct Measurement {
     double cone_angle = unset;       ///< of a cone in place of the upper one of two plates [rad]
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]; it does not slip, either
     int oscillations = 1;            ///< at the strain of a row, of which the last is measured; >= 1
+    bool polar_errors = false;       ///< the standard errors of storage and loss modulus are those along and across G*
     std::vector<Column> columns;
     std::vector<LeftOutCell> left_out;
 
@@ -124,6 +125,10 @@ struct Instrument {
     double cone_angle = unset;       ///< rad
     double inner_radius = unset;     ///< m; concentric cylinders
     double outer_radius = unset;     ///< m
+    double bob_length = unset;       ///< m; of the inner cylinder
+    double end_correction = 1;       ///< on the torque of the inner cylinder: 1.1 of one after DIN 53019
+    double stress_constant = unset;  ///< stress over torque where it is stated [Pa/(N.m)]
+    double strain_constant = unset;  ///< strain over deflection where it is stated [1/rad]
     double tool_inertia = unset;     ///< kg.m2
     double tool_compliance = unset;  ///< rad/(N.m)
 };

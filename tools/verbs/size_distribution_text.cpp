@@ -1,0 +1,65 @@
+#include "size_distribution_text.hpp"
+
+#include "cli/arguments.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/io/table.hpp>
+#include <coagula/io/units.hpp>
+
+#include <filesystem>
+#include <system_error>
+
+namespace coagula::tools {
+
+namespace {
+
+using generators::SizeDistribution;
+using generators::SizeKind;
+
+SizeDistribution parse_spread(SizeKind kind, const std::string& text, std::size_t colon) {
+    SizeDistribution sizes;
+    sizes.kind = kind;
+    try {
+        sizes.relative_deviation = io::parse_quantity(colon == std::string::npos ? "" : text.substr(colon + 1), "1");
+    } catch (const InputError&) {
+        throw InputError("--size-distribution: '" + text + "' needs the standard deviation over the mean, as in " +
+                         text.substr(0, colon) + ":0.1");
+    }
+    return sizes;
+}
+
+/// Of the particles a share `fraction`, on any scale, has this radius.
+SizeDistribution read_size_table(const std::string& path) {
+    const auto columns =
+        io::read_table(path, {{.name = "radius", .unit = "m", .low = physical::length.low, .high = physical::length.high},
+                              {.name = "fraction", .unit = "1", .low = 1e-12, .high = 1e12}});
+    SizeDistribution sizes;
+    sizes.kind = SizeKind::table;
+    sizes.table_radius = columns[0];
+    sizes.table_fraction = columns[1];
+    return sizes;
+}
+
+}  // namespace
+
+SizeDistribution parse_size_distribution(const std::string& text, std::optional<double> mean_radius) {
+    const std::size_t colon = text.find(':');
+    const std::string name = text.substr(0, colon);
+    SizeDistribution sizes;
+    if (name == "normal" || name == "lognormal") {
+        sizes = parse_spread(name == "normal" ? SizeKind::normal : SizeKind::lognormal, text, colon);
+    } else if (text != "monodisperse") {
+        if (std::error_code ignored; !std::filesystem::exists(text, ignored)) {
+            throw InputError("--size-distribution: there is no file '" + text +
+                             "'; give monodisperse, normal:S, lognormal:S or a CSV file");
+        }
+        return read_size_table(text);
+    }
+    if (!mean_radius) {
+        throw InputError("--radius is missing: it is the mean radius of the particles (see 'coagula generate vem --help')");
+    }
+    sizes.mean_radius = *mean_radius;
+    return sizes;
+}
+
+}  // namespace coagula::tools
