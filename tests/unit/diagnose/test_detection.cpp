@@ -1,7 +1,8 @@
 // Along which rows a departure is looked for.
-#include "detection.hpp"
+#include "infer/detection.hpp"
+#include "infer/localise.hpp"
+
 #include "hidden_effects.hpp"
-#include "localise.hpp"
 
 #include <gtest/gtest.h>
 
