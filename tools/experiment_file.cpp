@@ -188,6 +188,12 @@ void ExperimentReader::read_noise() {
         }
         result_.noise.stated_phase = *value;
     }
+    if (const auto value = keys.quantity("stated_correlation", "1")) {
+        if (!(*value >= 0 && *value < 1)) {
+            keys.fail("stated_correlation", "must be 0 or more and below 1");
+        }
+        result_.noise.stated_correlation = *value;
+    }
     keys.refuse_other_keys();
 }
 
