@@ -94,8 +94,8 @@ std::string without_blanks(std::string_view text) {
 /// Larger numbers, such as the largest of single precision, are what an instrument writes where its arithmetic fails.
 constexpr double largest_value = 1e37;
 
-constexpr std::array placeholders = {"-",   "--",       "---", "n/a",      "na",   "n.a.",    "nan",   "-nan", "nan(ind)", "inf",
-                                     "-inf", "infinity", "-infinity", "∞", "-∞",  "invalid", "none",  "null", "undefined"};
+constexpr std::array placeholders = {"-",    "--",       "---",       "n/a", "na", "n.a.",    "nan",  "-nan", "nan(ind)", "inf",
+                                     "-inf", "infinity", "-infinity", "∞",   "-∞", "invalid", "none", "null", "undefined"};
 
 }  // namespace
 

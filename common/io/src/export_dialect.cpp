@@ -11,7 +11,7 @@ namespace coagula::io {
 
 namespace {
 
-constexpr std::size_t longest_title = 1000;  ///< every table of a result carries it
+constexpr std::size_t longest_title = 1000;  ///< every table of a result carries it, and every line of a group
 
 std::string key_of(std::string_view cell) {
     cell = trim(cell);
@@ -24,7 +24,7 @@ std::string key_of(std::string_view cell) {
 bool is_group(const std::vector<std::string>& cells) {
     const std::string& text = cells.front();
     const bool alone = std::all_of(cells.begin() + 1, cells.end(), [](const std::string& cell) { return cell.empty(); });
-    return alone && text.size() > 2 && text.front() == '[' && text.back() == ']';
+    return alone && text.size() > 2 && text.size() <= longest_title && text.front() == '[' && text.back() == ']';
 }
 
 /// The cells after the first that are not empty.
@@ -56,7 +56,8 @@ public:
             text_.fail(*step_without_headings_, "this step has no line of headings that names a known quantity");
         }
         if (file_.tables.empty()) {
-            text_.fail(0, "a " + std::string(name_of(dialect_.format)) + " export begins here, but no line of headings with units follows");
+            text_.fail(0, "a " + std::string(name_of(dialect_.format)) +
+                              " export begins here, but no line of headings with units follows");
         }
         return std::move(file_);
     }
@@ -134,8 +135,8 @@ void ExportReader::read_line(std::size_t line) {
         std::string& name = role == LineRole::test ? test_ : title_;
         name = joined(values);
         if (name.size() > longest_title) {
-            text_.fail(line, "the name of the result has " + std::to_string(name.size()) +
-                                 " characters, but must have at most " + std::to_string(longest_title));
+            text_.fail(line, "the name of the result has " + std::to_string(name.size()) + " characters, but must have at most " +
+                                 std::to_string(longest_title));
         }
     } else if (is_group(cells)) {
         group_ = cells.front().substr(1, cells.front().size() - 2);
@@ -170,7 +171,8 @@ void ExportReader::check_row(std::size_t line, const TableHead& head, const std:
     }
     for (std::size_t column = named; column < cells.size(); ++column) {
         if (!cells[column].empty()) {
-            text_.fail(line, "there are " + std::to_string(head.labels + column + 1) + " cells, but the headings name " + std::to_string(head.labels + named) +
+            text_.fail(line, "there are " + std::to_string(head.labels + column + 1) + " cells, but the headings name " +
+                                 std::to_string(head.labels + named) +
                                  ": a separator within numbers has split them; export with tabs, or without thousands separators");
         }
     }
@@ -231,7 +233,8 @@ std::size_t ExportReader::read_table(const TableHead& head) {
 
 LineRole role_of(const ExportDialect& dialect, std::string_view first_cell) {
     const std::string key = key_of(first_cell);
-    const auto found = std::find_if(dialect.words.begin(), dialect.words.end(), [&](const auto& word) { return word.first == key; });
+    const auto found =
+        std::find_if(dialect.words.begin(), dialect.words.end(), [&](const auto& word) { return word.first == key; });
     return found == dialect.words.end() ? LineRole::metadata : found->second;
 }
 

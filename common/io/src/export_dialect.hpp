@@ -23,9 +23,9 @@ enum class LineRole {
 };
 
 enum class UnitsPlace {
-    line_below,     ///< the line below the headings
-    brackets_below, ///< a line of units in brackets, at most two below the headings; such a line also tells what headings are
-    after_heading,  ///< "omega / rad/s" or "omega in rad/s"
+    line_below,      ///< the line below the headings
+    brackets_below,  ///< a line of units in brackets, at most two below the headings; such a line also tells what headings are
+    after_heading,   ///< "omega / rad/s" or "omega in rad/s"
 };
 
 /// How a program writes its exports.

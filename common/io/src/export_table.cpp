@@ -11,7 +11,8 @@ namespace coagula::io {
 namespace {
 
 std::size_t filled(const std::vector<std::string>& cells) {
-    return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
+    return static_cast<std::size_t>(
+        std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
 }
 
 bool is_waveform(const std::string& qualifier) {
@@ -70,8 +71,8 @@ private:
 /// TRIOS: within a step, the line of "Variables", or the first that names a known quantity and holds no number.
 std::optional<TableHead> HeadFinder::with_line_below(bool in_section) const {
     const LineRole role = role_of(dialect_, cells_.front());
-    const bool names_quantity = std::any_of(cells_.begin(), cells_.end(),
-                                            [](const std::string& cell) { return !quantity_of_heading(cell).empty(); });
+    const bool names_quantity =
+        std::any_of(cells_.begin(), cells_.end(), [](const std::string& cell) { return !quantity_of_heading(cell).empty(); });
     const bool unmarked = role == LineRole::metadata && cells_.size() > 1 && names_quantity &&
                           std::none_of(cells_.begin(), cells_.end(), looks_like_number);
     if (!in_section || !(role == LineRole::headings || unmarked)) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace coagula::io {
@@ -44,8 +45,8 @@ constexpr std::array keys = {
 };
 
 /// Keys whose text names the tool: "25mm parallel plate", "PP08-SN23708; [d=0.1 mm]".
-constexpr std::array tool_keys = {"geometryname",      "geometrytype",  "measuringsystem",  "measuringgeometry",
-                                  "measuringcell",     "messsystem",    "systèmedemesure", "測定治具"};
+constexpr std::array tool_keys = {"geometryname",  "geometrytype", "measuringsystem", "measuringgeometry",
+                                  "measuringcell", "messsystem",   "systèmedemesure", "測定治具"};
 
 std::string without_blanks_and_case(std::string_view text) {
     std::string key = lower_case(text);
@@ -96,18 +97,29 @@ public:
         const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& each) { return each.key == key; });
         if (found != keys.end()) {
             const std::string unit(found->unit);
-            if (const auto value = quantity_in(entry.value, unit); value && *value > 0) {
-                put(std::string(found->name), *value * found->factor, unit, source, key == "uppercompliance" || key == "lowercompliance");
+            if (const auto value = quantity_in(entry.value, unit); value) {
+                put(std::string(found->name), *value * found->factor, unit, source,
+                    key == "uppercompliance" || key == "lowercompliance");
             }
         }
     }
 
-    std::vector<InstrumentValue> take() { return std::move(values_); }
+    /// Under a cone and below a bob the gap is not that of the shear.
+    std::vector<InstrumentValue> take() {
+        const bool plates = std::none_of(values_.begin(), values_.end(),
+                                         [](const auto& each) { return each.name == "geometry" && each.text != "plate-plate"; });
+        std::erase_if(values_, [&](const auto& each) { return each.name == "gap" && !plates; });
+        return std::move(values_);
+    }
 
 private:
-    /// The first value of a name counts; `adds`: that of the upper and of the lower part of a tool are in series.
+    /// The first value of a name counts, if it is above zero; `adds`: that of the upper and of the lower part of a tool are in
+    /// series.
     void put(const std::string& name, double value, const std::string& unit, const std::string& source, bool adds = false) {
         const auto same = std::find_if(values_.begin(), values_.end(), [&](const auto& each) { return each.name == name; });
+        if (!(value > 0 && std::isfinite(value))) {
+            return;
+        }
         if (same == values_.end()) {
             values_.push_back({name, value, unit, "", source});
         } else if (adds && same->source.find(source.substr(0, source.find(' '))) == source.npos) {
@@ -116,7 +128,20 @@ private:
         }
     }
 
-    /// Geometry and, of tools of Anton Paar, the numbers in the name: PP08 has 8 mm, CP50-1 50 mm and 1 degree.
+    void put_number_before(const std::string& words, std::string_view mark, double factor, const std::string& name,
+                           const std::string& unit, const std::string& source) {
+        const std::size_t end = words.find(mark);
+        if (end == std::string::npos) {
+            return;
+        }
+        const std::size_t before = words.find_last_not_of("0123456789.", end == 0 ? 0 : end - 1);
+        const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+        if (const auto number = read_cell(words.substr(begin, end - std::min(begin, end)), false).value; number) {
+            put(name, *number * factor, unit, source);
+        }
+    }
+
+    /// Geometry and the numbers in the name: PP08 has 8 mm, CP50-1 50 mm and 1 degree, and so has "50mm 1° cone plate".
     void add_tool(const std::string& tool, const std::string& source) {
         const std::string words = without_blanks_and_case(tool);
         const std::string geometry = geometry_in(words);
@@ -127,6 +152,12 @@ private:
         const bool anton_paar = (words.starts_with("pp") || words.starts_with("cp")) && words.size() > 2 &&
                                 std::isdigit(static_cast<unsigned char>(words[2])) != 0;
         if (!anton_paar) {
+            if (geometry == "plate-plate" || geometry == "cone-plate") {
+                put_number_before(words, "mm", 0.5e-3, "plate_radius", "m", source);
+            }
+            if (geometry == "cone-plate") {
+                put_number_before(words, "°", std::numbers::pi / 180, "cone_angle", "rad", source);
+            }
             return;
         }
         const std::size_t end = std::min(words.find_first_not_of("0123456789", 2), words.size());

@@ -2,6 +2,7 @@
 #include <coagula/io/measured_file.hpp>
 
 #include "measured_readers.hpp"
+#include "read_workbook.hpp"
 #include "text_encoding.hpp"
 
 #include <algorithm>
@@ -22,7 +23,6 @@ struct Container {
 };
 constexpr std::array containers = {
     Container{"PK\x03\x04", "an Excel workbook (.xlsx)"},
-    Container{"\xd0\xcf\x11\xe0", "an old Excel workbook (.xls)"},
     Container{"<?xml", "XML"},
     Container{"\xef\xbb\xbf<?xml", "XML"},
     Container{"%PDF", "a PDF document"},
@@ -50,6 +50,9 @@ void number_tables(std::vector<PlainTable>& tables) {
 }  // namespace
 
 std::string_view name_of(MeasuredFormat format) {
+    if (format == MeasuredFormat::workbook) {
+        return "Excel workbook";
+    }
     const auto found = std::find_if(readers.begin(), readers.end(), [&](const auto* reader) { return reader->format == format; });
     return found == readers.end() ? std::string_view{} : (*found)->name;
 }
@@ -57,6 +60,11 @@ std::string_view name_of(MeasuredFormat format) {
 MeasuredFile read_measured_file(const std::string& path) {
     const std::string bytes = read_file(path);
     refuse_containers(path, bytes);
+    if (is_workbook(bytes)) {
+        MeasuredFile file = read_workbook(path);
+        number_tables(file.tables);
+        return file;
+    }
     const MeasuredText text{path, split_lines(to_utf8(bytes))};
     if (std::any_of(text.lines.begin(), text.lines.end(), [](const std::string& line) { return line.find('\0') != line.npos; })) {
         throw InputError(path + " is not a text file");

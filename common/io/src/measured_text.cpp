@@ -24,6 +24,12 @@ bool tells_negative_modulus(std::string_view flag) {
     return flag == "ME-" || flag == "MV-";
 }
 
+/// TRIOS gives forces and torques of the ARES in grams, which are those of a weight.
+std::string unit_of(const std::string& quantity, const std::string& unit) {
+    const bool weight = (quantity == "normal_force" && unit == "g") || (quantity == "torque" && unit == "g.cm");
+    return weight ? "gf" + unit.substr(1) : unit;
+}
+
 }  // namespace
 
 std::vector<std::string> split_lines(const std::string& text) {
@@ -83,7 +89,7 @@ int announced_count(std::string_view text) {
 TableBuilder::TableBuilder(const std::vector<HeadingWithUnit>& headings, bool decimal_comma) : decimal_comma_(decimal_comma) {
     for (const HeadingWithUnit& heading : headings) {
         const KnownHeading known = known_heading(heading.heading);
-        table_.columns.push_back({heading.heading, known.quantity, heading.unit, known.rank});
+        table_.columns.push_back({heading.heading, known.quantity, unit_of(known.quantity, heading.unit), known.rank});
         const std::string name = lower_case(heading.heading);
         is_status_.push_back(std::find(status_headings.begin(), status_headings.end(), name) != status_headings.end());
     }

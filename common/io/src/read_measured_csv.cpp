@@ -27,7 +27,8 @@ struct FilledLine {
 };
 
 std::size_t filled(const Cells& cells) {
-    return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
+    return static_cast<std::size_t>(
+        std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
 }
 
 bool has_number(const Cells& cells) {
@@ -47,8 +48,28 @@ bool is_title(const Cells& cells, const FilledLine* next) {
 
 bool are_units(const Cells& cells) {
     return filled(cells) > 0 && !has_number(cells) && std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
-        return cell.empty() || (quantity_of_heading(cell).empty() && is_unit_text(normal_unit(cell)));
-    });
+               return cell.empty() || (quantity_of_heading(cell).empty() && is_unit_text(normal_unit(cell)));
+           });
+}
+
+bool is_skipped(const std::string& line) {
+    return trim(line).empty() || trim(line).starts_with('#');
+}
+
+/// Tab, semicolon or comma: the first of these that stands in most lines, for a title may have a comma, too.
+char separator_of(const MeasuredText& text) {
+    for (const char separator : {'\t', ';', ','}) {
+        std::size_t lines = 0;
+        std::size_t with_it = 0;
+        for (const std::string& line : text.lines) {
+            lines += is_skipped(line) ? 0 : 1;
+            with_it += !is_skipped(line) && line.find(separator) != line.npos ? 1 : 0;
+        }
+        if (with_it > 0 && 2 * with_it >= lines) {
+            return separator;
+        }
+    }
+    return ',';
 }
 
 class CsvTables {
@@ -79,20 +100,12 @@ private:
 };
 
 void CsvTables::collect_lines() {
-    const auto skipped = [](const std::string& line) { return trim(line).empty() || trim(line).starts_with('#'); };
-    const auto first = std::find_if_not(text_.lines.begin(), text_.lines.end(), skipped);
-    if (first == text_.lines.end()) {
-        throw InputError(text_.path + " has no header");
-    }
-    const auto with_separator = std::find_if(first, text_.lines.end(), [&](const std::string& line) {
-        return !skipped(line) && line.find_first_of("\t;,") != line.npos;
-    });
-    const char separator = separator_in(with_separator == text_.lines.end() ? *first : *with_separator);
+    const char separator = separator_of(text_);
     file_.decimal_comma = has_decimal_comma(text_, separator);
     bool after_blank = true;
     for (std::size_t number = 0; number < text_.lines.size(); ++number) {
         const std::string& line = text_.lines[number];
-        Cells cells = skipped(line) ? Cells{} : split_cells(line, separator);
+        Cells cells = is_skipped(line) ? Cells{} : split_cells(line, separator);
         if (is_blank(cells)) {
             after_blank = after_blank || !trim(line).starts_with('#');
             continue;
@@ -103,6 +116,9 @@ void CsvTables::collect_lines() {
         }
         lines_.push_back({number, after_blank, fields, std::move(cells)});
         after_blank = false;
+    }
+    if (lines_.empty()) {
+        throw InputError(text_.path + " has no header");
     }
 }
 

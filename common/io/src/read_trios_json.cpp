@@ -42,7 +42,8 @@ std::string unit_of(const Json& object) {
 }
 
 bool is_json(const MeasuredText& text) {
-    const auto first = std::find_if(text.lines.begin(), text.lines.end(), [](const std::string& line) { return !trim(line).empty(); });
+    const auto first =
+        std::find_if(text.lines.begin(), text.lines.end(), [](const std::string& line) { return !trim(line).empty(); });
     return first != text.lines.end() && trim(*first).starts_with('{');
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 namespace coagula::io {
@@ -202,6 +203,8 @@ constexpr std::array headings = {
     Entry{"exclusion probability", "exclusion_probability"},
 };
 
+constexpr std::size_t longest_heading = 100;  ///< bytes; none of the list comes near
+
 using Replacements = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
 std::string replaced(std::string text, const Replacements& replacements) {
@@ -238,16 +241,21 @@ std::optional<HeadingWithUnit> split_at(std::string_view text, std::size_t at, s
 }  // namespace
 
 KnownHeading known_heading(std::string_view heading) {
-    const std::string name = plain_name(heading);
-    const auto find = [](const std::string& wanted) {
-        return std::find_if(headings.begin(), headings.end(), [&](const Entry& entry) { return entry.first == wanted; });
-    };
-    auto found = find(name);
-    found = found == headings.end() ? find(lower_case(name)) : found;
-    if (found == headings.end()) {
+    static const std::unordered_map<std::string_view, std::size_t> places = [] {
+        std::unordered_map<std::string_view, std::size_t> map;
+        for (std::size_t place = 0; place < headings.size(); ++place) {
+            map.emplace(headings[place].first, place);
+        }
+        return map;
+    }();
+    if (heading.size() > longest_heading) {
         return {};
     }
-    return {std::string(found->second), static_cast<std::size_t>(found - headings.begin())};
+    const std::string name = plain_name(heading);
+    auto found = places.find(name);
+    const std::string lower = lower_case(name);
+    found = found == places.end() ? places.find(lower) : found;
+    return found == places.end() ? KnownHeading{} : KnownHeading{std::string(headings[found->second].second), found->second};
 }
 
 std::string quantity_of_heading(std::string_view heading) {
