@@ -39,6 +39,8 @@ public:
         read_noise();
         read_expectation();
         read_measurements();
+        result_.taken_over = metadata_.give_to(result_.experiment);
+        result_.facts.resize(result_.experiment.measurements.size());
         naming(path_, [&] { diagnose::check(result_.experiment); });
         return std::move(result_);
     }
@@ -70,6 +72,7 @@ private:
     std::string path_;
     toml::table root_;
     ExperimentFile result_;
+    ExportMetadata metadata_;
 };
 
 void ExperimentReader::read_sample() {
@@ -106,6 +109,7 @@ void ExperimentReader::read_instrument() {
     instrument.inner_radius = keys.quantity("inner_radius", "m").value_or(unset);
     instrument.outer_radius = keys.quantity("outer_radius", "m").value_or(unset);
     instrument.tool_inertia = keys.quantity("tool_inertia", "kg.m2").value_or(unset);
+    instrument.instrument_inertia = keys.quantity("instrument_inertia", "kg.m2").value_or(unset);
     instrument.tool_compliance = keys.quantity("tool_compliance", "rad/(N.m)").value_or(unset);
     keys.refuse_other_keys();
 }
@@ -277,7 +281,11 @@ std::map<std::string, std::string> headings_by_quantity(TomlKeys& keys, const st
 
 ColumnRules ExperimentReader::column_rules(TomlKeys& keys) const {
     ColumnRules rules;
-    rules.headings = headings_by_quantity(keys, "columns");
+    if (keys.holds_list("columns")) {
+        rules.names = keys.texts("columns");
+    } else {
+        rules.headings = headings_by_quantity(keys, "columns");
+    }
     rules.standard_errors = headings_by_quantity(keys, "standard_errors");
     for (const auto& [name, node] : keys.entries("values")) {
         const diagnose::Quantity& quantity = known_quantity(keys, "values", name);
@@ -323,6 +331,27 @@ TableSetting read_setting(TomlKeys& keys, std::size_t number) {
     return setting;
 }
 
+/// The table, its columns named by the list `columns` where the file has no headings.
+io::PlainTable with_names(TomlKeys& keys, io::PlainTable table, const ColumnRules& rules, const std::string& label) {
+    if (table.has_headings && !rules.names.empty()) {
+        keys.fail("columns", label + " has headings: write columns = { quantity = \"heading\" }");
+    }
+    if (!table.has_headings && rules.names.empty()) {
+        throw InputError(
+            label + ": there are no headings; name its " + std::to_string(table.columns.size()) +
+            " columns in the experiment file, columns = [\"strain [%]\", \"G' [Pa]\", ...], with \"\" for one that is not "
+            "meant");
+    }
+    if (!table.has_headings) {
+        try {
+            io::name_columns(table, rules.names);
+        } catch (const InputError& error) {
+            keys.fail("columns", label + ": " + error.what());
+        }
+    }
+    return table;
+}
+
 void ExperimentReader::read_measurement(const toml::table& table, std::size_t number) {
     TomlKeys keys(table, path_ + ", measurement " + std::to_string(number));
     const std::string kind_name = keys.required_text("kind");
@@ -348,19 +377,23 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
     const ColumnRules rules = column_rules(keys);
     const TableSelection selection = read_selection(keys);
     keys.refuse_other_keys();
-    const bool several = file.tables.size() > 1;
+    const std::size_t first = result_.experiment.measurements.size();
     for (const io::PlainTable* chosen : tables) {
-        const std::string label = name + (several ? ", section " + std::to_string(chosen->section) : "") +
-                                  (chosen->point > 0 ? ", point " + std::to_string(chosen->point) : "");
-        diagnose::Measurement measurement = to_measurement(*chosen, *kind, label, rules);
+        const std::string label = label_of(file, *chosen, name);
+        const io::PlainTable named = with_names(keys, *chosen, rules, label);
+        diagnose::Measurement measurement = to_measurement(named, *kind, label, rules);
         setting.give_to(measurement);
+        measurement.run_order += chosen->number - tables.front()->number;  // of a range
         select(measurement, selection);
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +
                                     " points, but has " + std::to_string(chosen->rows()));
         }
         result_.experiment.measurements.push_back(std::move(measurement));
+        result_.facts.resize(result_.experiment.measurements.size());
+        result_.facts.back() = {not_understood(named, rules), named.flags};
     }
+    metadata_.add(name, file, first, result_.experiment.measurements.size());
 }
 
 }  // namespace

@@ -49,6 +49,8 @@ constexpr std::array quantities = {
              "third harmonic of the stress over the first, viscous: G3''/|G*|"},
     Quantity{"loss_tangent", "1", -infinite, false, infinite, "G''/G'"},
     Quantity{"phase", "rad", -std::numbers::pi, false, std::numbers::pi, "of the stress before the strain"},
+    Quantity{"raw_phase", "rad", -std::numbers::pi, false, std::numbers::pi,
+             "of torque before deflection, as the instrument measured it"},
     Quantity{"angular_frequency", "rad/s", 0, true, infinite, "2 pi times the frequency"},
     Quantity{"frequency", "Hz", 0, true, infinite, "cycles per second"},
     Quantity{"complex_viscosity", "Pa.s", 0, false, infinite, "|G*| over the angular frequency"},
@@ -153,6 +155,7 @@ void check_instrument(const Instrument& instrument) {
     check_positive(instrument.inner_radius, "instrument.inner_radius", "m");
     check_positive(instrument.outer_radius, "instrument.outer_radius", "m");
     check_positive(instrument.tool_inertia, "instrument.tool_inertia", "kg.m2");
+    check_positive(instrument.instrument_inertia, "instrument.instrument_inertia", "kg.m2");
     check_positive(instrument.tool_compliance, "instrument.tool_compliance", "rad/(N.m)");
     check_cone(instrument.cone_angle, "instrument.cone_angle");
     if (std::isnan(instrument.inner_radius) != std::isnan(instrument.outer_radius)) {

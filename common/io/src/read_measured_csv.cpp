@@ -1,7 +1,7 @@
 // CSV as spreadsheets and people write it: comma, semicolon or tab; lines that begin with # are comments. Blank lines part tables.
 // A table is
 //     <title, or lines "key, value">           may be missing
-//     <headings, perhaps with units>           may be missing: then all cells of the first row are numbers
+//     <headings, perhaps with units>           may be missing: then most cells of the first row are numbers
 //     <units>                                  may be missing
 //     <cells>
 #include "measured_readers.hpp"
@@ -38,6 +38,14 @@ bool has_number(const Cells& cells) {
 bool holds_numbers_only(const Cells& cells) {
     return has_number(cells) &&
            std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty() || looks_like_number(cell); });
+}
+
+/// At least every other cell is a number, and no other a heading: texts such as a status may stand in a row.
+bool is_row(const Cells& cells) {
+    const auto numbers = static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), looks_like_number));
+    return numbers > 0 && 2 * numbers >= filled(cells) && std::none_of(cells.begin(), cells.end(), [](const std::string& cell) {
+               return !quantity_of_heading(split_heading(cell).heading).empty();
+           });
 }
 
 /// "49 <tab> KCl/Polymer 10degC <tab> 1" above rows of another width.
@@ -145,7 +153,7 @@ void CsvTables::read_above(std::string& title) {
 std::vector<HeadingWithUnit> CsvTables::read_headings(bool& given) {
     const Cells& cells = lines_[at_].cells;
     std::vector<HeadingWithUnit> headings;
-    given = !holds_numbers_only(cells);
+    given = !is_row(cells);
     if (!given) {
         std::size_t width = cells.size();
         for (std::size_t row = at_; row < lines_.size() && !begins_table(lines_[row], width); ++row) {

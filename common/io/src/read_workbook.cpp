@@ -72,8 +72,8 @@ public:
 private:
     void check(int result) const {
         if (result != FREEXL_OK) {
-            throw InputError(path_ + " is an old Excel workbook (.xls) that cannot be read (FreeXL error " + std::to_string(result) +
-                             "): save each sheet as CSV");
+            throw InputError(path_ + " is an old Excel workbook (.xls) that cannot be read (FreeXL error " +
+                             std::to_string(result) + "): save each sheet as CSV");
         }
     }
 
@@ -100,12 +100,14 @@ private:
 };
 
 std::size_t filled(const std::vector<std::string>& cells) {
-    return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
+    return static_cast<std::size_t>(
+        std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
 }
 
 /// A sheet with lines of three cells holds a table, another one metadata.
 void add_sheet(const std::vector<std::string>& lines, const MeasuredReader& reader, MeasuredFile& file) {
-    const bool is_table = std::any_of(lines.begin(), lines.end(), [](const std::string& line) { return filled(split_cells(line, '\t')) > 2; });
+    const bool is_table =
+        std::any_of(lines.begin(), lines.end(), [](const std::string& line) { return filled(split_cells(line, '\t')) > 2; });
     if (is_table) {
         MeasuredFile sheet = reader.read({file.path, lines});
         for (PlainTable& table : sheet.tables) {
