@@ -1,7 +1,7 @@
 // The causes that a diagnosis knows, as a table.
 #pragma once
 
-#include "arguments.hpp"
+#include "cli/arguments.hpp"
 
 namespace coagula::tools {
 

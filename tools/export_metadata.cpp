@@ -1,13 +1,13 @@
 #include "export_metadata.hpp"
 
-#include "report.hpp"
-
 #include <coagula/common/checks.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 namespace coagula::tools {
 
@@ -17,27 +17,24 @@ using diagnose::Experiment;
 using diagnose::Instrument;
 
 /// The geometry first: it says which of the others make sense. Radii of cylinders go together.
-constexpr std::array names = {"geometry",     "plate_radius",       "gap",            "cone_angle", "inner_radius", "outer_radius",
+constexpr std::array names = {"geometry",     "plate_radius",       "gap",
+                              "cone_angle",   "inner_radius",       "outer_radius",
                               "tool_inertia", "instrument_inertia", "tool_compliance"};
 
 double& field(Instrument& instrument, const std::string& name) {
     static const std::map<std::string, double Instrument::*> fields = {{"plate_radius", &Instrument::plate_radius},
-                                                                        {"gap", &Instrument::gap},
-                                                                        {"cone_angle", &Instrument::cone_angle},
-                                                                        {"inner_radius", &Instrument::inner_radius},
-                                                                        {"outer_radius", &Instrument::outer_radius},
-                                                                        {"tool_inertia", &Instrument::tool_inertia},
-                                                                        {"instrument_inertia", &Instrument::instrument_inertia},
-                                                                        {"tool_compliance", &Instrument::tool_compliance}};
+                                                                       {"gap", &Instrument::gap},
+                                                                       {"cone_angle", &Instrument::cone_angle},
+                                                                       {"inner_radius", &Instrument::inner_radius},
+                                                                       {"outer_radius", &Instrument::outer_radius},
+                                                                       {"tool_inertia", &Instrument::tool_inertia},
+                                                                       {"instrument_inertia", &Instrument::instrument_inertia},
+                                                                       {"tool_compliance", &Instrument::tool_compliance}};
     return instrument.*fields.at(name);
 }
 
 bool same(const io::InstrumentValue& one, const io::InstrumentValue& other) {
     return one.name == "geometry" ? one.text == other.text : std::abs(one.value - other.value) <= 1e-6 * std::abs(one.value);
-}
-
-std::string text_of(const io::InstrumentValue& value) {
-    return value.name == "geometry" ? value.text : with_unit(value.value, value.unit);
 }
 
 bool is_given(Instrument& instrument, const std::string& name) {
@@ -62,6 +59,10 @@ std::optional<std::string> contradiction(const Instrument& instrument) {
         return error.what();
     }
     return std::nullopt;
+}
+
+TakenOver taken_over(const std::string& file, const io::InstrumentValue& value, std::string fate) {
+    return {value.name, value.value, value.unit, value.text, file + ": " + value.source, std::move(fate)};
 }
 
 double median_temperature(const diagnose::Measurement& table) {
@@ -90,7 +91,7 @@ void give_temperature(Experiment& experiment, std::vector<TakenOver>& list) {
         return;
     }
     experiment.sample.temperature = (low + high) / 2;
-    list.push_back({"temperature", with_unit(experiment.sample.temperature, "K"), "the columns of the temperature", "taken over"});
+    list.push_back({"temperature", experiment.sample.temperature, "K", "", "the columns of the temperature", "taken over"});
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ void ExportMetadata::add(const std::string& name, const io::MeasuredFile& file, 
 /// Where all exports agree.
 void ExportMetadata::give_value(const std::string& name, Experiment& experiment, std::vector<TakenOver>& list) const {
     const Source& source = sources_.at(name).front();
-    TakenOver taken{name, text_of(source.value), source.file + ": " + source.value.source, "taken over"};
+    TakenOver taken = taken_over(source.file, source.value, "taken over");
     Instrument candidate = experiment.instrument;
     if (is_given(candidate, name)) {
         taken.fate = "not taken over: [instrument] gives it";
@@ -128,8 +129,9 @@ void ExportMetadata::give_value(const std::string& name, Experiment& experiment,
 void ExportMetadata::give_to_tables(const std::string& name, Experiment& experiment, std::vector<TakenOver>& list) const {
     const bool of_tables = (name == "plate_radius" || name == "gap") && !is_given(experiment.instrument, name);
     for (const Source& source : sources_.at(name)) {
-        list.push_back({name, text_of(source.value), source.file + ": " + source.value.source,
-                        of_tables ? "taken over for its tables" : "not taken over: the exports differ; say it in [instrument]"});
+        list.push_back(
+            taken_over(source.file, source.value,
+                       of_tables ? "taken over for its tables" : "not taken over: the exports differ; say it in [instrument]"));
         for (std::size_t i = source.first; of_tables && i < source.end; ++i) {
             diagnose::Measurement& table = experiment.measurements[i];
             if (diagnose::find_column(table, name) == nullptr) {

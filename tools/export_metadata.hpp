@@ -14,7 +14,9 @@ namespace coagula::tools {
 /// A value that an export gives.
 struct TakenOver {
     std::string name;    ///< key of the experiment file: "plate_radius"
-    std::string value;   ///< "12.5 mm"
+    double value;        ///< in `unit`; unset for a geometry
+    std::string unit;    ///< SI
+    std::string text;    ///< of a geometry
     std::string source;  ///< file and what stands there
     std::string fate;    ///< "taken over", or why not
 };

@@ -165,9 +165,11 @@ public:
 
     std::string write(const std::vector<RecognisedFile>& files) {
         text_ += comment("Made from the exports below by coagula diagnose --new. coagula diagnose --check says what is in it.");
-        text_ += comment("Lines that begin with # are suggestions: remove the # of those that hold. All keys: docs/experiment-file.md.");
-        text_ += "\n[sample]\n# particle_radius = \"0.25 um\"    # these three are needed for a diagnosis\n# volume_fraction = 0.4\n"
-                 "# solvent_viscosity = \"1 mPa.s\"\n\n[instrument]\n";
+        text_ +=
+            comment("Lines that begin with # are suggestions: remove the # of those that hold. All keys: docs/experiment-file.md.");
+        text_ +=
+            "\n[sample]\n# particle_radius = \"0.25 um\"    # these three are needed for a diagnosis\n# volume_fraction = 0.4\n"
+            "# solvent_viscosity = \"1 mPa.s\"\n\n[instrument]\n";
         write_instrument(files);
         for (const RecognisedFile& file : files) {
             write_file(file);
@@ -213,11 +215,13 @@ private:
 
     void write_table(const io::MeasuredFile& file, const io::PlainTable& table, const RecognisedTable& what, bool several) {
         if (!what.kind) {
-            text_ += "\n" + comment("table " + std::to_string(table.number) + ", " + name_of_table(table) + ", is not used: " + what.reason);
+            text_ += "\n" + comment("table " + std::to_string(table.number) + ", " + name_of_table(table) +
+                                    ", is not used: " + what.reason);
             return;
         }
         const std::string sample = table.test.empty() ? stem_of(file) : table.test;
-        text_ += "\n[[measurement]]\nkind = \"" + std::string(diagnose::name_of(*what.kind)) + "\"    # " + printable(what.reason) + "\n";
+        text_ += "\n[[measurement]]\nkind = \"" + std::string(diagnose::name_of(*what.kind)) + "\"    # " + printable(what.reason) +
+                 "\n";
         text_ += "file = " + quoted(fs::proximate(file.path, folder_).string()) + "\n";
         text_ += (several ? "table = " + std::to_string(table.number) + "    " : "") + comment(name_of_table(table));
         text_ += "sample = " + quoted(sample) + "    # tables of one sample share its name\n";
@@ -261,8 +265,10 @@ RecognisedTable recognise(const io::PlainTable& table, const std::string& label)
 std::vector<std::string> understood(const io::PlainTable& table) {
     std::vector<std::string> quantities;
     for (const io::PlainColumn& column : table.columns) {
-        const bool numbers = std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
-        if (numbers && !column.quantity.empty() && std::find(quantities.begin(), quantities.end(), column.quantity) == quantities.end()) {
+        const bool numbers =
+            std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
+        if (numbers && !column.quantity.empty() &&
+            std::find(quantities.begin(), quantities.end(), column.quantity) == quantities.end()) {
             quantities.push_back(column.quantity);
         }
     }

@@ -1,7 +1,7 @@
 // What a verb prints: one JSON object, or a short table. Both are made from the data sets that go into the file.
 #pragma once
 
-#include "arguments.hpp"
+#include "cli/arguments.hpp"
 
 #include <coagula/common/cell.hpp>
 #include <coagula/io/structure_file.hpp>

@@ -1,7 +1,7 @@
 #include "structure_recipe.hpp"
 
-#include "generate.hpp"
-#include "verbs.hpp"
+#include "cli/verbs.hpp"
+#include "verbs/generate.hpp"
 
 #include <coagula/common/checks.hpp>
 

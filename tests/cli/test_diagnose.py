@@ -63,7 +63,7 @@ class Check(ProgramTest):
             self.write(f"{number}.csv", sweep(12, scale, 0.02))
             parts.append(f'kind = "amplitude-sweep"\nfile = "{number}.csv"\nsample = "batch {number}"')
         noise = self.found(experiment(*parts))["noise"][0]
-        self.assertEqual((noise["observable"], noise["tables"], noise["samples"]), ("storage_modulus", 3, 3))
+        self.assertEqual((noise["observable"], noise["tables"], noise["samples"]), ("complex_modulus", 3, 3))
         self.assertTrue(noise["rows_estimated"] and noise["sample_estimated"])
         self.assertTrue(noise["sample"]["low"] < 0.21 < noise["sample"]["high"])  # scatter of 1, 1.1, 0.7 about their mean
         effects = noise["sample_effects"]
@@ -298,7 +298,9 @@ class CementPaste(ProgramTest):
             self.assertNotIn("harmonics", table)
 
     def test_the_third_batch_is_a_sample_effect(self):
-        for noise in self.found["noise"][:2]:
+        torque = [noise for noise in self.found["noise"] if noise["observable"] == "complex_modulus"]
+        self.assertGreaterEqual(len(torque), 1)
+        for noise in torque[:1]:
             self.assertEqual(noise["samples"], 3)
             effects = noise["sample_effects"]
             ratio = (1 + effects["batch 3"]) / (1 + (effects["batch 1"] + effects["batch 2"]) / 2)

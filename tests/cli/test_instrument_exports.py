@@ -46,7 +46,7 @@ class NewExperiment(ProgramTest):
         kinds = self.accepted(DATA / "rheofit_flow/trios_xls/10sle1s_85castoroil-3.xls")
         self.assertEqual(kinds, ["amplitude-sweep"])
         taken = {value["name"]: value for value in self.succeed_json("diagnose", "--check", "e.toml")["taken_over"]}
-        self.assertEqual(taken["inner_radius"]["value"], "14 mm")
+        self.assertEqual((taken["inner_radius"]["value"], taken["inner_radius"]["unit"]), (0.014, "m"))
         self.assertEqual({value["fate"] for value in taken.values()}, {"taken over"})
 
     def test_what_cannot_be_diagnosed_is_said(self):
@@ -106,7 +106,7 @@ class Selection(ProgramTest):
         self.refuse(curves, "Curve-35C.csv, table 2: there is no column 'angular_frequency'")
 
     def test_columns_of_a_file_without_headings(self):
-        self.write("d.csv", "".join(f"{w};x;{100 + w}\n" for w in range(1, 8)))
+        self.write("d.csv", "".join(f"{w};fine;{100 + w}\n" for w in range(1, 8)))
         sweep = 'kind = "frequency-sweep"\nfile = "d.csv"\n'
         (table,) = self.check(sweep + 'columns = ["ω [rad/s]", "", "G\' [kPa]"]')
         self.assertEqual([(c["name"], c["max"]) for c in table["columns"]], [("storage_modulus", 107e3), ("angular_frequency", 7)])
@@ -133,7 +133,7 @@ class Metadata(ProgramTest):
     def test_is_taken_over_shown_and_overridden(self):
         taken = self.taken(self.MEASUREMENT)
         self.assertEqual({name: value["value"] for name, value in taken.items()},
-                         {"geometry": "plate-plate", "plate_radius": "4 mm", "temperature": "433.15 K"})
+                         {"geometry": "plate-plate", "plate_radius": 0.004, "temperature": 433.15})
         self.assertEqual(taken["plate_radius"]["source"], f"{JAPANESE}: 測定治具 PP08-SN23708; [d=0.1 mm]")
         self.assertIn("4 mm, from", self.succeed("diagnose", "--check", "e.toml"))
         taken = self.taken('[sample]\ntemperature = "20 degC"\n[instrument]\nplate_radius = "5 mm"\n' + self.MEASUREMENT)

@@ -1,6 +1,6 @@
 // The checkpoint of an explicit rheometer run; see checkpoint_edits.hpp and hdf5_edits.hpp for what the input is.
 #include "checkpoint_edits.hpp"
-#include "rheometer_checkpoint.hpp"
+#include "verbs/rheometer_checkpoint.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <coagula/diagnose/mechanism.hpp>
 
-#include "../observations.hpp"
+#include "observables/observations.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "error_model.hpp"
+#include "noise/error_model.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/math/distributions/normal.hpp>
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 namespace coagula::diagnose {
 namespace {
@@ -44,9 +45,23 @@ Prediction with_errors(double degrees = std::numeric_limits<double>::infinity())
     return {prediction(), prediction(), {model_errors(), degrees}};
 }
 
+/// Without errors that are turned.
+Eigen::MatrixXd covariance_of(const RowNoise& noise) {
+    Eigen::MatrixXd matrix = noise.deviation.cwiseAbs2().asDiagonal();
+    for (Index row = 1; row < noise.deviation.size(); ++row) {
+        double product = 1;
+        for (Index other = row; noise.previous[static_cast<std::size_t>(other)] >= 0;) {
+            product *= noise.correlation[other];
+            other = noise.previous[static_cast<std::size_t>(other)];
+            matrix(row, other) = matrix(other, row) = product * noise.deviation[row] * noise.deviation[other];
+        }
+    }
+    return matrix;
+}
+
 /// By the covariance in full.
 double direct(const DataSet& data, double effect, const Eigen::MatrixXd& errors = Eigen::MatrixXd::Zero(40, 1)) {
-    Eigen::MatrixXd covariance = data.noise.covariance() + errors * errors.transpose();
+    Eigen::MatrixXd covariance = covariance_of(data.noise) + errors * errors.transpose();
     for (Index sample = 0; sample < 2; ++sample) {
         Eigen::VectorXd level = prediction();
         for (Index row = 0; row < level.size(); ++row) {
@@ -106,7 +121,7 @@ TEST(ErrorModel, SaysHowWellEffectsAndErrorsAreKnown) {
     parts.block(0, 0, 20, 1) = 0.05 * prediction().head(20);
     parts.block(20, 1, 20, 1) = 0.05 * prediction().tail(20);
     parts.rightCols(2) = model_errors();
-    const Eigen::MatrixXd all = data.noise.covariance() + parts * parts.transpose();
+    const Eigen::MatrixXd all = covariance_of(data.noise) + parts * parts.transpose();
     Eigen::MatrixXd known = Eigen::MatrixXd::Identity(4, 4) - parts.transpose() * all.llt().solve(parts);
     known.topRows(2) *= 0.05;
     known.leftCols(2) *= 0.05;
@@ -185,18 +200,80 @@ TEST(ErrorModel, AveragesOverUncertainDeviations) {
     }
 }
 
+/// What is left of a covariance once it has been whitened on both sides.
+Eigen::MatrixXd whitened(const RowNoise& noise, const Eigen::MatrixXd& covariance) {
+    return noise.whitened(noise.whitened(covariance).transpose());
+}
+
 TEST(RowNoise, WhitensToUnitCovariance) {
     const DataSet data = correlated();
-    const Eigen::MatrixXd covariance = data.noise.covariance();
-    Eigen::MatrixXd white(40, 40);
-    for (Index column = 0; column < 40; ++column) {
-        white.col(column) = data.noise.whiten(covariance.col(column));
+    EXPECT_LT((whitened(data.noise, covariance_of(data.noise)) - Eigen::MatrixXd::Identity(40, 40)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+/// Eight rows whose phase goes through 45 degrees, with errors of torque and phase.
+struct Turning {
+    static constexpr Index rows = 8;
+    static constexpr double torque = 0.03;
+    static constexpr double phase = 0.004;
+    static constexpr double correlation = 0.5;
+
+    static double angle(Index row) { return 0.4 + 0.1 * static_cast<double>(row); }
+
+    static Experiment experiment() {
+        Experiment all;
+        Measurement table;
+        table.label = table.sample = "A";
+        table.polar_errors = true;
+        table.columns = {{"angular_frequency", "rad/s", {}}, {"storage_modulus", "Pa", {}}, {"loss_modulus", "Pa", {}}};
+        for (Index row = 0; row < rows; ++row) {
+            table.columns[0].values.push_back(1.0 + static_cast<double>(row));
+            table.columns[1].values.push_back(1000 * std::cos(angle(row)));
+            table.columns[2].values.push_back(1000 * std::sin(angle(row)));
+            table.columns[1].standard_errors.push_back(1000 * torque);
+            table.columns[2].standard_errors.push_back(1000 * phase);
+        }
+        table.columns[1].errors.correlation = table.columns[2].errors.correlation = correlation;
+        all.measurements.push_back(table);
+        return all;
     }
-    Eigen::MatrixXd both(40, 40);
-    for (Index row = 0; row < 40; ++row) {
-        both.col(row) = data.noise.whiten(white.row(row).transpose());
+
+    /// From errors along and across G*, each correlated from row to row; all G', then all G''.
+    static Eigen::MatrixXd covariance() {
+        Eigen::MatrixXd moduli = Eigen::MatrixXd::Zero(2 * rows, 2 * rows);  // of errors along, then across
+        for (Index row = 0; row < rows; ++row) {
+            moduli(row, row) = 1000 * torque * std::cos(angle(row));
+            moduli(rows + row, row) = 1000 * torque * std::sin(angle(row));
+            moduli(row, rows + row) = -1000 * phase * std::sin(angle(row));
+            moduli(rows + row, rows + row) = 1000 * phase * std::cos(angle(row));
+        }
+        Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(2 * rows, 2 * rows);
+        for (Index row = 0; row < rows; ++row) {
+            for (Index other = 0; other < rows; ++other) {
+                const double both = std::pow(correlation, std::abs(static_cast<double>(row - other)));
+                errors(row, other) = errors(rows + row, rows + other) = both;
+            }
+        }
+        return moduli * errors * moduli.transpose();
     }
-    EXPECT_LT((both - Eigen::MatrixXd::Identity(40, 40)).cwiseAbs().maxCoeff(), 1e-12);
+};
+
+TEST(RowNoise, WhitensErrorsOfTorqueAndPhase) {
+    const DataSet data = data_set_of(Turning::experiment(), {});
+    const Eigen::MatrixXd covariance = Turning::covariance();
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(2 * Turning::rows, 2 * Turning::rows);
+    const Eigen::MatrixXd left = whitened(data.noise, covariance) - unit;
+    EXPECT_LT((data.noise.marginal_deviation() - covariance.diagonal().cwiseSqrt()).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT(left.cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_NEAR(data.noise.log_determinant(), std::log(covariance.determinant()), 1e-9);
+}
+
+TEST(RowNoise, OfOneModulusAloneIsItsOwn) {
+    const DataSet data = data_set_of(Turning::experiment(), {});
+    std::vector<Index> storage(Turning::rows);
+    std::iota(storage.begin(), storage.end(), 0);
+    const DataSet part = data.part(storage);
+    const Eigen::VectorXd exact = Turning::covariance().diagonal().head(Turning::rows).cwiseSqrt();
+    EXPECT_LT((part.noise.deviation - exact).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "error_model.hpp"
+#include "noise/error_model.hpp"
 
 #include <coagula/common/random.hpp>
 #include <coagula/diagnose/noise.hpp>
@@ -43,10 +43,11 @@ NoiseModel model_of(std::uint64_t seed, const std::function<double(Eigen::Index,
 TEST(ErrorShape, FindsNoCorrelationAndNoTailsInIndependentNormalErrors) {
     const NoiseModel model = model_of(1, [](Eigen::Index c, int s) { return normal(1, c, s, 1); });
     const ErrorShape shape = shape_of_errors({model}, model);
-    EXPECT_EQ(shape.law.correlation, 0);
-    EXPECT_FALSE(std::isfinite(shape.law.tail));
-    EXPECT_EQ(shape.law.degrees, conditions * samples - conditions - (samples - 1));
-    EXPECT_NEAR(shape.factor, 1, 1e-12);
+    EXPECT_LT(shape.law.correlation, 0.12);  // standard error 0.08 above zero
+    EXPECT_LT(shape.law.correlation_error, 0.08);
+    EXPECT_GT(shape.law.tail, 10);
+    EXPECT_NEAR(shape.law.degrees, conditions * samples - conditions - (samples - 1), 20);
+    EXPECT_NEAR(shape.factor, 1, 0.01);
 }
 
 TEST(ErrorShape, FindsTheCorrelationOfNeighboursAndTheirFullDeviation) {
@@ -65,14 +66,14 @@ TEST(ErrorShape, FindsTheCorrelationOfNeighboursAndTheirFullDeviation) {
     EXPECT_NEAR(shape.factor * model.relative.value, 0.02, 0.005);  // three standard deviations of 73 degrees of freedom
 }
 
-/// A loss modulus that is zero but for its errors, which are independent: ten rows of three samples, without an effect of these.
+/// Errors of the phase, which are independent: ten rows of three samples, without an effect of these.
 NoiseModel nothing_but_errors(std::uint64_t seed, std::uint64_t table) {
     constexpr Eigen::Index rows = 10;
     Replicates replicates;
-    replicates.observable = "loss_modulus";
+    replicates.observable = "phase";
     replicates.axis = Eigen::VectorXd::LinSpaced(rows, 1, 10);
     replicates.floor_weights = Eigen::VectorXd::Ones(rows);
-    replicates.complex_moduli = Eigen::VectorXd::Constant(rows, 1000);
+    replicates.levels = Eigen::VectorXd::Constant(rows, 1000);
     replicates.samples = {"A", "B", "C"};
     replicates.values.resize(rows, 3);
     for (int s = 0; s < 3; ++s) {
@@ -83,15 +84,32 @@ NoiseModel nothing_but_errors(std::uint64_t seed, std::uint64_t table) {
     return fit_noise(replicates);
 }
 
-TEST(ErrorShape, FindsCorrelationByChanceAsRarelyAsItSaysWhereNoEffectOfASampleIsTakenOff) {
-    // Beyond two standard errors: 2.3 % of 300 are 7 +- 3.
-    int found = 0;
+/// Means over 300 sessions of three tables of independent errors: 54 degrees of freedom leave 0.14, of which the half below zero is
+/// cut off.
+TEST(ErrorShape, SaysOfIndependentErrorsThatTheyAreHardlyCorrelated) {
+    double correlation = 0;
+    double deviation = 0;
     for (std::uint64_t seed = 100; seed < 400; ++seed) {
         const std::vector<NoiseModel> models{nothing_but_errors(seed, 1), nothing_but_errors(seed, 2), nothing_but_errors(seed, 3)};
         ASSERT_FALSE(models[0].sample_estimated);
-        found += shape_of_errors(models, models[0]).law.correlation > 0 ? 1 : 0;
+        const ErrorLaw law = shape_of_errors(models, models[0]).law;
+        correlation += law.correlation / 300;
+        deviation += law.correlation_error / 300;
     }
-    EXPECT_LE(found, 16);
+    EXPECT_NEAR(correlation, 0.12, 0.02);
+    EXPECT_NEAR(deviation, 0.08, 0.02);
+}
+
+/// A prior in proportion to 0.9 - rho: mean 0.3, standard deviation 0.9 / sqrt(18).
+TEST(ErrorShape, KnowsNothingOfCorrelationWithoutReplicates) {
+    NoiseModel alone;
+    alone.observable = "storage_modulus";
+    alone.relative = {0.02, 0.02, 0.02};
+    const ErrorShape shape = shape_of_errors({alone}, alone);
+    EXPECT_NEAR(shape.law.correlation, 0.3, 1e-3);
+    EXPECT_NEAR(shape.law.correlation_error, 0.9 / std::sqrt(18.0), 1e-3);
+    EXPECT_EQ(shape.factor, 1);
+    EXPECT_FALSE(std::isfinite(shape.law.tail));
 }
 
 TEST(ErrorShape, FindsHeavyTails) {
@@ -118,7 +136,7 @@ TEST(ErrorShape, DrawsFewReplicatesTowardsTheOthers) {
     few.degrees = 4;
     const ErrorShape shape = shape_of_errors({few, many}, few);
     EXPECT_GT(shape.factor * few.relative.value, 0.015);
-    EXPECT_EQ(shape.law.degrees, 24);
+    EXPECT_NEAR(shape.law.degrees, 24, 2);  // tail and correlation, hardly there, take a little
 }
 
 /// Mean and standard deviation over draws of the lag-one coefficient of whitened errors, 400 rows whose correlation is stated as

@@ -1,4 +1,4 @@
-#include "gain.hpp"
+#include "infer/gain.hpp"
 
 #include <gtest/gtest.h>
 

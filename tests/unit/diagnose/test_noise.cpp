@@ -150,15 +150,38 @@ TEST(Noise, LeavesTheFloorOutWhereLevelsAreAlike) {
     EXPECT_TRUE(covers(noise.relative, 0.03));
 }
 
-TEST(Noise, CovarianceHoldsWhatTheModelSays) {
-    NoiseModel noise;
-    noise.floor.value = 2;
-    noise.relative.value = 0.1;
-    noise.sample.value = 0.5;
-    const Eigen::MatrixXd matrix = covariance(noise, Eigen::Vector2d(10, 20), Eigen::Vector2d(1, 3));
-    EXPECT_DOUBLE_EQ(matrix(0, 0), 25 + 1 * 1.25 + 4);
-    EXPECT_DOUBLE_EQ(matrix(0, 1), 50);
-    EXPECT_DOUBLE_EQ(matrix(1, 1), 100 + 4 * 1.25 + 36);
+/// Five samples of a material whose phase goes from 0.1 to 1.4 rad, read with errors of 2 % of the torque and 0.005 rad of the
+/// phase.
+std::vector<Measurement> sweeps_of_torque_and_phase() {
+    std::vector<Measurement> tables;
+    for (std::uint64_t sample = 0; sample < 5; ++sample) {
+        Measurement table;
+        table.label = table.sample = "sample " + std::to_string(sample);
+        table.columns = {{"angular_frequency", "rad/s", {}}, {"storage_modulus", "Pa", {}}, {"loss_modulus", "Pa", {}}};
+        const double effect = 1 + 0.1 * random_normal(11, RandomPurpose::test, 0, sample).x();
+        for (std::uint64_t row = 0; row < 40; ++row) {
+            const Eigen::Vector3d normal = random_normal(11, RandomPurpose::test, row + 1, sample);
+            const double phase = 0.1 + 1.3 * static_cast<double>(row) / 39 + 0.005 * normal.x();
+            const double size = 1000 * effect * (1 + 0.02 * normal.y());
+            table.columns[0].values.push_back(std::pow(1.2, static_cast<double>(row)));
+            table.columns[1].values.push_back(size * std::cos(phase));
+            table.columns[2].values.push_back(size * std::sin(phase));
+        }
+        tables.push_back(table);
+    }
+    return tables;
+}
+
+TEST(Noise, OfATableWithBothModuliIsThatOfTorqueAndPhase) {
+    const std::vector<NoiseModel> models = noise_of_tables(sweeps_of_torque_and_phase());
+    ASSERT_EQ(models.size(), 2u);
+    EXPECT_EQ(models[0].observable, "complex_modulus");
+    EXPECT_EQ(models[1].observable, "phase");
+    EXPECT_NEAR(models[0].relative.value, 0.02, 0.003);    // 156 degrees of freedom: 6 %
+    EXPECT_NEAR(models[1].relative.value, 0.005, 0.0008);  // 160
+    EXPECT_TRUE(covers(models[0].sample, 0.1));
+    EXPECT_FALSE(models[1].sample_estimated);
+    EXPECT_NEAR(models[1].levels[0], 1000, 100);
 }
 
 }  // namespace

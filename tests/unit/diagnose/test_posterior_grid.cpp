@@ -1,4 +1,4 @@
-#include "posterior_grid.hpp"
+#include "infer/posterior_grid.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "candidate_measurements.hpp"
 #include "hidden_effects.hpp"
+#include "infer/candidate_measurements.hpp"
 #include "support/reference_data.hpp"
 
-#include "observations.hpp"
-#include "repeated_images.hpp"
+#include "observables/observations.hpp"
+#include "observables/repeated_images.hpp"
 
 namespace coagula::diagnose {
 namespace {

@@ -1,4 +1,4 @@
-#include "restricted_likelihood.hpp"
+#include "noise/restricted_likelihood.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,5 +1,5 @@
 // Structures that coagulated at another surface potential: what it does to them, and whether it is found in their pores.
-#include "pore_curves.hpp"
+#include "observables/pore_curves.hpp"
 #include "remade_structures.hpp"
 
 #include <coagula/characterize/heterogeneity.hpp>

@@ -1,8 +1,8 @@
 // A sample that has settled between the plates: layers in series against sums over many of them, and gap series whose layers are
 // other structures, sheared by another solver.
-#include "forward.hpp"
 #include "hidden_effects.hpp"
-#include "volume_fraction_gradient.hpp"
+#include "simulate/forward.hpp"
+#include "simulate/volume_fraction_gradient.hpp"
 
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>

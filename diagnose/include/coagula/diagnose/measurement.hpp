@@ -88,6 +88,7 @@ struct Measurement {
     double cone_angle = unset;       ///< of a cone in place of the upper one of two plates [rad]
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]; it does not slip, either
     int oscillations = 1;            ///< at the strain of a row, of which the last is measured; >= 1
+    bool polar_errors = false;       ///< the standard errors of storage and loss modulus are those along and across G*
     std::vector<Column> columns;
     std::vector<LeftOutCell> left_out;
 

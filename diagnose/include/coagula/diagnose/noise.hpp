@@ -2,8 +2,10 @@
 //
 //     y = mu (1 + b) + e,     b ~ N(0, sample^2) once per sample,     e ~ N(0, (w floor)^2 + (relative mu (1 + b))^2) in each row
 //
-// The floor of a modulus is one of the stress where the strain amplitude is known, w = 1/strain: a rheometer resolves a torque.
-// Otherwise w = 1.
+// A rheometer reads a torque and a phase. Where a table has both moduli, y is therefore |G*|, whose errors are those of the torque,
+// and beside it the part of G* at right angles to its mean, which is |G*| times the error of the phase: that has mu = |G*|, but
+// averages to zero and has no effect of the sample. The floor of a modulus is one of the stress where the strain amplitude is
+// known, w = 1/strain; otherwise w = 1.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>
@@ -19,7 +21,7 @@ namespace coagula::diagnose {
 /// One observable under the same conditions, several times.
 struct Replicates {
     MeasurementKind kind = MeasurementKind::amplitude_sweep;
-    std::string observable;  ///< name of a quantity
+    std::string observable;  ///< "complex_modulus" and "phase" of a table with both moduli; else the name of its one quantity
     std::string unit;
     Eigen::VectorXd axis;                  ///< one per condition
     std::vector<std::string> samples;      ///< one per table; tables of one sample share its effect
@@ -27,7 +29,7 @@ struct Replicates {
     Eigen::VectorXd floor_weights;         ///< w, one per condition
     bool floor_of_stress = false;          ///< w is 1/strain
     std::vector<std::string> labels = {};  ///< of the tables
-    Eigen::VectorXd complex_moduli = {};   ///< mean |G*|, one per condition; NaN where it is not known
+    Eigen::VectorXd levels = {};           ///< of a phase: mean |G*|, one per condition
     bool fluid = false;                    ///< of a Newtonian fluid
 };
 
@@ -53,7 +55,7 @@ struct NoiseOptions {
     double stated_relative = 0.05;
     double stated_sample = 0.1;
     double stated_floor = 0;      ///< unit of the observable; of the stress where the strain is known
-    double stated_phase = 0.005;  ///< error of the phase [rad], that of G'' over |G*|
+    double stated_phase = 0.005;  ///< error of the phase [rad]
     /// Largest over smallest ratio of level to w below which floor and relative part cannot be told apart, and the floor is left
     /// out.
     double least_range = 3;
@@ -76,9 +78,6 @@ struct NoiseModel {
     /// Correlation of neighbouring residuals within a table; where it is high, rows are not independent and `relative` describes
     /// the drift of whole stretches.
     double autocorrelation = 0;
-    /// Values average to zero or below: their scatter is taken in proportion to |G*| (an error of the phase) instead of mu.
-    bool relative_to_complex_modulus = false;
-    double phase = 0;                                          ///< stated error of G'' over |G*|, beside the others [rad]
     bool fluid = false;                                        ///< of a Newtonian fluid
     std::vector<std::string> labels = {};                      ///< of the tables
     std::size_t conditions = 0;                                ///< with replicates
@@ -90,18 +89,23 @@ struct NoiseModel {
     std::string statement;  ///< one sentence: where the numbers come from
 };
 
+/// Whether the errors are those of the phase, else those of the torque.
+inline bool is_of_phase(const NoiseModel& noise) {
+    return noise.observable == "phase";
+}
+
 /// Restricted maximum likelihood (Patterson, Thompson, Biometrika 58 (1971) 545): one free level per condition, the three variances
 /// by the likelihood of the contrasts between replicates; the levels and effects in the variances are those of the previous of four
 /// passes. Throws std::invalid_argument when sizes do not fit together.
 NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options = {});
 
 /// The models of all tables of moduli. Tables without replicates take the rows' noise of those that have some: that of the same
-/// observable from the largest number of degrees of freedom; the loss modulus of a Newtonian fluid, which stores nothing, that of a
-/// storage modulus.
+/// errors, of torque or phase, from the largest number of degrees of freedom.
 std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const NoiseOptions& options = {});
 
-/// What the models of one observable say together about errors besides their size: correlation of neighbours, freed from the bias
-/// that estimated sample effects make, and tail; each left out unless it is significant (two standard errors).
+/// What the models of torque, or of phase, say together about errors besides their size. Correlation of neighbours: what replicates
+/// show, freed from the bias that estimated sample effects make, beside a prior that falls from 0 to 0.9; that prior alone where
+/// there are none. Tail: the kurtosis, drawn towards that of normal errors.
 struct ErrorShape {
     ErrorLaw law;
     double factor = 1;  ///< on the model's deviation: drawn towards the other tables', and freed from what correlated rows lose to
@@ -109,10 +113,8 @@ struct ErrorShape {
 };
 ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseModel& model);
 
-/// Standard deviation of e where the sample itself has this level, mu (1 + b). @param floor_weight w, see above.
+/// Standard deviation of e where the sample itself has this level, mu (1 + b); of the phase, |G*|. @param floor_weight w, see
+/// above.
 double standard_deviation(const NoiseModel& noise, double level, double floor_weight);
-
-/// Covariance of the values of one sample about these levels mu, the sample effect included. @param floor_weights w, one per level.
-Eigen::MatrixXd covariance(const NoiseModel& noise, const Eigen::VectorXd& levels, const Eigen::VectorXd& floor_weights);
 
 }  // namespace coagula::diagnose

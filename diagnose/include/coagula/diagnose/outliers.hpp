@@ -19,11 +19,9 @@ struct Outlier {
 
 /// Leaves out, with a reason, the moduli of
 /// - a row that lies beside both of its neighbours to the same side, and beside the same row of the other samples where three or
-/// more
-///   were measured alike, by more than eight robust standard deviations and a fifth;
+///   more were measured alike, by more than eight robust standard deviations and a fifth;
 /// - every table of a sample whose level lies beside that of two or more others by more than six times their scatter, or the tenth
-/// by
-///   which samples may differ.
+///   by which samples may differ.
 /// What two samples differ by is told of none of them.
 std::vector<Outlier> leave_out_outliers(std::vector<Measurement>& tables);
 

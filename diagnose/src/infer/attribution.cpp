@@ -1,0 +1,99 @@
+#include "attribution.hpp"
+
+#include "detection.hpp"
+#include "noise/weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr std::size_t most_pairs = 4;
+constexpr double with_ease = 0.2;  ///< p-value of the best cause from which on pairs are not tried
+constexpr std::size_t most_with_remainder = 2;
+
+template <class Weight>
+std::size_t heaviest_cause(const std::vector<Compared>& all, const Weight& weight) {
+    const auto best =
+        std::max_element(all.begin() + 1, all.end(), [&](const Compared& a, const Compared& b) { return weight(a) < weight(b); });
+    return static_cast<std::size_t>(best - all.begin());
+}
+
+/// Of the base model, and of those causes that explain most, alone or beside the remainder that the base model has: a cause may
+/// hide behind one that makes a part of what is left over.
+void find_remainders(const Inference& inference, std::vector<Compared>& all) {
+    const SmoothDepartures departures = smooth_departures(inference.errors().data().observations);
+    all.front().remainder = find_remainder(inference, all.front().fit, departures);
+    const Eigen::MatrixXd& directions = all.front().remainder->directions;
+    std::vector<std::pair<double, std::size_t>> alone;
+    std::vector<std::pair<double, std::size_t>> beside;
+    for (std::size_t k = 1; k < all.size(); ++k) {
+        alone.emplace_back(all[k].log_weight(), k);
+        beside.emplace_back(all[k].log_weight() + log_factor_along(inference, all[k].fit, directions), k);
+    }
+    for (auto* order : {&alone, &beside}) {
+        std::sort(order->rbegin(), order->rend());
+        for (std::size_t place = 0; place < std::min(order->size(), most_with_remainder); ++place) {
+            Compared& one = all[(*order)[place].second];
+            if (!one.remainder) {
+                one.remainder = find_remainder(inference, one.fit, departures);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms) {
+    // n mechanisms make n (n - 1) / 2 pairs.
+    const double pairs = std::max(1.0, (static_cast<double>(mechanisms) - 1) / 2);
+    return {.pair = std::log(options.pair_prior / pairs),
+            .none = std::log(options.none_prior),
+            .beside = std::log(options.none_prior / static_cast<double>(std::max<std::size_t>(1, mechanisms)))};
+}
+
+double Compared::log_weight_with_remainder(const Priors& priors) const {
+    return remainder ? log_weight() + (fit.hypothesis.empty() ? priors.none : priors.beside) + remainder->log_factor
+                     : -std::numeric_limits<double>::infinity();
+}
+
+double Compared::log_total(const Priors& priors) const {
+    return log_sum({log_weight(), log_weight_with_remainder(priors)});
+}
+
+Comparison compare(const Fit& base, const Hypothesis& possible, const Inference& inference, const DiagnosisOptions& options,
+                   Effort effort, const Progress& progress) {
+    const Priors priors = priors_of(options, possible.size());
+    Comparison comparison{.all = {{base}}};
+    std::vector<Compared>& all = comparison.all;
+    for (const Mechanism* mechanism : possible) {
+        progress.update("attributing", 0.5, mechanism->name);
+        all.push_back({inference.fit({mechanism})});
+    }
+    const std::size_t best = heaviest_cause(all, [](const Compared& one) { return one.log_weight(); });
+    const Detection rest = detect(inference, all[best].fit, possible, options.seed, options.bootstrap);
+    std::size_t pairs = 0;
+    for (const MisfitStatistic& statistic : rest.statistics) {
+        const auto partner =
+            std::find_if(possible.begin(), possible.end(), [&](const Mechanism* one) { return one->name == statistic.cause; });
+        if (rest.p_value < with_ease && partner != possible.end() && pairs < (effort == Effort::whole ? most_pairs : 1)) {
+            progress.update("attributing", 0.8, "pairs");
+            all.push_back({inference.fit({all[best].fit.hypothesis[0], *partner}), priors.pair});
+            ++pairs;
+        }
+    }
+    if (effort == Effort::whole) {
+        find_remainders(inference, all);
+    }
+    comparison.winner = heaviest_cause(all, [&](const Compared& one) { return one.log_total(priors); });
+    comparison.p_value = comparison.winner == best
+                             ? rest.p_value
+                             : detect(inference, all[comparison.winner].fit, possible, options.seed, options.bootstrap).p_value;
+    return comparison;
+}
+
+}  // namespace coagula::diagnose

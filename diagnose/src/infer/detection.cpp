@@ -1,0 +1,320 @@
+#include "detection.hpp"
+
+#include "noise/weights.hpp"
+
+#include <boost/math/distributions/normal.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::size_t fewest_rows = 5;
+constexpr int components = 3;  ///< smooth ones: constant and two half waves
+
+/// Whether a coordinate varies over these rows by more than noise.
+bool varies(const std::vector<Observation>& observations, const std::vector<Index>& rows, Coordinate coordinate) {
+    double low = 1e300;
+    double high = -1e300;
+    for (const Index row : rows) {
+        const double value = coordinate_of(observations[static_cast<std::size_t>(row)], coordinate);
+        if (!std::isfinite(value)) {
+            return false;
+        }
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    return high > low * 1.05 + 1e-300;
+}
+
+/// Those of these rows whose tables go through the coordinate, where some do: elsewhere it is what else those tables have in
+/// common.
+std::vector<Index> swept(const std::vector<Observation>& observations, const std::vector<Index>& rows, Coordinate coordinate) {
+    std::map<std::size_t, std::vector<Index>> tables;
+    for (const Index row : rows) {
+        tables[observations[static_cast<std::size_t>(row)].measurement].push_back(row);
+    }
+    std::vector<Index> some;
+    for (const auto& [number, own] : tables) {
+        if (varies(observations, own, coordinate)) {
+            some.insert(some.end(), own.begin(), own.end());
+        }
+    }
+    return some.empty() ? rows : some;
+}
+
+void sort_along(const std::vector<Observation>& observations, std::vector<Index>& rows, Coordinate coordinate) {
+    std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) {
+        return coordinate_of(observations[static_cast<std::size_t>(a)], coordinate) <
+               coordinate_of(observations[static_cast<std::size_t>(b)], coordinate);
+    });
+}
+
+/// Each observable along each coordinate over all tables.
+void add_smooth(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
+    std::vector<std::string> observables;
+    for (const Observation& observation : observations) {
+        if (std::find(observables.begin(), observables.end(), observable_of(observation)) == observables.end()) {
+            observables.emplace_back(observable_of(observation));
+        }
+    }
+    for (const std::string& observable : observables) {
+        for (const Coordinate coordinate : all_coordinates()) {
+            MisfitStatistic one{.observable = observable, .coordinate = coordinate};
+            for (Index row = 0; row < static_cast<Index>(observations.size()); ++row) {
+                const Observation& observation = observations[static_cast<std::size_t>(row)];
+                if (observable == observable_of(observation) && std::isfinite(coordinate_of(observation, coordinate))) {
+                    one.rows.push_back(row);
+                }
+            }
+            one.rows = swept(observations, one.rows, coordinate);
+            if (one.rows.size() >= fewest_rows && varies(observations, one.rows, coordinate)) {
+                sort_along(observations, one.rows, coordinate);
+                all.push_back(one);
+                one.autocorrelation = true;
+                all.push_back(one);
+            }
+        }
+    }
+}
+
+/// All third harmonics.
+void add_harmonics(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
+    MisfitStatistic one{.observable = "third_harmonic"};
+    for (Index row = 0; row < static_cast<Index>(observations.size()); ++row) {
+        if (observations[static_cast<std::size_t>(row)].third_harmonic) {
+            one.rows.push_back(row);
+        }
+    }
+    if (!one.rows.empty()) {
+        all.push_back(std::move(one));
+    }
+}
+
+/// The fit with this mechanism, too, over its prior: five places of the first parameter, three of the others.
+std::vector<Model> over_prior(const Fit& fit, const Mechanism& mechanism) {
+    std::vector<std::vector<double>> all{fit.values()};
+    for (std::size_t k = 0; k < mechanism.parameters.size(); ++k) {
+        const std::vector<double> places = k == 0 ? std::vector{0.1, 0.3, 0.5, 0.7, 0.9} : std::vector{0.2, 0.5, 0.8};
+        std::vector<std::vector<double>> more;
+        for (const std::vector<double>& values : all) {
+            for (const double place : places) {
+                more.push_back(values);
+                more.back().push_back(mechanism.parameters[k].at(place));
+            }
+        }
+        all = std::move(more);
+    }
+    Hypothesis hypothesis = fit.hypothesis;
+    hypothesis.push_back(&mechanism);
+    std::vector<Model> models;
+    for (const std::vector<double>& values : all) {
+        models.emplace_back(hypothesis, values, fit.model.settings.normal_stiffness);
+    }
+    return models;
+}
+
+/// A step towards every one of these mechanisms that the fit does not have.
+void add_causes(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows, const Eigen::MatrixXd& basis,
+                std::vector<MisfitStatistic>& all) {
+    const ErrorModel& errors = inference.errors();
+    const Eigen::VectorXd here = errors.whiten(inference.forward().predict(fit.model));
+    for (const Mechanism* mechanism : causes) {
+        if (std::find(fit.hypothesis.begin(), fit.hypothesis.end(), mechanism) != fit.hypothesis.end()) {
+            continue;
+        }
+        MisfitStatistic one{.observable = "all", .cause = mechanism->name};
+        std::vector<Eigen::VectorXd> directions;
+        for (const Model& model : over_prior(fit, *mechanism)) {
+            Eigen::VectorXd step = Eigen::VectorXd::Zero(rows);
+            step.head(here.size()) = errors.whiten(inference.forward().predict(model)) - here;
+            const double length = step.norm();
+            step -= basis * (basis.transpose() * step);
+            constexpr double visible = 1e-6;  // part of the step that the fitted quantities cannot make
+            if (step.norm() > visible * length && length > 0) {
+                directions.push_back(step.normalized());
+            }
+        }
+        if (!directions.empty()) {
+            one.directions.resize(rows, static_cast<Index>(directions.size()));
+            for (std::size_t k = 0; k < directions.size(); ++k) {
+                one.directions.col(static_cast<Index>(k)) = directions[k];
+            }
+            all.push_back(std::move(one));
+        }
+    }
+}
+
+/// All ways to fail. @param basis orthonormal, of what the fitted quantities move.
+std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows,
+                                           const Eigen::MatrixXd& basis) {
+    const DataSet& data = inference.errors().data();
+    const auto between = [](Index from, Index to) {
+        std::vector<Index> range(static_cast<std::size_t>(to - from));
+        std::iota(range.begin(), range.end(), from);
+        return range;
+    };
+    const Index samples = data.effect > 0 ? data.samples() : 0;
+    std::vector<MisfitStatistic> all{{.observable = "all", .rows = between(0, rows)}};
+    if (samples > 1) {
+        all.push_back({.observable = "sample_effect", .rows = between(data.size(), data.size() + samples)});
+    }
+    if (std::isfinite(inference.stiffness_departure(0))) {
+        all.push_back({.observable = "normal_stiffness", .rows = {rows - 1}});
+    }
+    add_harmonics(data.observations, all);
+    add_smooth(data.observations, all);
+    add_causes(inference, fit, causes, rows, basis, all);
+    return all;
+}
+
+double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residual) {
+    if (!statistic.cause.empty()) {
+        return std::pow(std::max(0.0, (statistic.directions.transpose() * residual).maxCoeff()), 2);
+    }
+    if (statistic.coordinate == Coordinate::none) {
+        return residual(statistic.rows).squaredNorm();
+    }
+    const auto count = static_cast<double>(statistic.rows.size());
+    double value = 0;
+    if (statistic.autocorrelation) {
+        for (std::size_t k = 1; k < statistic.rows.size(); ++k) {
+            value += residual[statistic.rows[k]] * residual[statistic.rows[k - 1]];
+        }
+        return value / std::sqrt(count);
+    }
+    for (int order = 0; order < components; ++order) {
+        double sum = 0;
+        for (std::size_t k = 0; k < statistic.rows.size(); ++k) {
+            const double wave = std::cos(pi * order * (static_cast<double>(k) + 0.5) / count);
+            sum += (order == 0 ? 1 : std::numbers::sqrt2) * wave * residual[statistic.rows[k]];
+        }
+        value += sum * sum / count;
+    }
+    return value;
+}
+
+/// As many standard deviations as a normal number would lie above its mean with the same probability: by a gamma distribution of
+/// the same mean and variance, which squares of normal numbers have (Wilson and Hilferty 1931), of those values that are not the
+/// least of all, at which a sum may be cut off.
+Eigen::ArrayXd standardised(const Eigen::ArrayXd& values) {
+    const Eigen::ArrayXd above = values - values.minCoeff();
+    const auto count = static_cast<double>((above > 0).count());
+    const double mean = above.sum() / std::max(count, 1.0);
+    const double variance = (above > 0).select((above - mean).square(), 0.0).sum() / std::max(count, 1.0);
+    constexpr double constant = 1e-9;  // variance over the square of the mean
+    if (!(variance > constant * mean * mean)) {
+        return Eigen::ArrayXd::Zero(values.size());
+    }
+    const double part = variance / (9 * mean * mean);
+    const double share = count / static_cast<double>(values.size());
+    return above.unaryExpr([=](double value) {
+        const boost::math::normal normal;
+        const double score = (std::cbrt(value / mean) - (1 - part)) / std::sqrt(part);
+        const double probability = share * boost::math::cdf(boost::math::complement(normal, std::min(score, 37.0)));
+        return boost::math::quantile(boost::math::complement(normal, probability));
+    });
+}
+
+}  // namespace
+
+std::span<const Coordinate> all_coordinates() {
+    static constexpr std::array all{Coordinate::strain,       Coordinate::angular_frequency, Coordinate::time,
+                                    Coordinate::gap,          Coordinate::plate_radius,      Coordinate::heterogeneity,
+                                    Coordinate::coordination, Coordinate::volume_fraction,   Coordinate::distance,
+                                    Coordinate::pore_radius};
+    return all;
+}
+
+const char* name_of(Coordinate coordinate) {
+    constexpr std::array<const char*, 11> names{"strain",       "angular_frequency", "time",         "gap",
+                                                "plate_radius", "heterogeneity",     "coordination", "volume_fraction",
+                                                "distance",     "pore_radius",       "none"};
+    return names.at(static_cast<std::size_t>(coordinate));
+}
+
+double coordinate_of(const Observation& observation, Coordinate coordinate) {
+    switch (coordinate) {
+        case Coordinate::strain:
+            return observation.strain;
+        case Coordinate::angular_frequency:
+            return observation.angular_frequency;
+        case Coordinate::time:
+            return observation.time;
+        case Coordinate::gap:
+            return observation.gap;
+        case Coordinate::plate_radius:
+            return observation.plate_radius;
+        case Coordinate::heterogeneity:
+            return observation.heterogeneity;
+        case Coordinate::coordination:
+            return observation.coordination;
+        case Coordinate::volume_fraction:
+            return observation.volume_fraction;
+        case Coordinate::distance:
+            return observation.distance;
+        case Coordinate::pore_radius:
+            return observation.pore_radius;
+        default:
+            return 0;
+    }
+}
+
+Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap) {
+    const Departures departures = departures_of(inference, fit);
+    const Index rows = departures.residual.size();
+    const Eigen::MatrixXd basis = orthonormal_basis(departures.jacobian);
+    const double degrees = inference.forward().prediction(fit.model).errors.degrees;
+    const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
+    Detection result;
+    result.statistics = statistics_of(inference, fit, causes, rows, basis);
+    const auto kinds = static_cast<Index>(result.statistics.size());
+    Eigen::MatrixXd values(kinds, bootstrap + 1);  // the data themselves come last
+    for (int sample = 0; sample <= bootstrap; ++sample) {
+        Eigen::VectorXd drawn = departures.residual;
+        if (sample < bootstrap) {
+            const Eigen::VectorXd errors = inference.errors().draw(seed, static_cast<std::uint64_t>(sample));
+            drawn.head(errors.size()) = errors;
+            const auto normal = [&](Index row) {
+                return normal_number(seed, static_cast<std::uint64_t>(sample),
+                                     static_cast<std::uint64_t>(1000000 + rows - 1 - row));
+            };
+            const double scale = std::isfinite(degrees) ? 1 / std::sqrt(scaled_chi_square(degrees, normal(rows))) : 1.0;
+            for (Index row = errors.size(); row < rows; ++row) {
+                drawn[row] = (row < last_error ? scale : 1.0) * normal(row);
+            }
+        }
+        drawn -= basis * (basis.transpose() * drawn);
+        for (Index kind = 0; kind < kinds; ++kind) {
+            values(kind, sample) = evaluate(result.statistics[static_cast<std::size_t>(kind)], drawn);
+        }
+    }
+    for (Index kind = 0; kind < kinds; ++kind) {
+        result.statistics[static_cast<std::size_t>(kind)].value = values(kind, bootstrap);
+    }
+    // With the data among the samples, so that all are on the same footing.
+    for (Index kind = 0; kind < kinds; ++kind) {
+        values.row(kind) = standardised(values.row(kind).transpose().array()).transpose();
+    }
+    const Eigen::RowVectorXd largest = values.colwise().maxCoeff();
+    const double observed = largest[bootstrap];
+    result.bootstrap.assign(largest.begin(), largest.end() - 1);
+    result.p_value = static_cast<double>((largest.array() >= observed).count()) / (bootstrap + 1);
+    for (Index kind = 0; kind < kinds; ++kind) {
+        MisfitStatistic& statistic = result.statistics[static_cast<std::size_t>(kind)];
+        statistic.score = values(kind, bootstrap);
+    }
+    std::stable_sort(result.statistics.begin(), result.statistics.end(),
+                     [](const auto& a, const auto& b) { return a.score > b.score; });
+    return result;
+}
+
+}  // namespace coagula::diagnose

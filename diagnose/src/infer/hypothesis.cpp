@@ -1,0 +1,389 @@
+#include "hypothesis.hpp"
+
+#include "data/median.hpp"
+#include "departures.hpp"
+#include "noise/weights.hpp"
+#include "simulate/quiet_log.hpp"
+
+#include <ceres/ceres.h>
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/tools/minima.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double log_stiffness_range = 18.42;  ///< of eight decades
+constexpr int posterior_draws = 64;
+constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit stays away
+
+/// Logarithm of the density, for each axis, that a grid lacks at its best node where it misses the crest of a ridge; one along the
+/// axes lies beside the mode by half a cell of each at most, which is less.
+constexpr double missed = 1.5;
+
+/// Logarithms of the weight below the best node from which on one counts for nothing.
+constexpr double negligible = 20;
+
+/// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
+constexpr double enough_nodes = 2.5;
+
+Eigen::VectorXd rounded(const std::vector<MechanismParameter>& parameters, Eigen::VectorXd place) {
+    for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
+        double& along = place[static_cast<Eigen::Index>(axis)];
+        along = parameters[axis].rounded(along);
+    }
+    return place;
+}
+
+/// A hypothesis at a place of its prior.
+Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, double normal_stiffness) {
+    std::vector<double> values;
+    for (const MechanismParameter& parameter : parameters_of(hypothesis)) {
+        values.push_back(parameter.at(place[static_cast<Index>(values.size())]));
+    }
+    return {hypothesis, values, normal_stiffness};
+}
+
+}  // namespace
+
+double Inference::stiffness_error() const {
+    const double stated = forward_.experiment().sample.normal_stiffness_error;
+    return std::isnan(stated) ? stated : std::hypot(stated, forward_.level_error());
+}
+
+bool Inference::level_is_open() const {
+    const auto& observations = errors_.data().observations;
+    return std::isnan(forward_.experiment().sample.normal_stiffness_error) &&
+           std::any_of(observations.begin(), observations.end(),
+                       [](const Observation& one) { return is_modulus(one) && one.structures == 0; });
+}
+
+double Inference::stiffness_departure(double log_stiffness) const {
+    const Sample& sample = forward_.experiment().sample;
+    return (log_stiffness - std::log(sample.normal_stiffness)) / stiffness_error();
+}
+
+double Inference::log_prior(double log_stiffness) const {
+    const double departure = stiffness_departure(log_stiffness);
+    return std::isnan(departure) ? -std::log(log_stiffness_range)
+                                 : -0.5 * departure * departure - std::log(stiffness_error() * std::sqrt(2 * pi));
+}
+
+double Inference::log_level() const {
+    const std::vector<Observation>& observations = errors_.data().observations;
+    Model model;
+    for (int round = 0; round < 2; ++round) {  // an instrument does not scale
+        const Eigen::VectorXd predicted = forward_.predict(model);
+        std::vector<double> ratios;
+        for (std::size_t k = 0; k < observations.size(); ++k) {
+            const double ratio = observations[k].value / predicted[static_cast<Index>(k)];
+            if (is_modulus(observations[k]) && !is_fluid(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
+                ratios.push_back(ratio);
+            }
+        }
+        model.settings.normal_stiffness *= ratios.empty() ? 1.0 : median(std::move(ratios));
+    }
+    return std::log(model.settings.normal_stiffness);
+}
+
+/// A function along the logarithm of the stiffness: its value, slope and curvature downwards, by differences.
+struct Inference::AlongStiffness {
+    double value;
+    double slope;
+    double curvature;
+
+    double step() const { return curvature > 0 ? slope / curvature : std::copysign(1.0, slope); }
+    double deviation() const { return 1 / std::sqrt(std::max(curvature, 1e-2)); }
+    /// On the parabola, beside this place.
+    double at(double offset) const { return value + slope * offset - 0.5 * curvature * offset * offset; }
+    double log_width() const { return std::log(deviation() * std::sqrt(2 * pi)); }
+};
+
+/// The prediction by its logarithmic derivative, by a difference, the density by itself.
+Inference::AlongStiffness Inference::density_along(Model model, double log_stiffness, Accuracy accuracy) const {
+    constexpr double step = 1e-3;
+    const auto predict = [&](double place) {
+        model.settings.normal_stiffness = std::exp(place);
+        return forward_.prediction(model);
+    };
+    const Prediction here = predict(log_stiffness);
+    const Prediction there = predict(log_stiffness + step);
+    const auto density = [&](double offset) {
+        Prediction moved = here;
+        moved.values += offset / step * (there.values - here.values);
+        moved.level_slope += offset / step * (there.level_slope - here.level_slope);
+        return errors_.log_density(moved, {}, accuracy) + log_prior(log_stiffness + offset);
+    };
+    const double value = density(0);
+    const double above = density(step);
+    const double below = density(-step);
+    return {value, (above - below) / (2 * step), (2 * value - above - below) / (step * step)};
+}
+
+/// Newton's method for the logarithm of the stiffness, with the density as a whole near its end only. @param least log weight from
+/// which on the node counts.
+Node Inference::best_stiffness(const Model& model, double start, double least) const {
+    constexpr int most_steps = 40;
+    constexpr double near = 0.1;       // standard deviations, from where a parabola is exact enough
+    constexpr double inaccurate = 20;  // logarithms that the density at the middle of the deviations may be off
+    Accuracy accuracy = Accuracy::middle;
+    double place = start;
+    double longest = 1;  // step; shorter each time that the slope turns, for the density has long tails
+    AlongStiffness along{0, 0, 0};
+    double slope_before = 0;
+    for (int steps = 0; steps < most_steps; ++steps) {
+        along = density_along(model, place, accuracy);
+        longest *= along.slope * slope_before < 0 ? 0.4 : 1.0;
+        slope_before = along.slope;
+        const double moved = std::clamp(place + std::clamp(along.step(), -longest, longest), log_level_ - 0.5 * log_stiffness_range,
+                                        log_level_ + 0.5 * log_stiffness_range);
+        if (moved == place || (along.curvature > 0 && std::abs(moved - place) < near * along.deviation())) {
+            const double top = along.at(moved - place);
+            if (accuracy == Accuracy::whole || top + along.log_width() < least - inaccurate) {
+                return {moved, along.deviation(), top, top + along.log_width()};
+            }
+            accuracy = Accuracy::whole;
+        }
+        place = moved;
+    }
+    return {place, along.deviation(), along.value, along.value + along.log_width()};
+}
+
+/// Whitened residuals by the places of the parameters in their priors, stiffness, sample effects and errors of the model at their
+/// best for these: what those move is projected out (Kaufman, BIT 15 (1975) 49).
+class Inference::ProjectedResiduals : public ceres::CostFunction {
+public:
+    ProjectedResiduals(const Inference& inference, const Hypothesis& hypothesis, const Eigen::VectorXd& start,
+                       const EvaluateNode& evaluate)
+        : inference_(inference), hypothesis_(hypothesis), evaluate_(evaluate) {
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(start.size()));
+        set_num_residuals(static_cast<int>(departures_at(start).residual.size()));
+    }
+
+    bool Evaluate(const double* const* places, double* residuals, double** jacobians) const override {
+        const Index axes = parameter_block_sizes().front();
+        const Departures departures = departures_at(Eigen::Map<const Eigen::VectorXd>(places[0], axes));
+        const Eigen::MatrixXd& all = departures.jacobian;
+        Eigen::MatrixXd others(all.rows(), all.cols() - axes);
+        others << all.col(0), all.rightCols(all.cols() - 1 - axes);
+        const Eigen::MatrixXd basis = orthonormal_basis(others);
+        const auto project = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
+            return columns - basis * (basis.transpose() * columns);
+        };
+        Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = project(departures.residual);
+        if (jacobians != nullptr && jacobians[0] != nullptr) {
+            using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+            Eigen::Map<RowMajor>(jacobians[0], num_residuals(), axes) = -project(all.middleCols(1, axes));
+        }
+        return true;
+    }
+
+private:
+    Departures departures_at(const Eigen::VectorXd& place) const {
+        Fit fit{.hypothesis = hypothesis_,
+                .model = model_at(hypothesis_, place, std::exp(evaluate_(place).log_stiffness)),
+                .parameters = {},
+                .draws = {}};
+        return departures_of(inference_, fit);
+    }
+
+    const Inference& inference_;
+    const Hypothesis& hypothesis_;
+    const EvaluateNode& evaluate_;
+};
+
+/// Least squares from a place of the prior, kept inside it; then the grid about what it finds, by the covariance there. None where
+/// not all parameters are determined.
+std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
+                                                        const EvaluateNode& evaluate) const {
+    const QuietLog quiet;
+    const Index axes = place.size();
+    ceres::Problem problem;
+    problem.AddResidualBlock(new ProjectedResiduals(*this, hypothesis, place, evaluate), nullptr, place.data());
+    for (int axis = 0; axis < static_cast<int>(axes); ++axis) {
+        place[axis] = std::clamp(place[axis], edge, 1 - edge);
+        problem.SetParameterLowerBound(place.data(), axis, edge);
+        problem.SetParameterUpperBound(place.data(), axis, 1 - edge);
+    }
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = 30;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+
+    ceres::Covariance::Options dense;
+    dense.algorithm_type = ceres::DENSE_SVD;
+    dense.null_space_rank = -1;  // what is not determined has no variance then
+    dense.min_reciprocal_condition_number = 1e-13;
+    ceres::Covariance covariance(dense);
+    Eigen::MatrixXd matrix(axes, axes);
+    if (!summary.IsSolutionUsable() || !covariance.Compute(std::vector<const double*>{place.data()}, &problem) ||
+        !covariance.GetCovarianceBlock(place.data(), place.data(), matrix.data())) {
+        return std::nullopt;
+    }
+    const Eigen::LLT<Eigen::MatrixXd> root(matrix);
+    if (root.info() != Eigen::Success || root.rcond() < 1e-13) {
+        return std::nullopt;
+    }
+    return diagnose::grid_about(place, root.matrixL(), evaluate);
+}
+
+PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
+    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
+    const auto axes = static_cast<Index>(parameters.size());
+    double start = log_level_;
+    double best = -std::numeric_limits<double>::infinity();
+    const auto evaluate = [&](const Eigen::VectorXd& place) {
+        const Node node = best_stiffness(model_at(hypothesis, place, 1), start, best - negligible);
+        start = node.log_stiffness;
+        best = std::max(best, node.log_weight);
+        return node;
+    };
+    PosteriorGrid grid = grid_along_axes(axes, evaluate);
+    if (axes > 1) {
+        // A narrow ridge between the axes: the grid along these misses its crest, or sees it at few nodes. At the edge of the prior
+        // the grid about the mode may see less.
+        const auto about = grid_about_mode(hypothesis, grid.places[grid.best()], evaluate);
+        const double gain = about && !about->nodes.empty()
+                                ? about->nodes[about->best()].log_weight - grid.nodes[grid.best()].log_weight
+                                : -std::numeric_limits<double>::infinity();
+        const bool coarse = grid.effective_nodes() < std::pow(enough_nodes, axes);
+        if (gain > missed * static_cast<double>(axes) ||
+            (coarse && gain > -1 && about->effective_nodes() > grid.effective_nodes())) {
+            return *about;
+        }
+    }
+    return grid;
+}
+
+/// Whether the data ask for more of a parameter than its prior has: a tenth of the range beyond its end they would be more probable
+/// by an e-fold.
+bool Inference::is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const {
+    constexpr double near = 0.01;
+    constexpr double inside = 0.02;
+    constexpr double beyond = 0.1;
+    const bool low = place[axis] < near;
+    if (!low && place[axis] < 1 - near) {
+        return false;
+    }
+    const auto density = [&](double along) {
+        place[axis] = along;
+        return best_stiffness(model_at(hypothesis, place, 1), std::log(stiffness)).log_weight;
+    };
+    return (density(low ? 0.0 : 1.0) - density(low ? inside : 1 - inside)) * beyond / inside > 1;
+}
+
+double Inference::density_of_free_level() const {
+    const auto misfit = [&](double log_stiffness) {
+        return -errors_.log_density(forward_.prediction(Model({}, {}, std::exp(log_stiffness))));
+    };
+    constexpr int digits = 20;
+    return -boost::math::tools::brent_find_minima(misfit, log_level_ - 1, log_level_ + 1, digits).second;
+}
+
+/// Draws at equal steps of the cumulated probability.
+Eigen::MatrixXd Inference::draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters) {
+    std::vector<double> weights;
+    for (const Node& node : grid.nodes) {
+        weights.push_back(node.log_weight);
+    }
+    const std::vector<double> probability = probabilities_of(std::move(weights));
+    Eigen::MatrixXd draws(static_cast<Index>(parameters.size()) + 1, posterior_draws);
+    double below = 0;
+    std::size_t number = 0;
+    for (int draw = 0; draw < posterior_draws; ++draw) {
+        while (number + 1 < grid.nodes.size() && below + probability[number] < (draw + 0.5) / posterior_draws) {
+            below += probability[number++];
+        }
+        const double part = std::fmod((draw + 0.5) * std::numbers::phi, 1.0);  // apart from that of the node
+        const double departure = boost::math::quantile(boost::math::normal(), part);
+        draws(0, draw) = std::exp(grid.nodes[number].log_stiffness + grid.nodes[number].deviation * departure);
+        for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
+            const auto row = static_cast<Index>(axis);
+            draws(row + 1, draw) = parameters[axis].at(grid.places[number][row]);
+        }
+    }
+    return draws;
+}
+
+Fit Inference::fit(const Hypothesis& hypothesis) const {
+    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
+    const PosteriorGrid grid = grid_for(hypothesis);
+    const std::size_t best = grid.best();
+    const Eigen::VectorXd place = rounded(parameters, grid.places[best]);
+    const Node node = place == grid.places[best] ? grid.nodes[best]
+                                                 : best_stiffness(model_at(hypothesis, place, 1), grid.nodes[best].log_stiffness);
+    const double stiffness = std::exp(node.log_stiffness);
+    Fit fit{.hypothesis = hypothesis,
+            .model = model_at(hypothesis, place, stiffness),
+            .parameters = {},
+            .log_density = node.log_density,
+            .log_evidence = grid.log_evidence(),
+            .draws = draws_from(grid, parameters)};
+    for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
+        const auto row = static_cast<Index>(axis);
+        const double value = parameters[axis].at(place[row]);
+        fit.active_end.push_back(is_active_end(hypothesis, place, row, stiffness));
+        fit.parameters.push_back({value, std::min(value, parameters[axis].at(grid.quantile(row, 0.05))),
+                                  std::max(value, parameters[axis].at(grid.quantile(row, 0.95)))});
+    }
+    const double of_structures = level_is_open() ? forward_.level_error() : 0.0;
+    const auto quantile = [&](double part) { return std::exp(grid.log_stiffness_quantile(part, of_structures)); };
+    fit.stiffness = {stiffness, std::min(stiffness, quantile(0.05)), std::max(stiffness, quantile(0.95))};
+    return fit;
+}
+
+Eigen::MatrixXd Inference::jacobian(const Fit& fit) const {
+    const std::vector<MechanismParameter> parameters = parameters_of(fit.hypothesis);
+    const Prediction prediction = forward_.prediction(fit.model);
+    const Eigen::VectorXd here = errors_.whiten(prediction.values);
+    Eigen::MatrixXd slopes(here.size(), static_cast<Index>(parameters.size()) + 1);
+    constexpr double step = 1e-4;
+    Model moved = fit.model;
+    moved.settings.normal_stiffness *= std::exp(step);
+    slopes.col(0) = (errors_.whiten(forward_.predict(moved)) - here) / step;
+    for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
+        std::vector<double> values = fit.values();
+        const double place = parameters[axis].place_of(values[axis]);
+        const double change = place > 0.5 ? -step : step;
+        values[axis] = parameters[axis].at(place + change);
+        const Model beside(fit.hypothesis, values, fit.model.settings.normal_stiffness);
+        slopes.col(static_cast<Index>(axis) + 1) = (errors_.whiten(forward_.predict(beside)) - here) / change;
+    }
+    // Sample effects and the errors of the prediction are fitted, too.
+    const Eigen::MatrixXd effects = errors_.directions(prediction);
+    Eigen::MatrixXd all(slopes.rows(), slopes.cols() + effects.cols());
+    all << slopes, effects;
+    return all;
+}
+
+std::vector<double> Fit::values() const {
+    std::vector<double> all;
+    for (const Mechanism* mechanism : hypothesis) {
+        const auto found = std::find_if(model.acting.begin(), model.acting.end(),
+                                        [&](const ActingMechanism& one) { return one.mechanism == mechanism; });
+        all.insert(all.end(), found->values.begin(), found->values.end());
+    }
+    return all;
+}
+
+std::vector<Model> Fit::drawn(Index count) const {
+    std::vector<Model> models;
+    for (Index draw = 0; draw < count; ++draw) {
+        const Eigen::VectorXd place = draws.col(draw * draws.cols() / count);
+        models.emplace_back(hypothesis, Values(place.data() + 1, static_cast<std::size_t>(place.size()) - 1), place[0]);
+    }
+    return models;
+}
+
+}  // namespace coagula::diagnose

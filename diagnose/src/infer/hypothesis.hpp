@@ -1,0 +1,90 @@
+// A hypothesis, the base model with some mechanisms, and its evidence.
+#pragma once
+
+#include "noise/error_model.hpp"
+#include "posterior_grid.hpp"
+#include "simulate/forward.hpp"
+
+#include <coagula/diagnose/model.hpp>
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// A parameter's posterior.
+struct Posterior {
+    double value;  ///< most probable
+    double low;    ///< 5 % and 95 % quantile
+    double high;
+};
+
+/// A hypothesis fitted to data.
+struct Fit {
+    Hypothesis hypothesis;
+    Model model;                        ///< most probable
+    std::vector<Posterior> parameters;  ///< of the mechanisms
+    std::vector<bool> active_end = {};  ///< of each parameter: its most probable value lies at an end of the prior, beyond which
+                                        ///< the data would have it
+    Posterior stiffness{};              ///< of a particle [N/m]
+    double log_density = 0;             ///< of the data at `model`
+    double log_evidence = 0;            ///< of the data, all parameters integrated over their priors
+    Eigen::MatrixXd draws;              ///< normal stiffness and parameters x equally probable draws from the posterior
+
+    /// Of all parameters, in their order.
+    std::vector<double> values() const;
+    /// Some models of the posterior, evenly spread over its draws.
+    std::vector<Model> drawn(Index count) const;
+};
+
+/// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
+/// posterior is (along its principal axes where it is a narrow ridge), with the Laplace approximation for the stiffness, which
+/// scales the moduli. The prior of the stiffness is normal in its logarithm where the experiment knows it, else uniform over
+/// eight decades about that which the level of the data asks for.
+class Inference {
+public:
+    Inference(const Forward& forward, const ErrorModel& errors) : forward_(forward), errors_(errors), log_level_(log_level()) {}
+
+    Fit fit(const Hypothesis& hypothesis) const;
+
+    /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places, the sample effects and
+    /// the errors of the prediction at a fit.
+    Eigen::MatrixXd jacobian(const Fit& fit) const;
+
+    /// Standard deviation of the logarithm of the known stiffness, with what so few structures leave in the level of the moduli
+    /// that it makes; NaN where no stiffness is known.
+    double stiffness_error() const;
+    /// How far a stiffness is from the known one over that error; NaN where it is not known.
+    double stiffness_departure(double log_stiffness) const;
+
+    /// Largest log density of the data by the base model, whatever the stiffness.
+    double density_of_free_level() const;
+
+    const Forward& forward() const { return forward_; }
+    const ErrorModel& errors() const { return errors_; }
+
+private:
+    /// Moduli show a stiffness that nothing else tells, with what so few structures leave in their level; in a structure series
+    /// each row has that error itself.
+    bool level_is_open() const;
+    class ProjectedResiduals;
+    static Eigen::MatrixXd draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters);
+    PosteriorGrid grid_for(const Hypothesis& hypothesis) const;
+    std::optional<PosteriorGrid> grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
+                                                 const EvaluateNode& evaluate) const;
+    bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
+    double log_level() const;
+    double log_prior(double log_stiffness) const;
+    struct AlongStiffness;
+    AlongStiffness density_along(Model model, double log_stiffness, Accuracy accuracy) const;
+    Node best_stiffness(const Model& model, double start, double least = -std::numeric_limits<double>::infinity()) const;
+
+    const Forward& forward_;
+    const ErrorModel& errors_;
+    double log_level_;  ///< logarithm of the stiffness [N/m] that the base model needs for half of the moduli
+};
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,210 @@
+#include "proposal.hpp"
+
+#include <coagula/diagnose/waveform.hpp>
+
+#include "candidate_measurements.hpp"
+#include "data/median.hpp"
+#include "noise/weights.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr int draws_per_cause = 16;
+constexpr int data_per_draw = 4;
+constexpr double certain = 0.95;
+constexpr double least_deviation = 1e-9;  ///< of a modulus [Pa], also where it is predicted to be 0
+
+/// What is known beforehand of the errors of a measurement: those of the data so far.
+struct ExpectedErrors {
+    double relative = 0;  ///< of a modulus
+    double phase = 0;     ///< of G'' over |G*| [rad]
+    double sample = 0;    ///< of the level of a fresh sample
+};
+
+ExpectedErrors errors_of(const DataSet& data) {
+    const Eigen::ArrayXd share = data.noise.deviation.array() / complex_moduli(data.observations, data.values);
+    std::vector<double> relative;
+    std::vector<double> phase;
+    for (Index k = 0; k < data.size(); ++k) {
+        const Observation& one = data.observations[static_cast<std::size_t>(k)];
+        if (is_modulus(one)) {
+            (one.of_phase ? phase : relative).push_back(share[k]);
+        }
+    }
+    return {median(relative), median(phase), std::max(data.effect, 0.0)};
+}
+
+/// A cause as the data so far leave it.
+struct Belief {
+    std::vector<Model> draws;    ///< from its posterior
+    Eigen::MatrixXd errors;      ///< of the model over their standard errors: those that each draw makes most probable, in columns
+    Eigen::MatrixXd covariance;  ///< of these
+};
+
+Belief belief_in(const Fit& fit, const Inference& inference) {
+    Belief belief;
+    const Forward& forward = inference.forward();
+    const Prediction best = forward.prediction(fit.model);
+    const Index errors = best.errors.changes.cols();
+    belief.covariance = inference.errors().effect_covariance(best).bottomRightCorner(errors, errors);
+    belief.errors.resize(errors, draws_per_cause);
+    belief.draws = fit.drawn(draws_per_cause);
+    for (std::size_t draw = 0; draw < belief.draws.size(); ++draw) {
+        belief.errors.col(static_cast<Index>(draw)) =
+            inference.errors().effects(forward.prediction(belief.draws[draw])).tail(errors);
+    }
+    return belief;
+}
+
+/// Standard deviations of the rows of a measurement with these expectations.
+Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli,
+                          const ExpectedErrors& errors) {
+    const Eigen::ArrayXd sizes = complex_moduli(observations, moduli);
+    Eigen::ArrayXd deviation(moduli.size());
+    for (Index k = 0; k < moduli.size(); ++k) {
+        const Observation& one = observations[static_cast<std::size_t>(k)];
+        if (one.third_harmonic) {
+            deviation[k] = std::hypot(one.standard_error, third_harmonic_error * moduli[k]);
+            continue;
+        }
+        if (one.difference) {
+            deviation[k] = error_of(*one.difference, moduli[k], one.centres);
+            continue;
+        }
+        const double other = std::sqrt(std::max(0.0, sizes[k] * sizes[k] - moduli[k] * moduli[k]));  // G' of G'', G'' of G'
+        const double own = std::hypot(errors.relative * moduli[k], errors.phase * other);
+        deviation[k] = std::max({own, 1e-6 * sizes[k], least_deviation});
+    }
+    return deviation;
+}
+
+/// What a cause expects of a measurement: normal errors about one of some predictions.
+struct Expectation {
+    Eigen::MatrixXd predictions;         ///< rows x draws
+    Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the covariance of the errors
+    Eigen::MatrixXd white;               ///< predictions over it
+};
+
+/// Errors of the rows, of the level of each fresh sample, and of the model, which are the same as in the data so far.
+Expectation expected_by(const Belief& belief, const Forward& forward, const std::vector<Observation>& observations,
+                        const ExpectedErrors& errors) {
+    Expectation expectation;
+    const auto rows = static_cast<Index>(observations.size());
+    expectation.predictions.resize(rows, draws_per_cause);
+    Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(rows, belief.errors.rows());
+    for (int draw = 0; draw < draws_per_cause; ++draw) {
+        const Prediction drawn = forward.prediction(belief.draws[static_cast<std::size_t>(draw)]);
+        expectation.predictions.col(draw) = drawn.values + drawn.errors.changes * belief.errors.col(draw);
+        changes += drawn.errors.changes / draws_per_cause;
+    }
+    const Eigen::VectorXd mean = expectation.predictions.rowwise().mean();
+    Eigen::MatrixXd covariance = changes * belief.covariance * changes.transpose();
+    covariance.diagonal().array() += deviations(observations, mean, errors).square();
+    for (Index one = 0; one < rows; ++one) {
+        for (Index other = 0; other < rows; ++other) {
+            const Observation& a = observations[static_cast<std::size_t>(one)];
+            const Observation& b = observations[static_cast<std::size_t>(other)];
+            if (a.measurement == b.measurement && is_modulus(a) && is_modulus(b)) {
+                const double torque = a.row == b.row && a.loss != b.loss ? errors.relative : 0.0;
+                const double phase = torque > 0 ? errors.phase : 0.0;
+                covariance(one, other) +=
+                    (errors.sample * errors.sample + torque * torque - phase * phase) * mean[one] * mean[other];
+            }
+        }
+    }
+    expectation.factor.compute(covariance);
+    expectation.white = expectation.factor.matrixL().solve(expectation.predictions);
+    return expectation;
+}
+
+/// Probability of each cause given data, each cause being a mixture of its predictions.
+std::vector<double> judge(const Eigen::VectorXd& data, const std::vector<Expectation>& causes, const std::vector<double>& weights) {
+    std::vector<double> logarithms;
+    for (std::size_t cause = 0; cause < causes.size(); ++cause) {
+        const Expectation& expectation = causes[cause];
+        const Eigen::VectorXd white = expectation.factor.matrixL().solve(data);
+        std::vector<double> densities;
+        for (const auto& prediction : expectation.white.colwise()) {
+            densities.push_back(-0.5 * (white - prediction).squaredNorm());
+        }
+        const double log_determinant = expectation.factor.matrixLLT().diagonal().array().log().sum();
+        logarithms.push_back(log_sum(densities) - log_determinant + std::log(weights[cause]));
+    }
+    return probabilities_of(std::move(logarithms));
+}
+
+double entropy(const std::vector<double>& probabilities) {
+    double sum = 0;
+    for (const double p : probabilities) {
+        sum -= p > 0 ? p * std::log2(p) : 0.0;
+    }
+    return sum;
+}
+
+Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::vector<Belief>& beliefs,
+                  const std::vector<double>& weights, const ExpectedErrors& errors, std::uint64_t seed, std::uint64_t number) {
+    const std::vector<Observation>& observations = candidate.observations;
+    const Forward forward(candidate.experiment, observations, simulator);
+    std::vector<Expectation> causes;
+    for (const Belief& belief : beliefs) {
+        causes.push_back(expected_by(belief, forward, observations, errors));
+    }
+    Proposal proposal{.what = candidate.what};
+    const double before = entropy(weights);
+    std::uint64_t step = 2000000 + 1000 * number;
+    for (std::size_t cause = 0; cause < causes.size(); ++cause) {
+        for (int draw = 0; draw < draws_per_cause * data_per_draw; ++draw) {
+            Eigen::VectorXd normal(static_cast<Index>(observations.size()));
+            for (Index row = 0; row < normal.size(); ++row) {
+                normal[row] = normal_number(seed, step, static_cast<std::uint64_t>(row));
+            }
+            ++step;
+            const Expectation& truth = causes[cause];
+            const Eigen::VectorXd data = truth.predictions.col(draw % draws_per_cause) + truth.factor.matrixL() * normal;
+            const std::vector<double> after = judge(data, causes, weights);
+            const double share = weights[cause] / (draws_per_cause * data_per_draw);
+            proposal.information += share * (before - entropy(after));
+            proposal.resolution += *std::max_element(after.begin(), after.end()) > certain ? share : 0.0;
+        }
+    }
+    proposal.information = std::max(0.0, proposal.information);  // of few draws
+    return proposal;
+}
+
+}  // namespace
+
+std::vector<Proposal> propose(const Inference& inference, Simulator& simulator, const std::vector<Fit>& causes,
+                              const std::vector<double>& weights, std::uint64_t seed) {
+    std::vector<Proposal> proposals;
+    if (causes.size() < 2) {
+        return proposals;
+    }
+    std::vector<double> normalised = weights;
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& weight : normalised) {
+        weight /= sum;
+    }
+    std::vector<Belief> beliefs;
+    for (const Fit& fit : causes) {
+        beliefs.push_back(belief_in(fit, inference));
+    }
+    const DataSet& data = inference.errors().data();
+    const ExpectedErrors errors = errors_of(data);
+    std::uint64_t number = 0;
+    for (const Candidate& candidate : candidates_for(inference.forward().experiment(), data.observations)) {
+        proposals.push_back(evaluate(candidate, simulator, beliefs, normalised, errors, seed, number++));
+    }
+    std::stable_sort(proposals.begin(), proposals.end(),
+                     [](const auto& a, const auto& b) { return a.information > b.information; });
+    return proposals;
+}
+
+}  // namespace coagula::diagnose

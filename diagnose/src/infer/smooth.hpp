@@ -1,0 +1,34 @@
+// Smooth departures from a prediction: Gaussian processes of one or both moduli along one coordinate, the sum of two of these, or
+// one along all coordinates together, in proportion to |G*|; a correlation length is a part of the range of a coordinate, which is
+// taken as a rank.
+#pragma once
+
+#include "detection.hpp"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Standard deviations over |G*|, and lengths over the range, that are equally probable.
+inline constexpr std::array smooth_amplitudes{0.03, 0.15, 0.75};
+inline constexpr std::array smooth_lengths{0.2, 0.7};
+
+/// What a departure is of.
+enum class Departing { storage, loss, both };
+
+/// A smooth departure of unit size: of which moduli, and along which coordinates, as the sum of a part along each or along all
+/// together.
+struct SmoothDeparture {
+    Departing departing;
+    std::vector<Coordinate> along;  ///< none: the level
+    Eigen::MatrixXd factor;         ///< columns U with U U^T = its covariance over |G*|, as far as a ten-thousandth of it
+};
+
+/// In groups that are equally probable, of every length; the level alone where no coordinate varies.
+using SmoothDepartures = std::vector<std::vector<SmoothDeparture>>;
+SmoothDepartures smooth_departures(const std::vector<Observation>& observations);
+
+}  // namespace coagula::diagnose

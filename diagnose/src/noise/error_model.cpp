@@ -1,0 +1,219 @@
+#include "error_model.hpp"
+
+#include "low_rank.hpp"
+#include "weights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr int most_rounds = 20;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Equally probable variances about an estimate from some degrees of freedom: scaled inverse chi-square.
+std::vector<double> variances_about(double estimate, double degrees) {
+    if (!std::isfinite(degrees) || estimate == 0) {
+        return {estimate};
+    }
+    // Middles of seven equal parts of the normal distribution.
+    std::vector<double> variances;
+    for (const double normal : {-1.4652, -0.7916, -0.3661, 0.0, 0.3661, 0.7916, 1.4652}) {
+        variances.push_back(estimate / scaled_chi_square(degrees, normal));
+    }
+    return variances;
+}
+
+/// Places of seven variances beside those of another quantity, so that both are spread evenly and independently.
+constexpr std::array<std::size_t, 7> beside{3, 6, 1, 4, 0, 5, 2};
+
+/// Logarithm of the density of the logarithm of a variance about 1 that is known from some degrees of freedom.
+double log_prior_of_scale(double variance, double degrees) {
+    const double half = 0.5 * degrees;
+    return half * std::log(half) - std::lgamma(half) - half * (std::log(variance) + 1 / variance);
+}
+
+}  // namespace
+
+/// The factors on the variances of rows, the first of those whose deviations are known: 1.
+class ErrorModel::Scales {
+public:
+    explicit Scales(const ErrorModel& model)
+        : degrees_(model.degrees_), variances_(model.degrees_.size() + 1, 1.0), counts_(variances_.size(), 0.0) {
+        for (const std::size_t scale : model.scaled_) {
+            counts_[scale] += 1;
+        }
+    }
+
+    const std::vector<double>& variances() const { return variances_; }
+
+    /// One step towards the most probable variances. @param squares expected sums of the residuals. Returns the largest change.
+    double update(const std::vector<double>& squares) {
+        double change = 0;
+        for (std::size_t k = 1; k < variances_.size(); ++k) {
+            const double degrees = degrees_[k - 1];
+            const double next = (degrees + squares[k]) / (degrees + counts_[k]);
+            change = std::max(change, std::abs(std::log(next / variances_[k])));
+            variances_[k] = next;
+        }
+        return change;
+    }
+
+    /// What they add to the logarithm of the density: of the rows' errors, of their priors, and of their own uncertainty.
+    double log_density() const {
+        double sum = 0;
+        for (std::size_t k = 1; k < variances_.size(); ++k) {
+            const double degrees = degrees_[k - 1];
+            sum += log_prior_of_scale(variances_[k], degrees) - 0.5 * counts_[k] * std::log(variances_[k]) +
+                   0.5 * std::log(4 * std::numbers::pi / (degrees + counts_[k]));
+        }
+        return sum;
+    }
+
+private:
+    const std::vector<double>& degrees_;
+    std::vector<double> variances_;
+    std::vector<double> counts_;
+};
+
+ErrorModel::ErrorModel(const DataSet& data)
+    : data_(data),
+      white_(data.noise.whiten(data.values)),
+      log_determinant_(data.noise.log_determinant()),
+      variances_(variances_about(data.effect * data.effect, data.effect_degrees)) {
+    std::map<std::pair<double, bool>, std::size_t> numbers;
+    for (const Observation& one : data.observations) {
+        const double degrees = one.errors.degrees;
+        if (!std::isfinite(degrees)) {
+            scaled_.push_back(0);
+            continue;
+        }
+        const auto [found, added] = numbers.try_emplace({degrees, one.of_phase}, degrees_.size() + 1);
+        if (added) {
+            degrees_.push_back(degrees);
+        }
+        scaled_.push_back(found->second);
+    }
+    scaled_.resize(static_cast<std::size_t>(data.size()), 0);
+    Scales scales(*this);
+    scales.update(std::vector<double>(degrees_.size() + 1, 0.0));
+    saturated_ = scales.log_density() - 0.5 * log_determinant_;
+}
+
+Eigen::MatrixXd ErrorModel::directions(const Prediction& prediction) const {
+    const Index errors = prediction.errors.changes.cols();
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(size(), data_.samples() + errors);
+    // Rows of different samples have independent errors: whitening keeps each in its column.
+    const Eigen::VectorXd level = whiten(prediction.level_slope);
+    for (Index row = 0; row < size(); ++row) {
+        if (const Index sample = data_.sample[static_cast<std::size_t>(row)]; sample >= 0) {
+            parts(row, sample) = level[row];
+        }
+    }
+    for (Index error = 0; error < errors; ++error) {
+        parts.col(data_.samples() + error) = whiten(prediction.errors.changes.col(error));
+    }
+    return parts;
+}
+
+/// Departures of the data from a prediction with what they share.
+struct ErrorModel::Shared {
+    Shared(const ErrorModel& model, const Prediction& prediction, const Eigen::MatrixXd& further)
+        : plain(model.white_ - model.whiten(prediction.values)) {
+        const Eigen::MatrixXd all = model.directions(prediction);
+        const Index samples = model.data_.samples();
+        level = all.leftCols(samples).rowwise().sum();
+        errors = all.cols() - samples;
+        others.resize(all.rows(), errors + further.cols());
+        others.leftCols(errors) = all.rightCols(errors);
+        if (further.cols() > 0) {
+            others.rightCols(further.cols()) = further;
+        }
+        scales = Eigen::VectorXd::Ones(others.cols());
+    }
+
+    NormalEffects effects(const ErrorModel& model) const {
+        return {plain, level, model.data_.sample, model.data_.samples(), others, model.scaled_, model.degrees_.size() + 1};
+    }
+
+    /// At the stated deviations.
+    NormalEffects solved(const ErrorModel& model) const {
+        NormalEffects all = effects(model);
+        all.solve(model.data_.effect, scales, std::vector<double>(model.degrees_.size() + 1, 1.0));
+        return all;
+    }
+
+    Eigen::VectorXd plain;
+    Eigen::VectorXd level;
+    Eigen::MatrixXd others;
+    Eigen::VectorXd scales;  ///< deviations of the others
+    Index errors = 0;        ///< of the prediction
+};
+
+Eigen::VectorXd ErrorModel::effects(const Prediction& prediction) const {
+    const Shared shared(*this, prediction, {});
+    Eigen::VectorXd all = shared.solved(*this).most_probable();
+    all.head(data_.samples()) *= data_.effect;
+    return all;
+}
+
+Eigen::MatrixXd ErrorModel::effect_covariance(const Prediction& prediction) const {
+    const Shared shared(*this, prediction, {});
+    Eigen::MatrixXd all = shared.solved(*this).covariance();
+    all.topRows(data_.samples()) *= data_.effect;
+    all.leftCols(data_.samples()) *= data_.effect;
+    return all;
+}
+
+Eigen::VectorXd ErrorModel::residual(const Prediction& prediction) const {
+    return white_ - whiten(prediction.values) - directions(prediction) * effects(prediction);
+}
+
+/// At these deviations of effects and others, but for the rows' determinant. @param scales where to start, and what is most
+/// probable.
+double ErrorModel::log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others,
+                                Scales& scales) const {
+    constexpr double converged = 1e-2;  // at the most probable variances the density does not depend on them
+    effects.solve(effect, scales_of_others, scales.variances());
+    for (int round = 0; !degrees_.empty() && round < most_rounds; ++round) {
+        const double change = scales.update(effects.expected_squares());
+        effects.solve(effect, scales_of_others, scales.variances());
+        if (change < converged) {
+            break;
+        }
+    }
+    return scales.log_density() - 0.5 * (effects.log_determinant() + effects.misfit());
+}
+
+double ErrorModel::log_density(const Prediction& prediction, const Eigen::MatrixXd& further, Accuracy accuracy) const {
+    Shared shared(*this, prediction, further);
+    NormalEffects effects = shared.effects(*this);
+    const std::vector<double> variances = variances_about(1, shared.errors > 0 ? prediction.errors.degrees : infinite);
+    Scales scales(*this);  // hardly others from one deviation of the effects to the next
+    const auto at = [&](std::size_t of_effect, std::size_t of_error) {
+        shared.scales.head(shared.errors).setConstant(std::sqrt(variances[variances.size() > 1 ? of_error : 0]));
+        return log_marginal(effects, std::sqrt(variances_[variances_.size() > 1 ? of_effect : 0]), shared.scales, scales);
+    };
+    if (accuracy == Accuracy::middle) {
+        return at(beside.size() / 2, beside.size() / 2) - 0.5 * log_determinant_;
+    }
+    std::vector<double> logarithms;
+    for (std::size_t k = 0; k < std::max(variances_.size(), variances.size()); ++k) {
+        logarithms.push_back(at(k, beside.at(k)));
+    }
+    const double density = log_mean(logarithms) - 0.5 * log_determinant_;
+    if (density > saturated_ + 1e-6 * (1 + std::abs(saturated_))) {
+        throw std::logic_error("the density of the data exceeds that of a prediction that meets every number");
+    }
+    return density;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,72 @@
+// The errors of measured numbers and of their predictions: the one place where noise lives. Test, evidence, gain and power ask it.
+//
+//     y = m(b) + M e + s n,   whitened
+//
+// with the effect b of each sample on the level of the material, the errors e of the prediction itself, and the errors n of the
+// rows, whose deviations are known up to a factor s where they were estimated. All three are integrated out: b and e are normal;
+// the factors by Laplace's approximation, the deviations of b and e, where few samples or structures tell them, over seven equally
+// probable values.
+#pragma once
+
+#include "data_set.hpp"
+#include "low_rank.hpp"
+#include "prediction.hpp"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Whether deviations that were estimated are integrated out as a whole, or taken at the middle of what they may be: then the
+/// density has its maximum nearly at the same prediction.
+enum class Accuracy { whole, middle };
+
+class ErrorModel {
+public:
+    /// @param data must outlive this.
+    explicit ErrorModel(const DataSet& data);
+
+    Index size() const { return white_.size(); }
+    const DataSet& data() const { return data_; }
+
+    /// Values over the deviation of their rows and freed from the correlation of neighbours.
+    Eigen::VectorXd whiten(const Eigen::VectorXd& values) const { return data_.noise.whiten(values); }
+
+    /// Whitened data less prediction at the most probable effects and errors of the prediction: independent standard normal numbers
+    /// if the model is true.
+    Eigen::VectorXd residual(const Prediction& prediction) const;
+    /// Most probable effects b, one per sample, then the errors of the prediction over their standard error.
+    Eigen::VectorXd effects(const Prediction& prediction) const;
+    /// Covariance of these.
+    Eigen::MatrixXd effect_covariance(const Prediction& prediction) const;
+    /// Whitened directions in which these move the prediction: one column per sample, then those of the prediction's errors.
+    Eigen::MatrixXd directions(const Prediction& prediction) const;
+
+    /// Logarithm of the density of the data, but for n/2 log(2 pi).
+    /// @param further whitened directions, of unit deviation each, in which the data may depart besides.
+    double log_density(const Prediction& prediction, const Eigen::MatrixXd& further = {},
+                       Accuracy accuracy = Accuracy::whole) const;
+    /// What that of no prediction exceeds: that of one that meets every number.
+    double saturated() const { return saturated_; }
+
+    /// Whitened errors of the rows, then the effects of the samples over their deviation, as this model draws them: heavy tails and
+    /// the uncertainty of estimated deviations and correlations included.
+    Eigen::VectorXd draw(std::uint64_t seed, std::uint64_t number) const;
+
+private:
+    class Scales;
+    struct Shared;
+    double log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others, Scales& scales) const;
+
+    const DataSet& data_;
+    Eigen::VectorXd white_;  ///< the data
+    double log_determinant_;
+    double saturated_;
+    std::vector<double> variances_;    ///< equally probable ones of the sample effect
+    std::vector<std::size_t> scaled_;  ///< of each row the number of its scale, from 1; 0 where its deviation is known
+    std::vector<double> degrees_;      ///< of freedom of each scale
+};
+
+}  // namespace coagula::diagnose

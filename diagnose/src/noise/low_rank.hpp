@@ -1,0 +1,64 @@
+// Normal effects that many numbers share.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace coagula::diagnose {
+
+using Eigen::Index;
+
+/// Independent effects e ~ N(0, 1) on numbers r = X e + n, n ~ N(0, variance of the group of each number): one effect of each
+/// sample on its own numbers, and others on any. Nothing in it cancels: the misfit is a sum of squares at the most probable e,
+/// however large the numbers are. Products of the directions are made once, for all deviations and variances.
+class NormalEffects {
+public:
+    /// @param level of each number by the effect of its sample. @param sample of each number, -1: of none. @param group of each
+    /// number, below `groups`.
+    NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, const std::vector<Index>& sample, Index samples,
+                  const Eigen::MatrixXd& others, const std::vector<std::size_t>& group, std::size_t groups);
+    /// Effects of no sample, numbers of one group.
+    NormalEffects(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& others);
+
+    /// @param effect deviation of the effects of the samples. @param scales of the others. @param variances of the groups.
+    void solve(double effect, const Eigen::VectorXd& scales, const std::vector<double>& variances);
+
+    /// Of the samples, then the others, over their deviations.
+    const Eigen::VectorXd& most_probable() const { return effects_; }
+    Eigen::MatrixXd covariance() const;
+    /// Sum of the squares of what is left, over the variances, and of the squares of the effects.
+    double misfit() const { return misfit_; }
+    /// Of the covariance of the numbers over that of n.
+    double log_determinant() const { return log_determinant_; }
+    /// Sum of the squares of n in each group, over what the numbers leave open about e.
+    std::vector<double> expected_squares() const;
+
+private:
+    /// The numbers of a group; products of their directions with each other and with the numbers.
+    struct Products {
+        std::vector<Index> rows;
+        Eigen::VectorXd own;      ///< of each sample's direction with itself
+        Eigen::MatrixXd between;  ///< samples x others
+        Eigen::MatrixXd rest;     ///< others x others
+        Eigen::VectorXd right;    ///< of all with the numbers
+    };
+
+    Eigen::VectorXd numbers_;
+    Eigen::VectorXd level_;
+    std::vector<Index> sample_;
+    Eigen::MatrixXd others_;
+    std::vector<Products> products_;
+    Eigen::VectorXd deviation_;  ///< of all effects
+    // Precision of e: diagonal for the samples, in full for the others once the samples are eliminated, and between both.
+    Eigen::VectorXd own_;
+    Eigen::MatrixXd between_;
+    Eigen::LLT<Eigen::MatrixXd> rest_;
+    Eigen::VectorXd effects_;
+    std::vector<double> squares_;  ///< left in each group
+    double misfit_ = 0;
+    double log_determinant_ = 0;
+};
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,126 @@
+#include <coagula/diagnose/stated_errors.hpp>
+
+#include "data/table_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace coagula::diagnose {
+
+namespace {
+
+/// b of the sample of a table; 0 where it was not estimated.
+double sample_effect(const NoiseModel& model, const Measurement& table) {
+    const auto found = std::find_if(model.sample_effects.begin(), model.sample_effects.end(),
+                                    [&](const SampleEffect& effect) { return effect.sample == table.sample; });
+    return found == model.sample_effects.end() ? 0.0 : found->effect;
+}
+
+/// What is expected of this sample in this row by the replicates, so that a row's error does not depend on its own; where there are
+/// none, |G*| of the row, or its one modulus.
+double level_at(const NoiseModel& model, const Measurement& table, const Column& column, std::size_t row) {
+    const double place = axis_of(table)->values[row];
+    for (Eigen::Index condition = 0; condition < model.axis.size(); ++condition) {
+        if (alike(model.axis[condition], place)) {
+            return model.levels[condition] * (1 + sample_effect(model, table));
+        }
+    }
+    const double size = complex_modulus(table, row);
+    return std::isnan(size) ? column.values[row] : size;
+}
+
+/// The model of a table's errors of torque or phase; null where there is none.
+const NoiseModel* model_of(const std::vector<NoiseModel>& noise, const Measurement& table, bool phase) {
+    const auto found = std::find_if(noise.begin(), noise.end(), [&](const NoiseModel& one) {
+        return is_of_phase(one) == phase && std::find(one.labels.begin(), one.labels.end(), table.label) != one.labels.end();
+    });
+    return found == noise.end() ? nullptr : &*found;
+}
+
+/// Deviations of torque or phase in every row, as a modulus; zero without a model.
+struct RowErrors {
+    ErrorLaw law;
+    std::vector<double> deviations;
+};
+
+RowErrors errors_by(const NoiseModel* model, const std::vector<NoiseModel>& noise, const Measurement& table, const Column& column) {
+    RowErrors errors{{}, std::vector<double>(column.values.size(), 0.0)};
+    if (model == nullptr) {
+        return errors;
+    }
+    const ErrorShape shape = shape_of_errors(noise, *model);
+    errors.law = shape.law;
+    const Column* strain = find_column(table, "strain");
+    for (std::size_t row = 0; row < column.values.size(); ++row) {
+        const double weight = model->floor_of_stress && strain != nullptr ? 1 / strain->values[row] : 1.0;
+        errors.deviations[row] = shape.factor * standard_deviation(*model, level_at(*model, table, column, row), weight);
+    }
+    return errors;
+}
+
+/// Of one modulus from those of torque and phase, by the phase of each row.
+std::vector<double> errors_of_part(const Measurement& table, const Column& column, const RowErrors& torque,
+                                   const RowErrors& phase) {
+    std::vector<double> errors;
+    for (std::size_t row = 0; row < column.values.size(); ++row) {
+        const double size = complex_modulus(table, row);
+        const double along = std::isnan(size) ? 1.0 : column.values[row] / size;
+        errors.push_back(
+            std::hypot(along * torque.deviations[row], std::sqrt(std::max(0.0, 1 - along * along)) * phase.deviations[row]));
+    }
+    return errors;
+}
+
+}  // namespace
+
+void state_sample_effect(const std::vector<NoiseModel>& noise, double stated, NoiseSettings& settings) {
+    std::map<std::vector<std::string>, std::vector<double>> variances;
+    for (const NoiseModel& model : noise) {
+        if (model.sample_estimated) {
+            std::vector<std::string> names;
+            for (const SampleEffect& effect : model.sample_effects) {
+                names.push_back(effect.sample);
+            }
+            variances[names].push_back(model.sample.value * model.sample.value);
+        }
+    }
+    double squares = stated * stated;
+    double degrees = 1;
+    for (const auto& [names, each] : variances) {
+        const auto own = static_cast<double>(names.size() - 1);
+        squares += own * std::accumulate(each.begin(), each.end(), 0.0) / static_cast<double>(each.size());
+        degrees += own;
+    }
+    settings.sample = std::sqrt(squares / degrees);
+    settings.sample_degrees = variances.empty() ? settings.sample_degrees : degrees;
+}
+
+void state_errors(Experiment& experiment, const std::vector<NoiseModel>& noise) {
+    for (Measurement& table : experiment.measurements) {
+        std::vector<Column*> open;
+        for (Column& column : table.columns) {
+            if ((column.name == "storage_modulus" || column.name == "loss_modulus") && column.standard_errors.empty()) {
+                open.push_back(&column);
+            }
+        }
+        const NoiseModel* torque = model_of(noise, table, false);
+        const NoiseModel* phase = model_of(noise, table, true);
+        if (torque == nullptr || open.empty()) {
+            continue;
+        }
+        const RowErrors along = errors_by(torque, noise, table, *open.front());
+        const RowErrors across = errors_by(phase, noise, table, *open.front());
+        table.polar_errors = open.size() == 2 && phase != nullptr;
+        for (Column* column : open) {
+            const bool of_phase = table.polar_errors && column->name == "loss_modulus";
+            column->errors = of_phase ? across.law : along.law;
+            column->standard_errors = !table.polar_errors ? errors_of_part(table, *column, along, across)
+                                      : of_phase          ? across.deviations
+                                                          : along.deviations;
+        }
+    }
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,44 @@
+#include <coagula/diagnose/noise.hpp>
+
+#include <string>
+
+namespace coagula::diagnose {
+
+namespace {
+
+/// The model whose rows tell most about those of `model`; null if there is none.
+const NoiseModel* donor_of(const std::vector<NoiseModel>& models, const NoiseModel& model) {
+    const NoiseModel* best = nullptr;
+    for (const NoiseModel& other : models) {
+        const bool tells = other.rows_estimated && is_of_phase(other) == is_of_phase(model);
+        if (tells && (best == nullptr || other.degrees > best->degrees)) {
+            best = &other;
+        }
+    }
+    return best;
+}
+
+void borrow(NoiseModel& model, const NoiseModel& donor) {
+    model.floor = donor.floor_of_stress == model.floor_of_stress ? donor.floor : Estimate{};
+    model.relative = donor.relative;
+    model.degrees = donor.degrees;
+    model.statement = "there are no replicates: as found in those of the " + std::string(name_of(donor.kind));
+}
+
+}  // namespace
+
+std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const NoiseOptions& options) {
+    std::vector<NoiseModel> models;
+    for (const Replicates& replicates : find_replicates(measurements)) {
+        models.push_back(fit_noise(replicates, options));
+    }
+    for (NoiseModel& model : models) {
+        const NoiseModel* donor = model.rows_estimated ? nullptr : donor_of(models, model);
+        if (donor != nullptr) {
+            borrow(model, *donor);
+        }
+    }
+    return models;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,308 @@
+#include "observations.hpp"
+
+#include "data/table_cells.hpp"
+#include "neighbour_shells.hpp"
+#include "pore_curves.hpp"
+
+#include <coagula/common/checks.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr Index fewest_centres = 20;
+
+/// Standard deviation of a third harmonic over the first where the table states none.
+constexpr double unstated_error = 5e-3;
+
+/// How long a row takes where the table has no times [s].
+constexpr double row_duration = 10;
+
+/// Time since the first row of its table; rows without a time follow each other.
+double time_in(const Measurement& table, std::size_t row) {
+    const double given = cell(table, "time", row);
+    return std::isnan(given) ? row_duration * static_cast<double>(row) : given;
+}
+
+double duration(const Measurement& table) {
+    double longest = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        longest = std::max(longest, time_in(table, row));
+    }
+    return longest + row_duration;
+}
+
+/// When each table begins: the runs on one sample follow each other in their order.
+std::vector<double> starts(const Experiment& experiment) {
+    std::vector<double> start(experiment.measurements.size(), 0);
+    for (std::size_t k = 0; k < start.size(); ++k) {
+        for (const Measurement& other : experiment.measurements) {
+            const Measurement& table = experiment.measurements[k];
+            const bool before = other.sample == table.sample && other.run_order < table.run_order;
+            // Waveforms were recorded during the sweeps.
+            start[k] += before && other.kind != MeasurementKind::harmonics ? duration(other) : 0.0;
+        }
+    }
+    return start;
+}
+
+/// The group of structures that stands for a row of a structure series: its number, else its place in the table.
+std::size_t group_of(const Measurement& table, std::size_t row) {
+    const Column* column = find_column(table, "structure");
+    if (column == nullptr) {
+        return row + 1;
+    }
+    const double number = column->values[row];
+    if (!(number == std::floor(number))) {  // nor where the cell was left out
+        throw InputError(table.label + ": column 'structure' must have a whole number in row " + std::to_string(row + 1) +
+                         ", one of structures.groups");
+    }
+    return static_cast<std::size_t>(number);
+}
+
+/// What a table may show of a response to shear; in this order.
+struct Shown {
+    const char* column;
+    bool loss;
+    bool third_harmonic;
+};
+constexpr std::array<Shown, 4> shown{{{"storage_modulus", false, false},
+                                      {"loss_modulus", true, false},
+                                      {"third_harmonic_storage", false, true},
+                                      {"third_harmonic_loss", true, true}}};
+
+/// The errors of torque and phase at a row whose table states them: as near as can be, G' has the one and G'' the other.
+void take_polar_errors(const Measurement& table, Observation& one) {
+    const Column& storage = *find_column(table, "storage_modulus");
+    const Column& loss = *find_column(table, "loss_modulus");
+    const double phase = std::atan2(loss.values[one.row], storage.values[one.row]);
+    if (!std::isnan(phase)) {
+        one.turned = std::remainder(phase, std::numbers::pi / 2);
+        const bool liquid = std::lround((phase - one.turned) / (std::numbers::pi / 2)) % 2 != 0;
+        one.of_phase = one.loss != liquid;
+    }
+    const Column& own = one.of_phase ? loss : storage;
+    const Column& other = one.of_phase ? storage : loss;
+    one.errors = own.errors;
+    one.standard_error = own.standard_errors[one.row];
+    one.other_error = other.standard_errors[one.row];
+}
+
+/// A cell of these columns with all that the row says about it; time since the start of its table.
+Observation observation_at(const Experiment& experiment, std::size_t number, std::size_t row, const Shown& what) {
+    const Measurement& table = experiment.measurements[number];
+    const Column& column = *find_column(table, what.column);
+    const bool series = table.kind == MeasurementKind::structure_series;
+    const double gap = cell(table, "gap", row);
+    const bool under_cone = std::isfinite(table.cone_angle);
+    const double radius = cell(table, "plate_radius", row);
+    Observation one{.measurement = number,
+                    .row = row,
+                    .loss = what.loss,
+                    .value = column.values[row],
+                    .standard_error = column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset)
+                                                                     : column.standard_errors[row],
+                    .of_phase = what.loss,
+                    .strain = cell(table, "strain", row),
+                    .angular_frequency = angular_frequency(table, row),
+                    .time = series ? unset : time_in(table, row),
+                    .gap = under_cone ? unset : (std::isnan(gap) ? experiment.instrument.gap : gap),
+                    .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
+                    .errors = column.errors,
+                    .third_harmonic = what.third_harmonic,
+                    .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
+                    .rough_plates = table.rough_plates,
+                    .fluid_viscosity = table.fluid_viscosity,
+                    .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
+                    .heterogeneity = cell(table, "heterogeneity", row),
+                    .coordination = cell(table, "coordination", row),
+                    .volume_fraction = cell(table, "volume_fraction", row)};
+    if (table.polar_errors && !what.third_harmonic) {
+        take_polar_errors(table, one);
+    }
+    return one;
+}
+
+/// The images of a table of centres: one, or those that its column "frame" numbers.
+std::vector<Eigen::Matrix3Xd> images_in(const Measurement& table) {
+    const bool several = find_column(table, "frame") != nullptr;
+    std::map<double, std::vector<Eigen::Vector3d>> centres;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const Eigen::Vector3d centre(cell(table, "x", row), cell(table, "y", row), cell(table, "z", row));
+        const double frame = several ? cell(table, "frame", row) : 0;
+        if (centre.allFinite() && std::isfinite(frame)) {
+            centres[frame].push_back(centre);
+        }
+    }
+    if (several && centres.empty()) {
+        throw InputError(table.label + ": column 'frame' has no number in any row with a centre");
+    }
+    std::vector<Eigen::Matrix3Xd> images;
+    for (const auto& [frame, list] : centres) {
+        images.emplace_back(Eigen::Map<const Eigen::Matrix3Xd>(list.front().data(), 3, static_cast<Index>(list.size())));
+    }
+    return images;
+}
+
+/// Coordinates in another unit are far from what particles of this diameter could be.
+void require_plausible(const Eigen::Matrix3Xd& centres, double diameter, const std::string& label) {
+    constexpr double least = 1e-3;
+    const Eigen::Array3d box = (centres.rowwise().maxCoeff() - centres.rowwise().minCoeff()).array() + diameter;
+    const double filled = static_cast<double>(centres.cols()) * std::numbers::pi / 6 * std::pow(diameter, 3) / box.prod();
+    if (!(filled >= least && filled <= 1)) {
+        throw InputError(label + ": particles of " + to_text(diameter / 2) + " m radius at these coordinates would fill " +
+                         (filled > 1 ? "more than all" : "less than a thousandth") +
+                         " of the box around them: check the unit of the coordinates and sample.particle_radius");
+    }
+}
+
+/// Neighbours in shells, mean over the images, with the errors of one, because they are of the same particles; none where no
+/// image has enough particles far enough from the faces.
+std::vector<Observation> neighbours_in(const std::vector<Eigen::Matrix3Xd>& images, std::size_t number, double diameter) {
+    std::vector<NeighbourShells> shells;
+    for (const Eigen::Matrix3Xd& image : images) {
+        shells.push_back(shells_of_points(image, diameter));
+        if (shells.back().centres < fewest_centres) {
+            shells.pop_back();
+        }
+    }
+    std::vector<Observation> all;
+    for (std::size_t shell = 0; shell < shell_count && !shells.empty(); ++shell) {
+        all.push_back({.measurement = number,
+                       .row = shell,
+                       .standard_error = 0,
+                       .distance = first_shell + shell_width * (static_cast<double>(shell) + 0.5)});
+        for (const NeighbourShells& one : shells) {
+            all.back().value += one.mean[shell] / static_cast<double>(shells.size());
+            all.back().standard_error += one.standard_errors[shell] / static_cast<double>(shells.size());
+        }
+    }
+    return all;
+}
+
+/// Compared as it stands.
+bool is_share(const Observation& observation) {
+    return observation.third_harmonic || observation.difference;
+}
+
+/// What a table of centres shows, where the diameter is known.
+std::vector<Observation> seen_in_images(const Experiment& experiment, std::size_t number) {
+    const Measurement& table = experiment.measurements[number];
+    const double diameter = 2 * experiment.sample.particle_radius;
+    const std::vector<Eigen::Matrix3Xd> images = images_in(table);
+    for (const Eigen::Matrix3Xd& image : images) {
+        require_plausible(image, diameter, table.label);
+    }
+    std::vector<Observation> all = neighbours_in(images, number, diameter);
+    if (images.size() >= 2) {
+        const RepeatedImages seen = compare_images(images, diameter, table.label);
+        if (seen.centres >= fewest_centres) {
+            for (Observation& one : planned_images(number, seen.centres)) {
+                one.value = seen.values[static_cast<std::size_t>(*one.difference)];
+                one.standard_error = error_of(*one.difference, one.value, one.centres);
+                all.push_back(one);
+            }
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+bool has_moduli(MeasurementKind kind) {
+    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
+}
+
+const char* observable_of(const Observation& observation) {
+    if (std::isfinite(observation.distance)) {
+        return "neighbours";
+    }
+    if (is_pore(observation)) {
+        return "exclusion_probability";
+    }
+    if (observation.difference) {
+        constexpr std::array names{"localisation_plane", "localisation_axis", "unmatched_share"};
+        return names.at(static_cast<std::size_t>(*observation.difference));
+    }
+    return shown.at((observation.third_harmonic ? 2 : 0) + (observation.loss ? 1 : 0)).column;
+}
+
+bool same_column(const Observation& one, const Observation& other) {
+    return one.measurement == other.measurement && one.loss == other.loss && one.third_harmonic == other.third_harmonic;
+}
+
+bool is_modulus(const Observation& observation) {
+    return !std::isfinite(observation.distance) && !is_pore(observation) && !observation.difference && !observation.third_harmonic;
+}
+
+double relative_to(const Observation& observation, double level) {
+    if (is_modulus(observation)) {
+        return level;
+    }
+    return std::isfinite(observation.distance) ? std::max(level, 1.0) : 1.0;
+}
+
+std::vector<Observation> planned_images(std::size_t measurement, double centres) {
+    std::vector<Observation> all;
+    for (const ImageDifference difference : {ImageDifference::plane, ImageDifference::axis, ImageDifference::unmatched}) {
+        all.push_back({.measurement = measurement, .row = shell_count + all.size(), .difference = difference, .centres = centres});
+    }
+    return all;
+}
+
+std::vector<Observation> observations_of(const Experiment& experiment) {
+    const std::vector<double> start = starts(experiment);
+    std::vector<Observation> all;
+    for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
+        const Measurement& table = experiment.measurements[k];
+        if (table.kind == MeasurementKind::coordinates && std::isfinite(experiment.sample.particle_radius)) {
+            const std::vector<Observation> seen = seen_in_images(experiment, k);
+            all.insert(all.end(), seen.begin(), seen.end());
+        }
+        if (table.kind == MeasurementKind::pore_curve && std::isfinite(experiment.sample.particle_radius)) {
+            const std::vector<Observation> pores = pores_in(experiment, k);
+            all.insert(all.end(), pores.begin(), pores.end());
+        }
+        if (!has_moduli(table.kind) && table.kind != MeasurementKind::harmonics) {
+            continue;
+        }
+        for (const Shown& what : shown) {
+            const Column* column = find_column(table, what.column);
+            // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
+            const bool fluid = std::isfinite(table.fluid_viscosity);
+            const bool takes_part = column != nullptr && (!fluid || (what.loss && !what.third_harmonic));
+            for (std::size_t row = 0; takes_part && row < table.rows(); ++row) {
+                if (!std::isfinite(column->values[row]) || (fluid && std::isnan(angular_frequency(table, row)))) {
+                    continue;
+                }
+                all.push_back(observation_at(experiment, k, row, what));
+                all.back().time += start[k];
+            }
+        }
+    }
+    return all;
+}
+
+Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli) {
+    std::map<std::pair<std::size_t, std::size_t>, double> squares;
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const double value = is_share(observations[k]) ? 0.0 : moduli[static_cast<Index>(k)];
+        squares[{observations[k].measurement, observations[k].row}] += value * value;
+    }
+    Eigen::ArrayXd sizes(moduli.size());
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const double square = squares[{observations[k].measurement, observations[k].row}];
+        sizes[static_cast<Index>(k)] = is_share(observations[k]) ? 1.0 : std::sqrt(square);
+    }
+    return sizes;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,84 @@
+// What was measured, number by number.
+#pragma once
+
+#include <coagula/diagnose/measurement.hpp>
+
+#include "repeated_images.hpp"
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// One number that was measured.
+struct Observation {
+    std::size_t measurement = 0;
+    std::size_t row = 0;
+    bool loss = false;              ///< G'', else G'
+    double value = 0;               ///< [Pa]
+    double standard_error = unset;  ///< [Pa]; NaN where the table has none
+    // Errors of torque and phase lie along and across G*: those of its two parts, each turned by at most 45 degrees.
+    bool of_phase = false;   ///< the error is that of the phase, or of a loss modulus alone; else of the torque
+    double turned = 0;       ///< from the axis of G' to that of its error, towards G'' [rad]
+    double other_error = 0;  ///< of the other part of G*, as turned [Pa]
+    // Where and when; NaN where the table does not say.
+    double strain = unset;             ///< amplitude
+    double angular_frequency = unset;  ///< [rad/s]
+    double time = unset;               ///< since the first run on the sample [s]
+    double gap = unset;                ///< [m]
+    double plate_radius = unset;       ///< [m]
+    ErrorLaw errors = {};              ///< of the errors, torque or phase
+    bool third_harmonic = false;       ///< of the stress over the first, elastic or viscous part, in place of a modulus
+    double cone_angle = unset;         ///< [rad]; NaN where there is no cone
+    bool rough_plates = false;
+    double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]
+    // Of a structure series.
+    std::size_t structures = 0;  ///< group that stands for the row; 0: all structures
+    double heterogeneity = unset;
+    double coordination = unset;
+    double volume_fraction = unset;
+    // Of coordinates: the value is the mean number of neighbours in a shell, whose number is the row ...
+    double distance = unset;  ///< middle of the shell over the diameter
+    // ... or what differs between images of the same particles; rows after those of the shells.
+    std::optional<ImageDifference> difference = {};
+    double centres = 0;  ///< that are compared in these
+    // Of a pore curve: the value is the share of the void space farther from any surface than this.
+    double pore_radius = unset;  ///< [m]
+};
+
+/// Whether tables of this kind hold G' or G''.
+bool has_moduli(MeasurementKind kind);
+
+/// "storage_modulus", "loss_modulus", "third_harmonic_storage", "third_harmonic_loss", "neighbours", "exclusion_probability",
+/// "localisation_plane", "localisation_axis" or "unmatched_share".
+const char* observable_of(const Observation& observation);
+
+/// Whether two numbers stand in one column of a table.
+bool same_column(const Observation& one, const Observation& other);
+
+/// Of a Newtonian fluid in place of the sample.
+inline bool is_fluid(const Observation& observation) {
+    return std::isfinite(observation.fluid_viscosity);
+}
+
+/// A modulus, and not what was counted of the structure.
+bool is_modulus(const Observation& observation);
+
+/// What a difference in this observation is measured against where the expectation is `level`: that, but neighbours against one
+/// neighbour at least and everything else as it stands.
+double relative_to(const Observation& observation, double level);
+
+/// What images of the same particles, so many centres each, would show: the values are still to be measured.
+std::vector<Observation> planned_images(std::size_t measurement, double centres);
+
+/// The moduli of all tables of moduli, row by row, cells that were left out skipped; then what tables show of the structure.
+std::vector<Observation> observations_of(const Experiment& experiment);
+
+/// |G*| at each observation of these moduli [Pa]; 1 at a third harmonic and between images.
+Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli);
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,115 @@
+#include "pore_curves.hpp"
+
+#include "data/table_cells.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/simulator.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coagula::diagnose {
+
+namespace {
+
+constexpr double rarest = 0.01;          ///< probability; below, one largest pore decides
+constexpr double unstated_error = 2e-3;  ///< of a row
+constexpr double scatter_length = 6;     ///< over which curves of one structure stay on one side [particle radii]
+
+/// The error of a row and the part of it that scatters as a whole.
+struct PoreError {
+    double all;
+    double common;
+};
+
+PoreError error_of(const Experiment& experiment, double probability, double stated) {
+    double particles = 0;
+    for (const std::size_t size : experiment.structure_sizes) {
+        particles += static_cast<double>(size);
+    }
+    require(particles > 0, "the errors of a pore curve need the number of particles in the structures");
+    const double each = particles / static_cast<double>(experiment.structure_sizes.size());
+    // What is measured may be low by that much: the law falls with the probability.
+    const double expected = probability + scatter_of_probability(probability, each);
+    double common = scatter_of_probability(expected, particles);
+    if (std::isnan(stated)) {
+        common = std::hypot(common, scatter_of_probability(expected, each));
+    }
+    return {std::hypot(common, std::isnan(stated) ? unstated_error : stated), common};
+}
+
+}  // namespace
+
+double scatter_of_probability(double probability, double particles) {
+    const double logarithm = std::log(probability);
+    return 0.2 * probability * logarithm * logarithm / std::sqrt(particles);
+}
+
+std::vector<Observation> pores_in(const Experiment& experiment, std::size_t number) {
+    const Measurement& table = experiment.measurements[number];
+    const Column& column = *find_column(table, "exclusion_probability");
+    std::vector<Observation> all;
+    PoreError before{};
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const double value = column.values[row];
+        const double radius = cell(table, "pore_radius", row);
+        if (!(value > rarest && value < 1 && radius > 0)) {
+            continue;
+        }
+        const PoreError error = error_of(experiment, value, column.standard_errors.empty() ? unset : column.standard_errors[row]);
+        ErrorLaw errors;
+        if (!all.empty()) {
+            const double steps = (radius - all.back().pore_radius) / (scatter_length * experiment.sample.particle_radius);
+            const double correlation = std::exp(-std::abs(steps)) * error.common * before.common / (error.all * before.all);
+            // The law is one of successive rows.
+            errors.correlation = std::pow(correlation, 1 / static_cast<double>(row - all.back().row));
+        }
+        before = error;
+        all.push_back({.measurement = number,
+                       .row = row,
+                       .value = value,
+                       .standard_error = error.all,
+                       .errors = errors,
+                       .pore_radius = radius});
+    }
+    return all;
+}
+
+const PoreCurve& Simulator::pore_curve(std::size_t structure) {
+    if (const auto known = pore_curves_.find(structure); known != pore_curves_.end()) {
+        return known->second;
+    }
+    const std::string key = "pores " + names_[structure];
+    auto found = cache_.find(key);
+    if (found == cache_.end() || found->second.size() < 3) {
+        progress_.update("simulating", 0.0, "pores");
+        const PoreCurve measured = measured_pores(structures_[structure]);
+        std::vector<double> values{measured.largest};
+        values.insert(values.end(), measured.probability.begin(), measured.probability.end());
+        found = cache_.insert_or_assign(key, std::move(values)).first;
+    }
+    const std::vector<double>& values = found->second;
+    return pore_curves_[structure] = {values.front(), {values.begin() + 1, values.end()}};
+}
+
+PoreCurve Simulator::measured_pores(const Packing& packing) const {
+    require(static_cast<bool>(stages_.measure_pores), "nothing measures the pores of the structures");
+    return stages_.measure_pores(packing);
+}
+
+double Simulator::mean_exclusion_probability(double pore_radius) {
+    double sum = 0;
+    for (std::size_t k = 0; k < structures_.size(); ++k) {
+        sum += pore_curve(k).at(pore_radius);
+    }
+    return sum / static_cast<double>(structures_.size());
+}
+
+double Simulator::exclusion_probability(const Settings& settings, double pore_radius, bool exact) {
+    const double changed =
+        over_changes(change_of(settings), [&](Simulator& other) { return other.mean_exclusion_probability(pore_radius); });
+    const double images = change_in_images(settings, pore_radius, mean_exclusion_probability(pore_radius), exact);
+    return std::clamp(changed + images, 0.0, 1.0);
+}
+
+}  // namespace coagula::diagnose

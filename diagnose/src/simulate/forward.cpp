@@ -1,0 +1,260 @@
+#include "forward.hpp"
+
+#include "data/median.hpp"
+#include "observables/pore_curves.hpp"
+#include "springpot.hpp"
+#include "torque.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// What the simulation of the material depends on, for unit normal stiffness: of the viscosity, its ratio to the stiffness.
+Settings of_material(Settings settings) {
+    settings.felt_viscosity /= settings.normal_stiffness;
+    settings.normal_stiffness = 1;
+    return settings;
+}
+
+/// Those mechanisms that change the material.
+std::vector<ActingMechanism> acting_on_material(const Model& model) {
+    std::vector<ActingMechanism> some;
+    std::copy_if(model.acting.begin(), model.acting.end(), std::back_inserter(some),
+                 [](const ActingMechanism& one) { return std::holds_alternative<ScalesMaterial>(one.mechanism->effect); });
+    return some;
+}
+
+}  // namespace
+
+Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
+    : experiment_(experiment),
+      observations_(observations),
+      simulator_(simulator),
+      largest_strains_before_(largest_strains_before()) {
+    for (const Observation& observation : observations_) {
+        torques_per_modulus_.push_back(torque_per_modulus(observation));
+        const Measurement& table = experiment_.measurements[observation.measurement];
+        if (table.kind != MeasurementKind::structure_series) {
+            continue;
+        }
+        if (experiment_.structure_groups.empty()) {
+            throw InputError(table.label +
+                             ": a structure series needs structures.groups, which says what rows a structure stands for");
+        }
+        const auto& groups = experiment_.structure_groups;
+        if (std::find(groups.begin(), groups.end(), observation.structures) == groups.end()) {
+            throw InputError(table.label + ": no structure stands for row " + std::to_string(observation.row + 1) + ", structure " +
+                             std::to_string(observation.structures));
+        }
+    }
+}
+
+/// Under plates or a cone, by a tool.
+Complex Forward::seen_by_instrument(const Model& model, std::size_t number, Complex modulus) const {
+    const Observation& observation = observations_[number];
+    model.for_each<ChangesGeometry>(
+        [&](const ChangesGeometry& effect, Values values) { modulus = effect.apparent(modulus, observation, values); });
+    model.for_each<ChangesTool>([&](const ChangesTool& effect, Values values) {
+        modulus = effect.apparent(modulus, observation, torques_per_modulus_[number], values);
+    });
+    return modulus;
+}
+
+/// Linear modulus of every group of structures that some observation needs.
+std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, bool exact) const {
+    std::map<std::size_t, double> linear;
+    for (const Observation& observation : observations_) {
+        const std::size_t group = observation.structures;
+        if (!linear.contains(group) && is_modulus(observation)) {
+            const double free =
+                exact ? simulator_.exact_linear_modulus(settings, group) : simulator_.linear_modulus(settings, group);
+            const double stretched =
+                exact ? simulator_.exact_prestress_response(settings, group) : simulator_.prestress_response(settings, group);
+            linear[group] = free * stretched;
+        }
+    }
+    return linear;
+}
+
+/// G* / G of what acts in the contacts and between the particles while no bond breaks.
+Complex Forward::linear_response(const Settings& settings, const Observation& observation, bool exact) const {
+    Complex response = 1;
+    if (std::isfinite(observation.strain)) {
+        response *= simulator_.contact_response(settings, observation.strain);
+    }
+    if (settings.springpot_ratio > 0 && std::isfinite(observation.angular_frequency)) {
+        // A springpot in the same proportion to both springs scales the whole stiffness matrix.
+        response *= 1.0 + springpot(settings, observation.angular_frequency);
+    }
+    if (settings.felt_viscosity > 0 && std::isfinite(observation.angular_frequency)) {
+        response *= exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
+                          : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
+    }
+    return response;
+}
+
+/// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional; of a fluid, and third
+/// harmonics over the first, as they are. The mean over the structures, then with each error in how they yield.
+Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
+    const Settings settings = of_material(model.simulated());
+    const SimulatedSample sample{experiment_, simulator_, settings, exact};
+    const std::map<std::size_t, double> linear = linear_moduli(settings, exact);
+    Eigen::VectorXcd moduli = Eigen::VectorXcd::Zero(static_cast<Index>(observations_.size()));
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        Complex& modulus = moduli[static_cast<Index>(k)];
+        if (observation.third_harmonic) {
+            modulus = third_harmonic(settings, observation, largest_strains_before_[k]);
+        } else if (is_modulus(observation) && !is_fluid(observation)) {
+            modulus = linear.at(observation.structures) * linear_response(settings, observation, exact);
+            model.for_each<ScalesMaterial>(
+                [&](const ScalesMaterial& effect, Values values) { modulus *= effect.factor(observation, values, sample); });
+        }
+    }
+    Eigen::MatrixXcd all = moduli.asDiagonal() * amplitude_factors(settings, exact);
+    if (!exact && settings.felt_viscosity > 0) {
+        const Eigen::MatrixXcd moved = moved_by_structures(settings, all.col(0));
+        const Index columns = all.cols();
+        all.conservativeResize(Eigen::NoChange, columns + moved.cols());
+        all.rightCols(moved.cols()) = moved;
+    }
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        if (const Observation& observation = observations_[k]; is_fluid(observation)) {
+            all.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * observation.angular_frequency));
+        }
+    }
+    return all;
+}
+
+/// These moduli with one standard error of the drag that each structure leaves, also where no row shows it.
+Eigen::MatrixXcd Forward::moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const {
+    const std::size_t structures = simulator_.drag_errors(settings, 1).size();
+    Eigen::MatrixXcd moved = moduli.replicate(1, static_cast<Index>(structures));
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        if (!is_modulus(observation) || is_fluid(observation) || !std::isfinite(observation.angular_frequency)) {
+            continue;
+        }
+        const std::vector<Complex> errors = simulator_.drag_errors(settings, observation.angular_frequency, observation.structures);
+        const Complex response = simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
+        for (std::size_t error = 0; error < errors.size(); ++error) {
+            moved(static_cast<Index>(k), static_cast<Index>(error)) *= 1.0 + errors[error] / response;
+        }
+    }
+    return moved;
+}
+
+const Eigen::MatrixXcd& Forward::remembered_material(const Model& model, bool exact) const {
+    const Settings settings = of_material(model.simulated());
+    const std::vector<ActingMechanism> acting = acting_on_material(model);
+    if (exact || last_material_.rows() == 0 || !(settings == last_settings_ && acting == last_acting_)) {
+        last_material_ = material(model, exact);
+        last_settings_ = exact ? Settings{.normal_stiffness = unset} : settings;  // what is exact serves once
+        last_acting_ = acting;
+    }
+    return last_material_;
+}
+
+/// What coordinates and pore curves show.
+double Forward::seen_of_structure(const Settings& settings, const Observation& observation, bool exact) const {
+    if (std::isfinite(observation.distance)) {
+        return simulator_.neighbours(settings, observation.row, exact);
+    }
+    if (observation.difference) {
+        return simulator_.repeated_images(settings, exact)[static_cast<std::size_t>(*observation.difference)];
+    }
+    return simulator_.exclusion_probability(
+        settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius, exact);
+}
+
+/// What the instrument shows of every observation, of these moduli of the material at a normal stiffness of 1 N/m.
+Eigen::VectorXd Forward::seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const {
+    const Settings settings = model.simulated();
+    Eigen::VectorXd predicted(static_cast<Index>(observations_.size()));
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        const auto i = static_cast<Index>(k);
+        if (observation.third_harmonic) {
+            predicted[i] = observation.loss ? moduli[i].imag() : moduli[i].real();
+        } else if (!is_modulus(observation)) {
+            predicted[i] = seen_of_structure(settings, observation, exact);
+        } else {
+            const double stiffness = is_fluid(observation) ? 1.0 : settings.normal_stiffness;
+            const Complex modulus = seen_by_instrument(model, k, stiffness * moduli[i]);
+            predicted[i] = observation.loss ? modulus.imag() : modulus.real();
+        }
+    }
+    return predicted;
+}
+
+Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
+    const Settings settings = model.simulated();
+    if (exact && change_of(settings) != StructureChange{}) {
+        Model stated(as_stated(settings));
+        std::copy_if(model.acting.begin(), model.acting.end(), std::back_inserter(stated.acting),
+                     [](const ActingMechanism& one) { return !std::holds_alternative<ChangesSimulation>(one.mechanism->effect); });
+        return Forward(experiment_, observations_, simulator_.remade(change_of(settings))).predict(stated, true);
+    }
+    return seen(model, remembered_material(model, exact).col(0), exact);
+}
+
+/// Of the errors that structures leave, the fewest.
+double Forward::degrees_of_errors(const Settings& settings, bool any) const {
+    double degrees = std::numeric_limits<double>::infinity();
+    if (any && settings.felt_viscosity > 0) {
+        degrees = simulator_.drag_degrees();
+    }
+    if (any && std::isfinite(with_weakest_bonds(settings).critical_strain)) {
+        degrees = std::min(degrees, simulator_.yield_degrees());
+    }
+    return degrees;
+}
+
+Prediction Forward::prediction(const Model& model) const {
+    constexpr double step = 1e-5;
+    const Eigen::MatrixXcd& moduli = remembered_material(model, false);
+    const Eigen::VectorXd mean = seen(model, moduli.col(0), false);
+    // What neither geometry nor tool change is in proportion to the modulus of the material.
+    const bool plain = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
+        return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
+               std::holds_alternative<ChangesTool>(one.mechanism->effect);
+    });
+    Eigen::VectorXd level_slope = mean;
+    if (!plain) {
+        level_slope = (seen(model, (1 + step) * moduli.col(0), false) - mean) / step;
+    }
+    Eigen::MatrixXd changes(moduli.rows(), moduli.cols() - 1);
+    for (Index error = 0; error < changes.cols(); ++error) {
+        changes.col(error) = seen(model, moduli.col(error + 1), false) - mean;
+    }
+    return {mean, std::move(level_slope), {std::move(changes), degrees_of_errors(model.simulated(), moduli.cols() > 1)}};
+}
+
+Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {
+    Eigen::VectorXd deviation = Eigen::VectorXd::Zero(values.size());
+    const Eigen::VectorXd base = predict(Model{});
+    std::vector<double> ratios;
+    for (Index row = 0; row < values.size(); ++row) {
+        const std::size_t group = observations_[static_cast<std::size_t>(row)].structures;
+        if (group > 0 && base[row] != 0) {
+            ratios.push_back(std::abs(values[row] / base[row]));
+            deviation[row] = simulator_.structure_error(group) * std::abs(base[row]);
+        }
+    }
+    if (!ratios.empty()) {
+        deviation *= median(std::move(ratios));
+    }
+    return deviation;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,81 @@
+// From a model to the numbers that an instrument would show, for every observation of an experiment: structures and contacts ->
+// modulus of the material -> geometry -> tool.
+#pragma once
+
+#include <coagula/diagnose/measurement.hpp>
+#include <coagula/diagnose/model.hpp>
+#include <coagula/diagnose/simulator.hpp>
+
+#include "noise/prediction.hpp"
+#include "observables/observations.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Bonds as weak as the weaker of the two causes makes them.
+Settings with_weakest_bonds(Settings settings);
+
+/// Predicts observations. Not for several threads at once.
+class Forward {
+public:
+    Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator);
+
+    /// @param exact run the simulator at the settings themselves instead of between the nodes of its grids.
+    Eigen::VectorXd predict(const Model& model, bool exact = false) const;
+
+    /// The same between the nodes, with how it changes with the level of a sample and with the independent standard errors that so
+    /// few structures leave: in how they yield (Simulator::amplitude_response) and in how a solvent drags on them
+    /// (Simulator::drag_errors).
+    Prediction prediction(const Model& model) const;
+
+    const Experiment& experiment() const { return experiment_; }
+
+    /// Standard deviation of the error that so few structures leave in the prediction of the rows of structure series
+    /// (Simulator::structure_error) where these have about such values: in proportion to the base model, because a value that is
+    /// low by chance is no less uncertain. Zero elsewhere, where it scales all rows alike.
+    Eigen::VectorXd structure_deviation(const Eigen::VectorXd& values) const;
+
+    /// The same for the level of all other rows, relative to it.
+    double level_error() const { return simulator_.structure_error(); }
+
+private:
+    std::complex<double> seen_by_instrument(const Model& model, std::size_t number, std::complex<double> modulus) const;
+    double seen_of_structure(const Settings& settings, const Observation& observation, bool exact) const;
+    bool strain_varies(const Settings& settings, const Observation& observation) const;
+    Eigen::VectorXcd breaking_response(const Settings& settings, const Observation& observation, double before) const;
+    std::vector<Yielded> exact_breaking_response(const Settings& settings, const Observation& observation,
+                                                 const std::vector<double>& amplitudes) const;
+    std::complex<double> third_harmonic(const Settings& settings, const Observation& observation, double before) const;
+    double storage_while_breaking(const Settings& settings, const Observation& observation, double before, double phase) const;
+    std::vector<double> strains_before(std::size_t table) const;
+    std::vector<double> growing_strains(std::size_t table) const;
+    Eigen::VectorXcd exact_amplitude_factors(const Settings& settings) const;
+    std::vector<double> largest_strains_before() const;
+    Eigen::MatrixXcd amplitude_factors(const Settings& settings, bool exact) const;
+    std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
+    std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
+    Eigen::MatrixXcd material(const Model& model, bool exact) const;
+    Eigen::MatrixXcd moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const;
+    double degrees_of_errors(const Settings& settings, bool any) const;
+    const Eigen::MatrixXcd& remembered_material(const Model& model, bool exact) const;
+    Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
+
+    const Experiment& experiment_;
+    const std::vector<Observation>& observations_;
+    Simulator& simulator_;
+    std::vector<double> largest_strains_before_;
+    std::vector<double> torques_per_modulus_;
+    // The material of the last call: fits vary stiffness and instrument more often than anything else.
+    mutable Settings last_settings_;
+    mutable std::vector<ActingMechanism> last_acting_;
+    mutable Eigen::MatrixXcd last_material_;
+};
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,352 @@
+// coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
+#include "cli/verbs.hpp"
+#include "diagnose_new.hpp"
+#include "diagnose_power.hpp"
+#include "diagnosis_catalogue.hpp"
+#include "diagnosis_results.hpp"
+#include "diagnosis_run.hpp"
+#include "experiment_file.hpp"
+#include "measured_tables.hpp"
+#include "report.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/check_data.hpp>
+#include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/outliers.hpp>
+#include <coagula/diagnose/waveform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <optional>
+#include <sstream>
+
+namespace coagula::tools {
+
+namespace {
+
+using diagnose::CheckedMeasurement;
+using diagnose::NoiseModel;
+
+Json number_or_null(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json column_json(const diagnose::Column& column) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    std::size_t readable = 0;
+    for (const double value : column.values) {
+        if (std::isfinite(value)) {
+            low = std::min(low, value);
+            high = std::max(high, value);
+            ++readable;
+        }
+    }
+    return {{"name", column.name},        {"unit", column.unit},         {"readable", readable},
+            {"min", number_or_null(low)}, {"max", number_or_null(high)}, {"standard_errors", !column.standard_errors.empty()}};
+}
+
+std::optional<diagnose::WaveformHarmonics> harmonics_in(const diagnose::Measurement& table) {
+    return table.kind == diagnose::MeasurementKind::waveform ? diagnose::harmonics_of(table) : std::nullopt;
+}
+
+Json measurement_json(const CheckedMeasurement& checked, const TableFacts& facts) {
+    const diagnose::Measurement& table = checked.measurement;
+    Json json = {{"label", table.label},      {"kind", diagnose::name_of(table.kind)},
+                 {"sample", table.sample},    {"run_order", table.run_order},
+                 {"rows", table.rows()},      {"columns", Json::array()},
+                 {"left_out", Json::array()}, {"relations", Json::array()}};
+    for (const diagnose::Column& column : table.columns) {
+        json["columns"].push_back(column_json(column));
+    }
+    for (const diagnose::LeftOutCell& cell : table.left_out) {
+        json["left_out"].push_back(
+            {{"column", cell.column}, {"row", cell.row + 1}, {"value", cell.value}, {"reason", cell.reason}});
+    }
+    for (const diagnose::RelationResult& relation : checked.relations) {
+        json["relations"].push_back({{"name", relation.name}, {"rows", relation.rows}, {"failed", relation.failed}});
+    }
+    json["not_understood"] = facts.not_understood;
+    json["flags"] = Json::object();
+    for (const auto& [flag, rows] : facts.flags) {
+        json["flags"][flag] = rows;
+    }
+    if (const auto harmonics = harmonics_in(table)) {
+        json["harmonics"] = {{"strain", harmonics->strain},
+                             {"angular_frequency", harmonics->angular_frequency},
+                             {"storage_modulus", harmonics->storage_modulus},
+                             {"loss_modulus", harmonics->loss_modulus},
+                             {"third_harmonic", harmonics->third_harmonic},
+                             {"third_harmonic_storage", harmonics->third_harmonic_storage},
+                             {"third_harmonic_loss", harmonics->third_harmonic_loss},
+                             {"error", harmonics->error}};
+    }
+    return json;
+}
+
+std::string list_of(const std::vector<std::string>& headings) {
+    std::string list;
+    for (const std::string& heading : headings) {
+        list += (list.empty() ? "" : ", ") + heading;
+    }
+    return list;
+}
+
+/// "1-3, 7".
+std::string row_list(const std::vector<std::size_t>& rows) {
+    std::string text;
+    for (std::size_t i = 0; i < rows.size();) {
+        std::size_t end = i;
+        while (end + 1 < rows.size() && rows[end + 1] == rows[end] + 1) {
+            ++end;
+        }
+        text += (text.empty() ? "" : ", ") + std::to_string(rows[i] + 1) + (end > i ? "-" + std::to_string(rows[end] + 1) : "");
+        i = end + 1;
+    }
+    return text;
+}
+
+/// Three digits.
+std::string percent(double value) {
+    std::ostringstream text;
+    text << std::setprecision(3) << 100 * value << " %";
+    return text.str();
+}
+
+void add_measurement_lines(Table& lines, const CheckedMeasurement& checked) {
+    const diagnose::Measurement& table = checked.measurement;
+    lines.emplace_back(std::string(diagnose::name_of(table.kind)),
+                       table.label + ", sample '" + table.sample + "', " + std::to_string(table.rows()) + " rows");
+    std::string names;
+    for (const diagnose::Column& column : table.columns) {
+        names += (names.empty() ? "" : ", ") + column.name + (column.unit == "1" ? "" : " [" + column.unit + "]");
+    }
+    lines.emplace_back("  columns", names);
+    if (const auto harmonics = harmonics_in(table)) {
+        lines.emplace_back("  harmonics", "G' " + with_unit(harmonics->storage_modulus, "Pa") + ", G'' " +
+                                              with_unit(harmonics->loss_modulus, "Pa") + ", I3/I1 " +
+                                              percent(harmonics->third_harmonic) + " at a strain of " + percent(harmonics->strain));
+    }
+    std::map<std::string, std::vector<std::size_t>> rows;
+    std::map<std::string, std::string> reasons;
+    for (const diagnose::LeftOutCell& cell : table.left_out) {
+        rows[cell.column].push_back(cell.row);
+        reasons.emplace(cell.column, "'" + cell.value + "' " + cell.reason);
+    }
+    for (auto& [column, list] : rows) {
+        std::sort(list.begin(), list.end());
+        lines.emplace_back("  left out", column + ": " + std::to_string(list.size()) + (list.size() == 1 ? " cell" : " cells") +
+                                             ", rows " + row_list(list) + " (first: " + reasons[column] + ")");
+    }
+}
+
+/// Empty cells, flags of the instrument and columns that nobody has a meaning for.
+void add_fact_lines(Table& lines, const diagnose::Measurement& table, const TableFacts& facts) {
+    for (const diagnose::Column& column : table.columns) {
+        const auto without =
+            std::count_if(column.values.begin(), column.values.end(), [](double value) { return std::isnan(value); });
+        const auto left_out = std::count_if(table.left_out.begin(), table.left_out.end(),
+                                            [&](const diagnose::LeftOutCell& cell) { return cell.column == column.name; });
+        if (without > left_out) {
+            lines.emplace_back("  empty", column.name + ": " + std::to_string(without - left_out) + " of " +
+                                              std::to_string(column.values.size()) + " cells");
+        }
+    }
+    std::string flags;
+    for (const auto& [flag, rows] : facts.flags) {
+        flags += (flags.empty() ? "" : ", ") + flag + " in " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
+    }
+    if (!flags.empty()) {
+        lines.emplace_back("  flags", flags);
+    }
+    if (!facts.not_understood.empty()) {
+        lines.emplace_back("  not used", list_of(facts.not_understood) +
+                                             ": not understood; if one is needed: columns = { quantity = \"heading\" }");
+    }
+}
+
+void add_noise_lines(Table& lines, const NoiseModel& noise) {
+    const auto interval = [](const diagnose::Estimate& estimate, auto text) {
+        return text(estimate.value) +
+               (estimate.low < estimate.high ? " (" + text(estimate.low) + " to " + text(estimate.high) + ")" : "");
+    };
+    const auto in_unit = [&](double value) { return with_unit(value, noise.unit); };
+    const std::string floor = noise.floor_of_stress ? " and a floor of the stress of " : " and a floor of ";
+    lines.emplace_back("noise", noise.observable + " of " + std::string(diagnose::name_of(noise.kind)) + ": " + noise.statement);
+    lines.emplace_back("  per row",
+                       interval(noise.relative, percent) + (noise.floor.high > 0 ? floor + interval(noise.floor, in_unit) : ""));
+    std::string effects;
+    for (const diagnose::SampleEffect& effect : noise.sample_effects) {
+        effects += (effects.empty() ? ": " : ", ") + effect.sample + " " + percent(effect.effect);
+    }
+    lines.emplace_back("  per sample", interval(noise.sample, percent) + effects);
+    if (noise.rows_estimated) {
+        lines.emplace_back("  neighbours", "residuals in neighbouring rows correlate by " + with_unit(noise.autocorrelation, "1"));
+    }
+}
+
+bool same_numbers(const diagnose::Measurement& one, const diagnose::Measurement& other) {
+    const auto alike = [](const diagnose::Column& a, const diagnose::Column& b) {
+        return a.name == b.name && same_values(a.values, b.values);
+    };
+    return one.kind == other.kind &&
+           std::equal(one.columns.begin(), one.columns.end(), other.columns.begin(), other.columns.end(), alike);
+}
+
+/// Plans, and copies: replicates are never the same to the last digit.
+void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tables) {
+    for (auto table = tables.begin(); table != tables.end(); ++table) {
+        if (table->label.ends_with("(planned)")) {
+            throw InputError(table->label + ": a plan has no measured moduli; it is for --power");
+        }
+        const auto copy = std::find_if(tables.begin(), table, [&](const auto& other) { return same_numbers(*table, other); });
+        if (copy != table && table->kind != diagnose::MeasurementKind::waveform) {
+            throw InputError(table->label + ", sample '" + table->sample + "': the same numbers as in " + copy->label +
+                             ", sample '" + copy->sample + "'; give each measurement once");
+        }
+    }
+}
+
+/// What a table lacks that its kind needs; nothing where it lacks nothing.
+std::string missing_column(const diagnose::Measurement& table) {
+    const diagnose::TableRule rule = diagnose::rule_of(table.kind);
+    if (!rule.axes.empty() && diagnose::axis_of(table) == nullptr) {
+        return std::string(rule.axes.front());
+    }
+    const auto absent = std::find_if(rule.required.begin(), rule.required.end(),
+                                     [&](std::string_view name) { return diagnose::find_column(table, name) == nullptr; });
+    return absent == rule.required.end() ? "" : std::string(*absent);
+}
+
+/// The line that may make up for a missing column.
+std::string remedy(const diagnose::Measurement& table, const TableFacts& facts) {
+    const std::string missing = missing_column(table);
+    if (missing.empty() || facts.not_understood.empty()) {
+        return "";
+    }
+    const std::string& first = facts.not_understood.front();
+    return "; not understood are the columns " + list_of(facts.not_understood) +
+           ": if one of them is it, add to the measurement, say, " + "columns = { " + missing + " = \"" +
+           first.substr(1, first.size() - 2) + "\" }";
+}
+
+std::vector<CheckedMeasurement> check_all(const ExperimentFile& file) {
+    const std::vector<diagnose::Measurement>& measurements = file.experiment.measurements;
+    refuse_what_was_not_measured(measurements);
+    std::vector<CheckedMeasurement> checked;
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+        checked.push_back(diagnose::check_data(measurements[i]));
+        if (!checked.back().problems.empty()) {
+            throw InputError(checked.back().problems.front() + remedy(measurements[i], file.facts[i]));
+        }
+    }
+    return checked;
+}
+
+/// Options that this way of working would not heed.
+void refuse_options(const Arguments& arguments, const std::string& mode, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        if (arguments.has(name)) {
+            throw InputError("--" + name + " has no meaning " + mode);
+        }
+    }
+}
+
+void run(const Arguments& arguments) {
+    if (arguments.flag("catalogue")) {
+        print_catalogue(arguments);
+        return;
+    }
+    if (arguments.flag("new")) {
+        refuse_options(arguments, "with --new", {"check", "power", "causes", "data-sets", "diagnoses"});
+        run_new(arguments);
+        return;
+    }
+    if (arguments.flag("power")) {
+        refuse_options(arguments, "with --power", {"check"});
+        run_power(arguments);
+        return;
+    }
+    refuse_options(arguments, "without --power", {"data-sets", "diagnoses"});
+    if (arguments.flag("check")) {
+        refuse_options(arguments, "with --check, which writes nothing and tries no causes", {"output", "force", "causes"});
+    } else if (!arguments.has("output")) {
+        throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
+    }
+    ExperimentFile file = read_experiment(arguments.input());
+    const std::vector<CheckedMeasurement> checked = check_all(file);
+    std::vector<diagnose::Measurement> tables;
+    for (const CheckedMeasurement& entry : checked) {
+        tables.push_back(entry.measurement);
+    }
+    for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(tables)) {
+        file.notes.push_back(outlier.sentence);
+    }
+    const std::vector<NoiseModel> noises = diagnose::noise_of_tables(tables, file.noise);
+    if (!arguments.flag("check")) {
+        file.experiment.measurements = std::move(tables);
+        run_diagnosis(arguments, std::move(file), noises);
+        return;
+    }
+    Json json = {{"title", file.experiment.title},
+                 {"taken_over", Json::array()},
+                 {"measurements", Json::array()},
+                 {"noise", Json::array()},
+                 {"notes", file.notes}};
+    Table lines;
+    for (const TakenOver& value : file.taken_over) {
+        const bool is_number = value.text.empty();
+        json["taken_over"].push_back({{"name", value.name},
+                                      {"value", is_number ? Json(value.value) : Json(value.text)},
+                                      {"unit", value.unit},
+                                      {"source", value.source},
+                                      {"fate", value.fate}});
+        lines.emplace_back(value.name, (is_number ? with_unit(value.value, value.unit) : value.text) + ", from " + value.source +
+                                           " (" + value.fate + ")");
+    }
+    for (std::size_t i = 0; i < checked.size(); ++i) {
+        json["measurements"].push_back(measurement_json(checked[i], file.facts[i]));
+        add_measurement_lines(lines, checked[i]);
+        add_fact_lines(lines, checked[i].measurement, file.facts[i]);
+    }
+    for (const NoiseModel& noise : noises) {
+        json["noise"].push_back(noise_json(noise));
+        add_noise_lines(lines, noise);
+    }
+    for (const std::string& note : file.notes) {
+        lines.emplace_back("note", note);
+    }
+    report(arguments, json, lines);
+}
+
+}  // namespace
+
+Verb diagnose_verb() {
+    Verb verb{
+        .name = "diagnose",
+        .summary = "what the simulation gets wrong about measured moduli, and the cause",
+        .input = "EXPERIMENT.toml",
+        .options = {flag("new",
+                         "write a commented experiment file (-o, otherwise printed) from exports of instruments, DATA..., which "
+                         "then stand in place of EXPERIMENT.toml"),
+                    flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
+                    flag("power", "before anyone measures: which causes this experiment could find, and from which strength on"),
+                    flag("catalogue",
+                         "the causes that are known, with their parameters and priors, as a table; needs no experiment"),
+                    text("causes", "NAME,NAME...", "these only, instead of the whole catalogue"),
+                    count("data-sets", "of --power: simulated at each strength near a threshold (200)", "", within(20, 100000)),
+                    count("diagnoses", "of --power: full diagnoses of simulated data for each cause (4)", "", within(0, 10000))},
+        .run = run,
+        .notes = {"Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore "
+                  "curves "
+                  "are diagnosed; see docs/diagnosis.md."},
+        .many_beside = "new",
+        .alone = "catalogue"};
+    const std::vector<Option> own = diagnosis_options();
+    verb.options.insert(verb.options.end(), own.begin(), own.end());
+    return verb;
+}
+
+}  // namespace coagula::tools

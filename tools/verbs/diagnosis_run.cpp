@@ -1,0 +1,160 @@
+#include "diagnosis_run.hpp"
+
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
+#include "diagnosis_datasets.hpp"
+#include "diagnosis_page.hpp"
+#include "diagnosis_results.hpp"
+#include "experiment_structures.hpp"
+#include "result_folder.hpp"
+#include "simulation_cache.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/diagnose/model.hpp>
+#include <coagula/diagnose/stated_errors.hpp>
+#include <coagula/diagnose/waveform.hpp>
+#include <coagula/io/contact_model_file.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <set>
+
+namespace coagula::tools {
+
+namespace {
+
+using diagnose::Experiment;
+namespace fs = std::filesystem;
+
+/// What a model of the contact cannot have of a cause.
+std::string outside_of_contact(const std::string& name) {
+    const std::string parts = " + " + name + " + ";
+    std::string text;
+    for (const diagnose::Mechanism& mechanism : diagnose::catalogue()) {
+        if (!mechanism.in_contact && parts.find(" + " + mechanism.name + " + ") != parts.npos) {
+            text += "# " + mechanism.name + " is none of the contact, which follows without it.\n";
+        }
+    }
+    return text;
+}
+
+/// The contact of the best cause as a TOML file; empty when there is none or nothing shows its stiffness.
+std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
+    const auto& set = diagnosis.credible_set;
+    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
+                                   [&](const diagnose::Cause& cause) { return !set.empty() && cause.name == set.front(); });
+    const bool has_contact = best != diagnosis.causes.end() && !best->parameters.empty() && !diagnosis.base.parameters.empty();
+    if (!diagnosis.detected || !has_contact) {
+        return {};
+    }
+    return "# " + best->name + ": " + best->words + "\n" + outside_of_contact(best->name) +
+           io::contact_model_text(diagnose::contact_model_of(best->model, radius));
+}
+
+/// Whether a row of a structure series stands for a group; without their column the rows are counted.
+bool has_group(const diagnose::Measurement& table, double group) {
+    if (table.kind != diagnose::MeasurementKind::structure_series) {
+        return false;
+    }
+    const diagnose::Column* column = diagnose::find_column(table, "structure");
+    return column == nullptr ? group <= static_cast<double>(table.rows())
+                             : std::find(column->values.begin(), column->values.end(), group) != column->values.end();
+}
+
+/// Those of the file, and where the structures are not those of the sample.
+std::vector<std::string> notes_on(const Experiment& experiment, double radius, std::vector<std::string> notes) {
+    constexpr double noticeable = 0.05;
+    const std::vector<double>& fractions = experiment.structure_volume_fractions;
+    const double fraction = std::accumulate(fractions.begin(), fractions.end(), 0.0) / static_cast<double>(fractions.size());
+    const auto compare = [&](double there, double stated, const std::string& what, const std::string& key,
+                             const std::string& unit) {
+        if (std::abs(there - stated) > noticeable * stated) {
+            notes.push_back("the structures have a " + what + " of " + with_unit(there, unit) +
+                            ", with which they are simulated, but " + key + " is " + with_unit(stated, unit));
+        }
+    };
+    if (experiment.structure_groups.empty()) {
+        compare(fraction, experiment.sample.volume_fraction, "volume fraction", "sample.volume_fraction", "1");
+    }
+    compare(radius, experiment.sample.particle_radius, "particle radius", "sample.particle_radius", "m");
+    for (const std::size_t group : std::set(experiment.structure_groups.begin(), experiment.structure_groups.end())) {
+        const auto stands = [&](const diagnose::Measurement& table) { return has_group(table, static_cast<double>(group)); };
+        if (std::none_of(experiment.measurements.begin(), experiment.measurements.end(), stands)) {
+            notes.push_back("no row of a structure series is number " + std::to_string(group) + " of structures.groups");
+        }
+    }
+    return notes;
+}
+
+}  // namespace
+
+std::vector<Option> diagnosis_options() {
+    return {output("folder for report.html, diagnosis.json, diagnosis.h5, extended_model.toml and the cache of simulations"),
+            quantity("level", "1", "of the test whether anything is wrong", "0.05", within(1e-6, 0.5)),
+            count("bootstrap", "data sets drawn for the test", "999", within(99, 1000000)),
+            count("seed", "of the random numbers", "1", at_least(0)), flag("force", "replace an existing diagnosis")};
+}
+
+void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise) {
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    ResultFolder folder(arguments.text("output"), "diagnosis.json", {"report.html", "diagnosis.h5", "extended_model.toml"},
+                        arguments.flag("force"));
+    const Stopwatch clock;
+    diagnose::DiagnosisOptions options;
+    options.level = arguments.quantity("level");
+    options.bootstrap = static_cast<int>(arguments.count("bootstrap"));
+    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
+    if (arguments.has("causes")) {
+        options.causes = split(arguments.text("causes"));
+        diagnose::require_causes(options.causes);
+    }
+    diagnose::state_errors(file.experiment, noise);
+    diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
+    diagnose::reduce_waveforms(file.experiment, file.noise.stated_relative, file.noise.stated_phase);
+    ExperimentStructures structures = naming(arguments.input(), [&] { return structures_of(file.experiment, progress); });
+
+    diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
+    const double radius = mean_radius(structures.packings.front());
+    const std::vector<std::string> sentences = structure_sentences(file.experiment, structures);
+    diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
+                                  file.experiment.structure_groups);
+    simulator.use(std::move(structures.stages));
+    const diagnose::Diagnosis diagnosis =
+        naming(arguments.input(), [&] { return diagnose::diagnose(file.experiment, simulator, options, progress); });
+
+    const std::string contact = model_text(diagnosis, radius);
+    const std::string model = contact.empty() ? "" : (folder.path() / "extended_model.toml").string();
+    if (contact.empty()) {
+        folder.withdraw("extended_model.toml");
+    } else {
+        folder.write("extended_model.toml", contact);
+    }
+    const DiagnosisRecord record{file.experiment, diagnosis,     noise, describe_call(arguments, nullptr, clock),
+                                 sentences,       options.level, model, notes_on(file.experiment, radius, file.notes)};
+    Gnuplot gnuplot;
+    folder.write("report.html", diagnosis_page(record, gnuplot));
+    std::vector<std::string> notes = record.notes;
+    if (!gnuplot.problem().empty()) {
+        notes.push_back(gnuplot.problem());
+    }
+    io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
+    folder.write("simulations.txt", cache_text(cache));
+    Json json = to_json(diagnosis, noise, model);
+    json["notes"] = notes;
+    json["report"] = (folder.path() / "report.html").string();
+    json["seconds"] = clock.seconds();
+    folder.write("diagnosis.json", json.dump(2) + "\n");
+    folder.publish();
+    Table table = table_of(diagnosis);
+    for (const std::string& note : notes) {
+        table.emplace_back("note", note);
+    }
+    table.emplace_back("written to", folder.path().string() + ", page for people: " + (folder.path() / "report.html").string());
+    report(arguments, json, table);
+}
+
+}  // namespace coagula::tools

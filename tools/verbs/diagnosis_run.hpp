@@ -1,0 +1,19 @@
+// coagula diagnose: structures, noise, diagnosis, files.
+#pragma once
+
+#include "cli/arguments.hpp"
+#include "experiment_file.hpp"
+
+#include <coagula/diagnose/noise.hpp>
+
+#include <vector>
+
+namespace coagula::tools {
+
+/// Options beside --check.
+std::vector<Option> diagnosis_options();
+
+/// Diagnoses an experiment whose tables have passed the checks and writes diagnosis.json and extended_model.toml into --output.
+void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise);
+
+}  // namespace coagula::tools

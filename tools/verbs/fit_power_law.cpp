@@ -1,0 +1,231 @@
+// coagula fit power-law: G' = c (a - a0)^beta through a table of moduli, and what the table says about a0.
+#include "cli/output_file.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
+#include "cli/verbs.hpp"
+#include "report.hpp"
+
+#include <coagula/io/table.hpp>
+#include <coagula/mechanics/power_law.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace coagula::tools {
+
+namespace {
+
+using mechanics::PowerLaw;
+using mechanics::PowerLawAnalysis;
+using mechanics::PowerLawData;
+using mechanics::PowerLawFit;
+using mechanics::PowerLawMinimum;
+
+PowerLawData read_data(const Arguments& arguments) {
+    const std::optional<double> unit = arguments.optional_quantity("modulus-unit");
+    const bool error_named = arguments.has("standard-error");
+    const std::vector<Eigen::VectorXd> columns =
+        io::read_table(arguments.input(), {{.name = arguments.text("a"), .unit = "1"},
+                                           {.name = arguments.text("modulus"), .unit = "Pa", .default_unit = unit},
+                                           {.name = arguments.text("standard-error", "standard_error"),
+                                            .unit = "Pa",
+                                            .default_unit = unit,
+                                            .required = error_named}});
+    return {columns[0], columns[1], columns[2]};
+}
+
+PowerLawAnalysis analyse(const Arguments& arguments, const PowerLawData& data) {
+    const mechanics::PowerLawOptions options{.confidence = arguments.quantity("confidence"), .points = arguments.count("points")};
+    try {
+        return mechanics::fit_power_law(data, options, make_progress(arguments.flag("quiet")));
+    } catch (const std::invalid_argument& error) {
+        throw InputError(arguments.input() + ": " + error.what());
+    }
+}
+
+std::string name_of(PowerLawMinimum minimum) {
+    switch (minimum) {
+        case PowerLawMinimum::far_away:
+            return "far_away";
+        case PowerLawMinimum::lowest_a:
+            return "lowest_a";
+        case PowerLawMinimum::inside:
+            break;
+    }
+    return "inside";
+}
+
+/// What the data say about a threshold, one sentence.
+std::string summary(const PowerLawFit& fit) {
+    if (fit.law.beta <= 0) {
+        return "the modulus does not rise with a: a0 is no threshold";
+    }
+    if (fit.minimum == PowerLawMinimum::far_away) {
+        return "the sum of squares falls as far down as a0 was sought: the moduli grow like an exponential, without a threshold";
+    }
+    if (fit.minimum == PowerLawMinimum::lowest_a) {
+        return "the sum of squares falls until a0 reaches the smallest a: the lowest structure stands apart, and it alone sets a0";
+    }
+    if (fit.bounded_below && fit.bounded_above) {
+        return "the structures bound a0 on both sides";
+    }
+    if (fit.bounded_below || fit.bounded_above) {
+        return fit.bounded_below ? "the structures do not bound a0 from above: any value up to the smallest a is possible"
+                                 : "the structures do not bound a0 from below: the law may have no threshold at all";
+    }
+    return "the structures do not bound a0";
+}
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json to_json(const PowerLawFit& fit) {
+    return {{"a0", number(fit.law.a0)},
+            {"a0_stderr", number(fit.a0_stderr)},
+            {"a0_interval", {number(fit.a0_low), number(fit.a0_high)}},
+            {"bounded_below", fit.bounded_below},
+            {"bounded_above", fit.bounded_above},
+            {"beta", number(fit.law.beta)},
+            {"beta_stderr", number(fit.beta_stderr)},
+            {"c", number(fit.law.c())},
+            {"log_c", number(fit.law.log_c)},
+            {"log_c_stderr", number(fit.log_c_stderr)},
+            {"sum_of_squares", number(fit.law.sum_of_squares)},
+            {"degrees_of_freedom", fit.degrees_of_freedom},
+            {"minimum", name_of(fit.minimum)}};
+}
+
+Json to_json(const Eigen::VectorXd& values) {
+    return std::vector<double>(values.begin(), values.end());
+}
+
+/// One array for each column of the profile.
+Json to_json(const mechanics::PowerLawProfile& profile) {
+    Json json = {{"a0", Json::array()}, {"beta", Json::array()}, {"log_c", Json::array()}, {"sum_of_squares", Json::array()}};
+    for (const PowerLaw& law : profile.laws) {
+        json["a0"].push_back(law.a0);
+        json["beta"].push_back(law.beta);
+        json["log_c"].push_back(law.log_c);
+        json["sum_of_squares"].push_back(law.sum_of_squares);
+    }
+    json["confidence"] = to_json(profile.confidence);
+    return json;
+}
+
+Json to_json(const PowerLawAnalysis& found, const PowerLawData& data) {
+    Json json = {{"structures", data.a.size()}, {"weighted", data.standard_error.size() > 0}};
+    json.update(to_json(found.fit));
+    json["summary"] = summary(found.fit);
+    Json without = Json::array();
+    for (std::size_t k = 0; k < found.without.size(); ++k) {
+        Json entry = {{"structure", k + 1}, {"a", data.a[static_cast<Index>(k)]}};
+        entry.update(to_json(found.without[k]));
+        without.push_back(std::move(entry));
+    }
+    json["without"] = std::move(without);
+    json["decisive_structure"] = found.decisive < 0 ? Json(nullptr) : Json(found.decisive + 1);
+    json["profile"] = to_json(found.profile);
+    json["data"] = {{"a", to_json(data.a)}, {"modulus", to_json(data.modulus)}, {"standard_error", to_json(data.standard_error)}};
+    return json;
+}
+
+std::string with_error(double value, double error) {
+    return with_unit(value, "1") + (std::isfinite(error) ? " +- " + with_unit(error, "1") : "");
+}
+
+/// @param smallest_a of the structures that were fitted; five digits may not tell it from the upper end.
+std::string interval(const PowerLawFit& fit, double smallest_a) {
+    const std::string low = fit.bounded_below ? with_unit(fit.a0_low, "1") : "unbounded";
+    const std::string high = with_unit(fit.a0_high, "1");
+    if (!fit.bounded_above) {
+        return low + " .. " + high + " (the smallest a)";
+    }
+    const bool told_apart = high != with_unit(smallest_a, "1");
+    return low + " .. " + high + (told_apart ? "" : " (" + with_unit(smallest_a - fit.a0_high, "1") + " below the smallest a)");
+}
+
+double smallest_a_without(const PowerLawData& data, std::size_t left_out) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (Index k = 0; k < data.a.size(); ++k) {
+        smallest = static_cast<std::size_t>(k) == left_out ? smallest : std::min(smallest, data.a[k]);
+    }
+    return smallest;
+}
+
+Table table_of(const PowerLawAnalysis& found, const PowerLawData& data, double confidence) {
+    const PowerLawFit& fit = found.fit;
+    const std::string percent = with_unit(100 * confidence, "1") + " %";
+    const bool weighted = data.standard_error.size() > 0;
+    Table table{{"structures", std::to_string(data.a.size()) + (weighted ? ", weighted by their standard errors" : "")},
+                {"critical value a0", with_error(fit.law.a0, fit.a0_stderr)},
+                {"  " + percent + " interval", interval(fit, data.a.minCoeff())},
+                {"exponent beta", with_error(fit.law.beta, fit.beta_stderr)},
+                {"factor c", with_unit(fit.law.c(), "Pa")},
+                {"sum of squares", with_unit(fit.law.sum_of_squares, weighted ? "1" : "Pa2") + " with " +
+                                       std::to_string(fit.degrees_of_freedom) + " degrees of freedom"},
+                {"", summary(fit)}};
+    for (std::size_t k = 0; k < found.without.size(); ++k) {
+        const PowerLawFit& rest = found.without[k];
+        if (!std::isfinite(rest.law.a0)) {
+            continue;
+        }
+        const bool decisive = static_cast<Index>(k) == found.decisive;
+        table.emplace_back("without a = " + with_unit(data.a[static_cast<Index>(k)], "1"),
+                           "a0 " + with_unit(rest.law.a0, "1") + ", " + percent + " interval " +
+                               interval(rest, smallest_a_without(data, k)) + ", beta " + with_unit(rest.law.beta, "1") +
+                               (decisive ? "   <- moves a0 most" : ""));
+    }
+    return table;
+}
+
+void write_profile(const std::string& path, const mechanics::PowerLawProfile& profile, const std::string& unit, bool overwrite) {
+    std::vector<std::vector<std::string>> rows{{"a0", "beta", "log_c", "sum_of_squares [" + unit + "]", "confidence"}};
+    for (std::size_t k = 0; k < profile.laws.size(); ++k) {
+        const PowerLaw& law = profile.laws[k];
+        rows.push_back({to_text(law.a0), to_text(law.beta), to_text(law.log_c), to_text(law.sum_of_squares),
+                        profile.confidence.size() > 0 ? to_text(profile.confidence[static_cast<Index>(k)]) : ""});
+    }
+    io::write_rows(path, rows, overwrite);
+}
+
+void run(const Arguments& arguments) {
+    const Stopwatch clock;
+    const bool force = arguments.flag("force");
+    if (arguments.has("output")) {
+        check_output(arguments.text("output"), force);
+    }
+    const PowerLawData data = read_data(arguments);
+    const PowerLawAnalysis found = analyse(arguments, data);
+    Json json = to_json(found, data);
+    json["confidence"] = arguments.quantity("confidence");
+    Table table = table_of(found, data, arguments.quantity("confidence"));
+    check_finite(json);
+    if (arguments.has("output")) {
+        write_profile(arguments.text("output"), found.profile, data.standard_error.size() > 0 ? "1" : "Pa2", force);
+        json["output"] = arguments.text("output");
+        table.emplace_back("profile written to", arguments.text("output"));
+    }
+    json["seconds"] = clock.seconds();
+    report(arguments, json, table);
+}
+
+}  // namespace
+
+Verb fit_power_law_verb() {
+    return {.name = "fit power-law",
+            .summary = "G' = c (a - a0)^beta through a table of moduli, with the profile of a0",
+            .input = "TABLE.csv",
+            .options = {text("a", "NAME", "column of the degree of heterogeneity", "a"),
+                        text("modulus", "NAME", "column of the shear modulus, its unit in the header: modulus [MPa]", "modulus"),
+                        text("standard-error", "NAME", "column of its standard error; standard_error, if there, when not given"),
+                        quantity("modulus-unit", "Pa", "one unit of columns that name none", "", physical::modulus),
+                        quantity("confidence", "1", "of the interval of a0", "0.95", within(1e-6, 0.999999)),
+                        count("points", "of the profile", "300", within(10, 10000)), output("write the profile as CSV"),
+                        flag("force", "replace an existing output file")},
+            .run = run,
+            .notes = {"Least squares in the modulus; with standard errors weighted, which are then taken as they are."}};
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,266 @@
+// coagula generate brownian: coagulation of a stabilised suspension by Brownian dynamics.
+#include "brownian_checkpoint.hpp"
+#include "brownian_results.hpp"
+#include "cli/checkpoint_file.hpp"
+#include "cli/checkpoint_lock.hpp"
+#include "cli/output_file.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
+#include "cli/verbs.hpp"
+#include "generate.hpp"
+#include "potential_options.hpp"
+#include "report.hpp"
+#include "size_distribution_text.hpp"
+
+#include <coagula/generators/brownian_dynamics.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <filesystem>
+
+namespace coagula::tools {
+
+namespace {
+
+using namespace generators;
+
+BrownianOptions brownian_options(const Arguments& arguments) {
+    BrownianOptions options;
+    options.temperature = arguments.quantity("temperature");
+    options.viscosity = arguments.quantity("viscosity");
+    options.slowing = arguments.quantity("slowing");
+    options.resistance = {.tangential_stiffness = arguments.optional_quantity("tangential-stiffness").value_or(unset),
+                          .friction = arguments.optional_quantity("friction").value_or(unset),
+                          .rolling_stiffness = arguments.optional_quantity("rolling-stiffness").value_or(unset),
+                          .rolling_friction = arguments.optional_quantity("rolling-friction").value_or(unset)};
+    options.cutoff_gap = arguments.optional_quantity("cutoff-gap").value_or(unset);
+    options.integrator = arguments.text("integrator") == "euler" ? Integrator::euler : Integrator::stabilised;
+    options.sedimentation = {.gravity = arguments.optional_quantity("gravity").value_or(unset),
+                             .density_difference = arguments.optional_quantity("density-difference").value_or(unset)};
+    options.time_step = arguments.optional_quantity("time-step").value_or(unset);
+    options.stop_time = arguments.optional_quantity("stop-time").value_or(unset);
+    options.stop_coordination = arguments.optional_quantity("stop-coordination").value_or(unset);
+    const std::string plateau = arguments.text("stop-plateau");
+    options.stop_plateau = plateau == "coordination" ? PlateauOf::coordination
+                           : plateau == "mean-gap"   ? PlateauOf::mean_gap
+                                                     : PlateauOf::nothing;
+    options.plateau_time = arguments.optional_quantity("plateau-time").value_or(unset);
+    options.plateau_change = arguments.quantity("plateau-change");
+    options.contact_tolerance = arguments.quantity("contact-tolerance");
+    options.sample_interval = arguments.optional_quantity("sample-interval").value_or(unset);
+    for (const std::string& time : split(arguments.text("snapshots", ""))) {
+        options.snapshot_times.push_back(parse_quantity(time, "s", physical::duration));
+    }
+    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
+    return options;
+}
+
+/// Random positions, brought to equilibrium at a high surface potential.
+Packing stabilised_suspension(const Arguments& arguments, const BrownianOptions& run, const Progress& progress) {
+    if (!arguments.has("volume-fraction")) {
+        throw InputError("coagula generate brownian needs --volume-fraction, or --start");
+    }
+    SuspensionOptions options;
+    options.volume_fraction = arguments.quantity("volume-fraction");
+    options.seed = run.seed;
+    options.radii = draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
+                               arguments.count("particles"), options.seed);
+    const Packing placed = place_suspension(options, progress);
+    BrownianOptions equilibration = run;
+    equilibration.time_step = unset;
+    equilibration.integrator = Integrator::stabilised;
+    equilibration.stop_coordination = unset;
+    equilibration.stop_plateau = PlateauOf::nothing;
+    equilibration.resistance = {};
+    equilibration.sedimentation = {};
+    equilibration.sample_interval = unset;
+    equilibration.snapshot_times.clear();
+    equilibration.noise = RandomPurpose::equilibration;
+    const PairPotential potential = make_potential(arguments, mean_radius(placed), arguments.quantity("equilibration-potential"));
+    // A quarter of the diffusion time: the degree of heterogeneity has long been constant then.
+    const double diffusion_time =
+        choose_time_step(potential, mean_radius(placed), mean_radius(placed), equilibration).diffusion_time;
+    equilibration.stop_time = arguments.optional_quantity("equilibration-time").value_or(0.25 * diffusion_time);
+    const Progress renamed([&progress](std::string_view, double fraction, std::string_view remark) {
+        progress.update("equilibration", fraction, remark);
+        return true;
+    });
+    return simulate_brownian(placed, potential, equilibration, renamed).packing;
+}
+
+/// What must be the same for a run to go on.
+std::string fingerprint(const Arguments& arguments) {
+    Json options = arguments.to_json();
+    for (const char* name : {"output", "force", "quiet", "json", "threads", "checkpoint", "checkpoint-interval", "picture"}) {
+        options.erase(name);
+    }
+    return options.dump();
+}
+
+/// The run, from its checkpoint if there is one.
+BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, const PairPotential& potential,
+                          const BrownianOptions& options, const Progress& progress) {
+    const std::string path = arguments.text("checkpoint", "");
+    if (path.empty()) {
+        return simulate_brownian(start, potential, options, progress);
+    }
+    const CheckpointLock lock(path);
+    const std::string signature = fingerprint(arguments) + io::positions_sha256(start);
+    std::optional<BrownianCheckpoint> resumed;
+    if (std::filesystem::exists(path)) {
+        resumed = read_brownian_checkpoint(path, signature);
+    } else {
+        check_output(path, false);
+    }
+    BrownianControl control;
+    control.resume = resumed ? &*resumed : nullptr;
+    const double interval = arguments.quantity("checkpoint-interval");
+    Stopwatch since;
+    control.checkpoint_due = [&] { return since.seconds() > interval; };
+    control.on_checkpoint = [&](const BrownianCheckpoint& checkpoint) {
+        write_checkpoint(path, signature, checkpoint);
+        since = Stopwatch();
+    };
+    return with_checkpoint(path, [&] { return simulate_brownian(start, potential, options, progress, control); });
+}
+
+void run(const Arguments& arguments) {
+    const Stopwatch clock;
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    std::optional<Packing> start;
+    if (arguments.has("start")) {
+        start = io::read_structure(arguments.text("start")).packing;
+    }
+    const double radius = start ? mean_radius(*start) : arguments.optional_quantity("radius").value_or(unset);
+    if (arguments.flag("potential-curve")) {
+        if (std::isnan(radius)) {
+            throw InputError("--potential-curve needs --radius");
+        }
+        report_potential(arguments, make_potential(arguments, radius), radius);
+        return;
+    }
+    if (!arguments.has("output")) {
+        throw InputError("coagula generate brownian needs --output (see 'coagula generate brownian --help')");
+    }
+    const std::string output = arguments.text("output");
+    check_output(output, arguments.flag("force"));
+    BrownianOptions options = brownian_options(arguments);
+    if (std::isnan(options.stop_time) && std::isnan(options.stop_coordination) && options.stop_plateau == PlateauOf::nothing) {
+        throw InputError("coagula generate brownian needs --stop-time, --stop-coordination or --stop-plateau");
+    }
+    if (arguments.text("hydrodynamics") == "mean-field" && (start || arguments.has("volume-fraction"))) {
+        options.slowing *= mean_field_slowing(start ? volume_fraction(*start) : arguments.quantity("volume-fraction"));
+    }
+    const std::optional<Packing> input = start;
+    if (!start) {
+        // Wrong options of the potential shall not wait for the equilibration.
+        if (!std::isnan(radius)) {
+            choose_time_step(make_potential(arguments, radius), radius, radius, options);
+        }
+        start = stabilised_suspension(arguments, options, progress);
+    }
+    const PairPotential potential = make_potential(arguments, mean_radius(*start));
+    const BrownianRun made = run_or_resume(arguments, *start, potential, options, progress);
+
+    progress.update("writing", 1.0);
+    io::Structure structure{made.packing, made.contacts, {}, made.time};
+    for (const Snapshot& snapshot : made.snapshots) {
+        structure.earlier.push_back({snapshot.time, snapshot.positions});
+    }
+    Results results = datasets_of(made, potential, options);
+    if (arguments.flag("heterogeneity")) {
+        const Results measured = heterogeneity_of(made, *start, options, progress);
+        results.insert(results.end(), measured.begin(), measured.end());
+    }
+    check_finite(results);
+    io::write_structure(output, structure, {}, results, describe_call(arguments, input ? &*input : nullptr, clock),
+                        arguments.flag("force"));
+    Json json = to_json(results, "/generation/brownian");
+    json["particles"] = made.packing.size();
+    json["volume_fraction"] = volume_fraction(made.packing);
+    json["seed"] = options.seed;
+    json["output"] = output;
+    json["seconds"] = clock.seconds();
+    Table table = table_of(made);
+    table.emplace_back("time", with_unit(clock.seconds(), "s"));
+    table.emplace_back("written to", output);
+    report(arguments, json, table);
+}
+
+/// As long as 15 mV take to a coordination of 5.4 (docs/brownian.md), in R^2/D; their barrier is 6 kT high.
+constexpr double longest_coagulation = 4;
+constexpr double highest_barrier = 8;     // kT
+constexpr double sample_interval = 5e-4;  // R^2/D, as of a run that ends by its coordination alone
+
+}  // namespace
+
+Packing coagulated_packing(const Arguments& arguments, const Progress& progress) {
+    BrownianOptions options = brownian_options(arguments);
+    const double radius = arguments.quantity("radius");
+    const PairPotential potential = make_potential(arguments, radius);
+    const double barrier = potential.barrier_height(radius) / (boltzmann_constant * options.temperature);
+    if (barrier > highest_barrier) {
+        throw InputError("nothing coagulates against a barrier of " + to_text(barrier) + " kT");
+    }
+    const double diffusion_time = choose_time_step(potential, radius, radius, options).diffusion_time;
+    options.stop_time = longest_coagulation * diffusion_time;
+    options.sample_interval = sample_interval * diffusion_time;
+    const Packing start = stabilised_suspension(arguments, options, progress);
+    BrownianRun made = simulate_brownian(start, potential, options, progress);
+    if (made.ended_by != "coordination") {
+        throw InputError("within " + to_text(longest_coagulation) + " R^2/D the coordination comes to " +
+                         to_text(made.coordination) + " only, against a barrier of " + to_text(barrier) + " kT");
+    }
+    return std::move(made.packing);
+}
+
+Verb generate_brownian_verb() {
+    std::vector<Option> options = {
+        count("particles", "number of particles", "8000", within(2, 1e8)),
+        quantity("volume-fraction", "1", "volume of the spheres over that of the box; required without --start", "",
+                 between(0, 0.55)),
+        particle_radius("mean radius of the particles; required, unless a table or a file gives the radii"),
+        text("size-distribution", "NAME", "monodisperse, normal:S, lognormal:S or FILE.csv", "monodisperse"),
+        text("start", "FILE", "go on from the packing in this file instead of a suspension in equilibrium"),
+        quantity("equilibration-potential", "V", "surface potential at which the suspension is brought to equilibrium", "50mV",
+                 within(1e-6, 1)),
+        quantity("equilibration-time", "s", "of that, a quarter of R^2/D when not given", "", physical::duration)};
+    for (Option& option : potential_options()) {
+        options.push_back(std::move(option));
+    }
+    const std::vector<Option> rest = {
+        quantity("viscosity", "Pa s", "of the liquid", "1e-3", within(1e-9, 1e9)),
+        quantity("slowing", "1", "share of the free diffusion that hydrodynamics leave on average", "1", within(1e-6, 1)),
+        choice("hydrodynamics", {"none", "mean-field"}, "mean-field: slowed by (1 - 1.56 phi)(1 - 0.27 phi) besides", "none"),
+        quantity("tangential-stiffness", "N/m", "of contacts; they slide freely when not given", "", physical::stiffness),
+        quantity("friction", "1", "contacts slip beyond this times their elastic normal force; never when not given", "",
+                 physical::friction),
+        quantity("rolling-stiffness", "N/m", "of contacts; they roll freely when not given", "", physical::stiffness),
+        quantity("rolling-friction", "1", "the same limit of the rolling resistance; none when not given", "", physical::friction),
+        quantity("gravity", "m/s2", "particles settle towards a floor; not when not given", "", within(1e-9, 1e9)),
+        quantity("density-difference", "kg/m3", "of particles and liquid, with --gravity", "", within(-1e6, 1e6)),
+        choice("integrator", {"stabilised", "euler"}, "SK-ROCK or Euler-Maruyama", "stabilised"),
+        quantity("time-step", "s", "chosen from the potential when not given", "", physical::time),
+        quantity("stop-time", "s", "simulated time at the end", "", physical::duration),
+        quantity("stop-coordination", "1", "or mean number of contacts at the end, at a sample", "", between(0, 12)),
+        choice("stop-plateau", {"none", "coordination", "mean-gap"}, "or as soon as this is level", "none"),
+        quantity("plateau-time", "s", "its means over the two halves of this time are compared; R^2/D/10 when not given", "",
+                 physical::time),
+        quantity("plateau-change", "1", "relative difference below which it is level", "0.01", within(1e-12, 1)),
+        quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01", within(0, 0.1)),
+        quantity("sample-interval", "s", "of the time series; stop time/200 when not given", "", physical::time),
+        text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),
+        flag("heterogeneity", "measure the degree of heterogeneity at the start, at the snapshots and at the end"),
+        text("checkpoint", "FILE", "state of the run; a run that finds the file goes on from it"),
+        quantity("checkpoint-interval", "s", "between checkpoints, of wall-clock time", "60s", physical::duration),
+        count("seed", "of the random numbers", "1", at_least(0)),
+        output("HDF5 file to write"),
+        flag("force", "replace an existing file")};
+    options.insert(options.end(), rest.begin(), rest.end());
+    return {.name = "generate brownian",
+            .summary = "coagulate a stabilised suspension by Brownian dynamics with DLVO forces",
+            .input = "",
+            .options = std::move(options),
+            .run = run};
+}
+
+}  // namespace coagula::tools

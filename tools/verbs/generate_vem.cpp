@@ -1,0 +1,119 @@
+// coagula generate vem: a packing of chosen heterogeneity by the void expansion method.
+#include "cli/output_file.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
+#include "cli/verbs.hpp"
+#include "generate.hpp"
+#include "report.hpp"
+#include "size_distribution_text.hpp"
+
+#include <coagula/generators/void_expansion.hpp>
+#include <coagula/io/structure_file.hpp>
+
+namespace coagula::tools {
+
+namespace {
+
+generators::VoidExpansionOptions expansion_options(const Arguments& arguments) {
+    generators::VoidExpansionOptions options;
+    options.particles = arguments.count("particles");
+    options.voids = arguments.has("voids") ? arguments.count("voids") : options.particles / 2;
+    options.volume_fraction = arguments.quantity("volume-fraction");
+    options.target_coordination = arguments.quantity("target-coordination");
+    options.contact_tolerance = arguments.quantity("contact-tolerance");
+    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
+    options.radii =
+        generators::draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
+                               options.particles, options.seed);
+    return options;
+}
+
+Json to_json(const generators::VoidExpansion& made, const generators::VoidExpansionOptions& options) {
+    const Eigen::Vector3d box = made.packing.cell.lengths();
+    return {{"particles", made.packing.size()},
+            {"voids", options.voids},
+            {"volume_fraction", volume_fraction(made.packing)},
+            {"box", {box.x(), box.y(), box.z()}},
+            {"coordination", made.coordination},
+            {"target_coordination", options.target_coordination},
+            {"contact_tolerance", options.contact_tolerance},
+            {"overlap", {{"rms", made.overlap_rms}, {"max", made.overlap_max}}},
+            {"void_radius", made.void_radius},
+            {"increments", made.increments},
+            {"steps", made.steps},
+            {"seed", options.seed}};
+}
+
+/// The expansion stops at the first packing that reaches the target. One sentence where that lies well above it, otherwise empty.
+std::string overshoot(const generators::VoidExpansion& made, double target) {
+    constexpr double close = 0.1;
+    return made.coordination - target < close
+               ? ""
+               : "the coordination number is " + with_unit(made.coordination, "1") + ", well above the target of " +
+                     with_unit(target, "1") + "; more particles or another seed come closer";
+}
+
+void run(const Arguments& arguments) {
+    const Stopwatch clock;
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    const std::string output = arguments.text("output");
+    const bool force = arguments.flag("force");
+    check_output(output, force);
+    const generators::VoidExpansionOptions options = expansion_options(arguments);
+
+    const generators::VoidExpansion made = generators::expand_voids(options, progress);
+    Json json = to_json(made, options);
+    check_finite(json);
+    progress.update("writing", 1.0);
+    io::write_structure(output, {made.packing, made.contacts}, {}, {}, describe_call(arguments, nullptr, clock), force);
+
+    json["output"] = output;
+    json["seconds"] = clock.seconds();
+    Table table{
+        {"particles", std::to_string(made.packing.size()) + ", " + std::to_string(options.voids) + " voids"},
+        {"box", describe(made.packing.cell)},
+        {"volume fraction", with_unit(volume_fraction(made.packing), "1")},
+        {"coordination number", with_unit(made.coordination, "1") + ", asked for " + with_unit(options.target_coordination, "1")},
+        {"overlap",
+         with_unit(100 * made.overlap_rms, "%") + " rms, " + with_unit(100 * made.overlap_max, "%") + " max of the diameter"},
+        {"void radius at the end", with_unit(made.void_radius, "m")},
+        {"time", with_unit(clock.seconds(), "s")},
+        {"written to", output}};
+    json["notes"] = Json::array();
+    if (const std::string note = overshoot(made, options.target_coordination); !note.empty()) {
+        json["notes"].push_back(note);
+        table.emplace_back("note", note);
+    }
+    report(arguments, json, table);
+}
+
+}  // namespace
+
+Packing expanded_packing(const Arguments& arguments, const Progress& progress) {
+    return generators::expand_voids(expansion_options(arguments), progress).packing;
+}
+
+Verb generate_vem_verb() {
+    return {
+        .name = "generate vem",
+        .summary = "make a packing of chosen heterogeneity by void expansion",
+        .input = "",
+        .options = {count("particles", "number of particles", "8000", within(3, 1e8)),
+                    count("voids", "number of void particles, fewer make it more heterogeneous; half of N when not given", "",
+                          within(0, 1e9)),
+                    required(quantity("volume-fraction", "1", "volume of the spheres over that of the box", "", between(0, 0.64))),
+                    particle_radius("mean radius of the particles; required, unless a table gives the radii"),
+                    text("size-distribution", "NAME",
+                         "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) "
+                         "or FILE.csv",
+                         "monodisperse"),
+                    quantity("target-coordination", "1", "mean number of contacts at which the expansion stops", "4.69",
+                             between(0, 6)),
+                    quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01",
+                             between(0, 0.1)),
+                    count("seed", "of the random numbers", "1", at_least(0)), required(output("HDF5 file to write")),
+                    flag("force", "replace an existing file")},
+        .run = run};
+}
+
+}  // namespace coagula::tools

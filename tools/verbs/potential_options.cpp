@@ -1,0 +1,180 @@
+#include "potential_options.hpp"
+
+#include "cli/output_file.hpp"
+#include "potential_picture.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/io/input_file.hpp>
+#include <coagula/io/units.hpp>
+
+#include <cmath>
+#include <sstream>
+
+namespace coagula::tools {
+
+namespace {
+
+using namespace generators;
+
+// The contact when no option says otherwise, in units of kB T and the radius: stiff enough that no bond breaks by accident.
+constexpr double contact_stiffness = 4e5;
+constexpr double equilibrium_gap = 0.004;
+
+double thermal_energy(const Arguments& arguments) {
+    return boltzmann_constant * arguments.quantity("temperature");
+}
+
+double screening_length(const Arguments& arguments) {
+    if (!arguments.has("ionic-strength")) {
+        return arguments.has("debye-length") ? arguments.quantity("debye-length") : 10e-9;
+    }
+    if (arguments.has("debye-length")) {
+        throw InputError("--debye-length and --ionic-strength say the same thing: give one of them");
+    }
+    return debye_length(arguments.quantity("ionic-strength"), arguments.quantity("permittivity"),
+                        arguments.quantity("temperature"));
+}
+
+/// Two columns with a unit each: "gap [nm],energy [J]".
+TabulatedLaw read_table(const std::string& path) {
+    std::istringstream file(io::read_file(path));
+    std::string line;
+    std::getline(file, line);
+    const std::vector<std::string> names = split(line);
+    const auto unit_of = [&](std::size_t column, const std::string& name, const std::string& unit) {
+        const std::string text = column < names.size() ? names[column] : "";
+        const auto open = text.find('[');
+        const auto close = text.find(']');
+        if (text.find(name) == std::string::npos || open == std::string::npos || close == std::string::npos || close < open) {
+            throw InputError(path + ": the first line must name the columns 'gap [unit]' and 'energy [unit]'");
+        }
+        return io::unit_factor(text.substr(open + 1, close - open - 1), unit);
+    };
+    const double length = unit_of(0, "gap", "m");
+    const double energy = unit_of(1, "energy", "J");
+    std::vector<double> gaps;
+    std::vector<double> energies;
+    for (std::size_t number = 2; std::getline(file, line); ++number) {
+        if (line.find_first_not_of(" \t\r") == std::string::npos) {
+            continue;
+        }
+        const std::vector<std::string> words = split(line);
+        try {
+            gaps.push_back(length * io::parse_quantity(words.at(0), "1"));
+            energies.push_back(energy * io::parse_quantity(words.at(1), "1"));
+        } catch (const std::exception&) {
+            throw InputError(path + ", line " + std::to_string(number) + ": '" + line + "' is not two numbers");
+        }
+    }
+    return {std::move(gaps), std::move(energies)};
+}
+
+std::vector<PairLaw> dlvo_laws(const Arguments& arguments, const PairRadii& radii, double surface_potential) {
+    const DoubleLayer layer{.surface_potential = surface_potential,
+                            .debye_length = screening_length(arguments),
+                            .relative_permittivity = arguments.quantity("permittivity"),
+                            .temperature = arguments.quantity("temperature"),
+                            .valency = static_cast<int>(arguments.count("valency"))};
+    std::vector<PairLaw> laws{HamakerAttraction(arguments.quantity("hamaker-constant"), radii)};
+    if (arguments.text("double-layer") == "superposition") {
+        laws.emplace_back(LinearSuperposition(layer, radii));
+    } else {
+        laws.emplace_back(HoggHealyFuerstenau(layer, radii));
+    }
+    return laws;
+}
+
+}  // namespace
+
+std::vector<Option> potential_options() {
+    return {quantity("surface-potential", "V", "of the particles; required, unless a table gives the potential", "", within(-1, 1)),
+            quantity("debye-length", "m", "of the double layer, 10 nm when not given", "", physical::length),
+            quantity("ionic-strength", "mol/m3", "of a z:z electrolyte, instead of the Debye length", "", within(1e-9, 1e5)),
+            choice("double-layer", {"superposition", "hogg-healy-fuerstenau"}, "law of the double layers", "superposition"),
+            quantity("hamaker-constant", "J", "of the van der Waals attraction", "4.76e-20J", within(0, 1e-15)),
+            quantity("permittivity", "1", "of the liquid, relative", "81", within(1, 1e4)),
+            count("valency", "of the electrolyte", "1", within(1, 10)),
+            quantity("yukawa-energy", "J", "of a Yukawa force besides, at contact", "", within(-1e-15, 1e-15)),
+            quantity("yukawa-length", "m", "screening length of the Yukawa force", "", physical::length),
+            text("potential-table", "FILE", "CSV with columns 'gap [unit],energy [unit]' instead of these laws"),
+            quantity("contact-stiffness", "N/m", "of the elastic contact below a cut-off gap; 4e5 kB T/R^2 when not given", "",
+                     physical::stiffness),
+            quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "",
+                     physical::length),
+            quantity("cutoff-gap", "m", "no forces beyond; R when not given", "", physical::length),
+            quantity("temperature", "K", "of the suspension", "293K", within(1, 1e4)),
+            flag("potential-curve", "print the potential over the gap instead of a run"),
+            text("picture", "FILE", "with --potential-curve: draw it with gnuplot, .png or .svg")};
+}
+
+PairPotential make_potential(const Arguments& arguments, double radius, std::optional<double> surface_potential) {
+    const PairRadii radii{radius, radius};
+    std::vector<PairLaw> laws;
+    if (arguments.has("potential-table") && !surface_potential) {
+        if (arguments.has("surface-potential")) {
+            throw InputError("--potential-table and --surface-potential exclude each other");
+        }
+        laws.emplace_back(read_table(arguments.text("potential-table")));
+    } else {
+        if (!surface_potential && !arguments.has("surface-potential")) {
+            throw InputError("coagula generate brownian needs --surface-potential or --potential-table");
+        }
+        laws = dlvo_laws(arguments, radii, surface_potential ? *surface_potential : arguments.quantity("surface-potential"));
+    }
+    if (arguments.has("yukawa-energy") != arguments.has("yukawa-length")) {
+        throw InputError("--yukawa-energy and --yukawa-length need each other");
+    }
+    if (arguments.has("yukawa-energy")) {
+        laws.emplace_back(Yukawa(arguments.quantity("yukawa-energy"), arguments.quantity("yukawa-length"), radii));
+    }
+    const double stiffness = arguments.has("contact-stiffness") ? arguments.quantity("contact-stiffness")
+                                                                : contact_stiffness * thermal_energy(arguments) / (radius * radius);
+    const double gap = arguments.has("equilibrium-gap") ? arguments.quantity("equilibrium-gap") : equilibrium_gap * radius;
+    return {std::move(laws), {stiffness, gap}};
+}
+
+void report_potential(const Arguments& arguments, const PairPotential& potential, double radius) {
+    const double farthest = arguments.has("cutoff-gap") ? arguments.quantity("cutoff-gap") : radius;
+    const double thermal = thermal_energy(arguments);
+    const double first = 0.5 * potential.contact().equilibrium_gap;
+    const double ratio = std::pow(farthest / first, 1.0 / 200);
+    PotentialCurve curve;
+    for (double gap = first; gap < farthest * 1.000001; gap *= ratio) {
+        curve.gap.push_back(gap);
+        curve.energy.push_back(potential.energy(gap) / thermal);
+        curve.force.push_back(potential.force(gap));
+    }
+    const auto extreme = [&](const std::optional<Extreme>& found) {
+        return found ? Json{{"gap", found->gap}, {"energy_kT", found->energy / thermal}} : Json(nullptr);
+    };
+    const auto described = [&](const std::optional<Extreme>& found) {
+        return found ? with_unit(found->energy / thermal, "kT") + " at a gap of " + with_unit(found->gap, "m")
+                     : std::string("none");
+    };
+    const Json json = {{"barrier_height_kT", potential.barrier_height(farthest) / thermal},
+                       {"barrier", extreme(potential.barrier(farthest))},
+                       {"secondary_minimum", extreme(potential.secondary_minimum(farthest))},
+                       {"contact", extreme(potential.contact_minimum())},
+                       {"cut_gap", potential.cut_gap()},
+                       {"contact_stiffness", potential.contact().stiffness},
+                       {"curve", {{"gap", curve.gap}, {"energy_kT", curve.energy}, {"force", curve.force}}}};
+    check_finite(json);
+    if (arguments.has("picture")) {
+        check_picture_name(arguments.text("picture"));
+        check_output(arguments.text("picture"), arguments.flag("force"));
+        draw_potential(arguments.text("picture"), curve, arguments.flag("force"));
+    }
+    Table table = {{"barrier height", with_unit(potential.barrier_height(farthest) / thermal, "kT")},
+                   {"barrier", described(potential.barrier(farthest))},
+                   {"secondary minimum", described(potential.secondary_minimum(farthest))},
+                   {"contact", described(potential.contact_minimum())},
+                   {"elastic below a gap of", with_unit(potential.cut_gap(), "m")},
+                   {"gap [m]", "energy [kT], force [N]"}};
+    for (std::size_t row = 0; row < curve.gap.size(); row += 5) {
+        table.emplace_back(with_unit(curve.gap[row], "1"),
+                           with_unit(curve.energy[row], "1") + ", " + with_unit(curve.force[row], "1"));
+    }
+    report(arguments, json, table);
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,97 @@
+#include "rheometer_run.hpp"
+
+#include "cli/checkpoint_file.hpp"
+#include "cli/checkpoint_lock.hpp"
+#include "network_keys.hpp"
+#include "orientation_list.hpp"
+#include "rheometer_checkpoint.hpp"
+#include "rheometer_results.hpp"
+
+#include <coagula/io/contact_model_file.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <filesystem>
+#include <optional>
+
+namespace coagula::tools {
+
+namespace {
+
+/// What must be the same for a run to go on: everything but where results go.
+std::string fingerprint(const Arguments& arguments, const Packing& packing, const ContactModel& model) {
+    nlohmann::ordered_json options = arguments.to_json();
+    for (const char* name : {"output", "force", "quiet", "json", "threads", "checkpoint", "input", "model"}) {
+        options.erase(name);
+    }
+    return options.dump() + "\n" + io::contact_model_text(model) + io::positions_sha256(packing);
+}
+
+}  // namespace
+
+std::vector<Option> rheometer_options() {
+    return {choice("boundary", {"plates", "periodic"}, "dem: plates of three layers, or a periodic cell that is sheared", "plates"),
+            quantity("amplitude", "1", "dem: strain of the last oscillation; they grow linearly", "0.001", within(1e-15, 1)),
+            flag("constant-amplitude", "dem: all oscillations have that strain"),
+            count("oscillations", "dem: number of oscillations", "10", within(1, 100000)),
+            count("steps-per-oscillation", "dem: time steps, a multiple of 100", "24000", within(100, 100000000)),
+            quantity("damping", "1", "dem: coefficient of the local damping", "0.9", within(0, 0.999)),
+            quantity("density", "kg/m3", "dem: of the particles, to tell by how much masses are scaled", "3690kg/m3",
+                     within(1e-3, 1e6)),
+            choice("rest-length", {"found", "radii"},
+                   "dem, quasistatic: bonds are unstressed as found, or at a distance of r_i + r_j", "found"),
+            text("orientation", "LIST", "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all", "all"),
+            text("checkpoint", "FILE", "dem: state after every oscillation; a run that finds the file goes on from it")};
+}
+
+mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,
+                                                 const std::vector<double>& frequencies) {
+    if (frequencies.size() > 1) {
+        throw InputError("--method dem runs at one frequency, but " + std::to_string(frequencies.size()) + " are given");
+    }
+    mechanics::RheometerOptions options;
+    options.model = model;
+    options.boundary =
+        arguments.text("boundary") == "plates" ? mechanics::RheometerBoundary::plates : mechanics::RheometerBoundary::periodic;
+    options.amplitude = arguments.quantity("amplitude");
+    options.growing = !arguments.flag("constant-amplitude");
+    options.oscillations = static_cast<int>(arguments.count("oscillations"));
+    options.frequency = frequencies.empty() ? options.frequency : frequencies.front();
+    options.steps_per_oscillation = static_cast<int>(arguments.count("steps-per-oscillation"));
+    options.damping = arguments.quantity("damping");
+    options.density = arguments.quantity("density");
+    options.unstressed_as_found = arguments.text("rest-length") == "found";
+    return options;
+}
+
+Findings rheometer_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
+                            const ContactModel& model, const std::vector<double>& frequencies, const Progress& progress) {
+    const mechanics::RheometerOptions options = rheometer_options_of(arguments, model, frequencies);
+    const auto orientations = parse_orientations(arguments.text("orientation"));
+    const std::string path = arguments.text("checkpoint", "");
+    const std::string signature = path.empty() ? "" : fingerprint(arguments, packing, model);
+
+    std::optional<CheckpointLock> lock;
+    if (!path.empty()) {
+        lock.emplace(path);
+    }
+    std::optional<mechanics::RheometerCheckpoint> resumed;
+    if (!path.empty() && std::filesystem::exists(path)) {
+        resumed = read_checkpoint(path, signature);
+    }
+    mechanics::RheometerControl control;
+    control.resume = resumed ? &*resumed : nullptr;
+    if (!path.empty()) {
+        control.on_checkpoint = [&](const mechanics::RheometerCheckpoint& checkpoint) {
+            write_checkpoint(path, signature, checkpoint);
+        };
+    }
+    const mechanics::RheometerResult result =
+        with_checkpoint(path, [&] { return mechanics::run_rheometer(packing, bonds, options, orientations, progress, control); });
+    Findings found{.group = "/mechanics/dem",
+                   .results = datasets_of(result, options, arguments.quantity("bond-tolerance")),
+                   .table = table_of(result, options)};
+    append_network_keys(found.results, "/mechanics/dem/", packing, bonds, model, progress);
+    return found;
+}
+
+}  // namespace coagula::tools

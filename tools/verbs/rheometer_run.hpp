@@ -1,0 +1,28 @@
+// coagula shear --method dem: the explicit rheometer.
+#pragma once
+
+#include "cli/arguments.hpp"
+#include "shear_findings.hpp"
+
+#include <coagula/common/contact_model.hpp>
+#include <coagula/common/contact_network.hpp>
+#include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
+#include <coagula/mechanics/rheometer.hpp>
+
+#include <vector>
+
+namespace coagula::tools {
+
+/// What only this method needs.
+std::vector<Option> rheometer_options();
+
+/// What the options say. @param frequencies at most one; empty: 1 Hz.
+mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,
+                                                 const std::vector<double>& frequencies);
+
+/// Runs the test, from --checkpoint if that file is there.
+Findings rheometer_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
+                            const ContactModel& model, const std::vector<double>& frequencies, const Progress& progress);
+
+}  // namespace coagula::tools

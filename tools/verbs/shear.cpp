@@ -1,0 +1,232 @@
+// coagula shear: elastic response of the bonded packing, or its response to harmonic strain.
+#include "cli/output_file.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
+#include "cli/verbs.hpp"
+#include "free_surface.hpp"
+#include "frequency_list.hpp"
+#include "frequency_results.hpp"
+#include "load_structure_results.hpp"
+#include "quasistatic_run.hpp"
+#include "report.hpp"
+#include "rheometer_run.hpp"
+#include "shear_findings.hpp"
+#include "shear_results.hpp"
+
+#include <coagula/common/contact_network.hpp>
+#include <coagula/io/contact_model_file.hpp>
+#include <coagula/io/structure_file.hpp>
+#include <coagula/mechanics/relaxation.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+namespace coagula::tools {
+
+namespace {
+
+mechanics::LinearSolver chosen_solver(const std::string& name) {
+    if (name == "direct") {
+        return mechanics::LinearSolver::direct;
+    }
+    return name == "iterative" ? mechanics::LinearSolver::iterative : mechanics::LinearSolver::automatic;
+}
+
+/// The contact: springs from the options, and what the model file says.
+ContactModel contact_model(const Arguments& arguments) {
+    const ContactModel springs{.normal_stiffness = arguments.quantity("normal-stiffness"),
+                               .shear_stiffness = arguments.quantity("shear-stiffness")};
+    return arguments.has("model") ? io::read_contact_model(arguments.text("model"), springs) : springs;
+}
+
+/// Losses act at a frequency only.
+void check_elastic(const Arguments& arguments, const ContactModel& model) {
+    for (const ContactParameter& parameter : contact_parameters()) {
+        if (parameter.role == ContactRole::loss && parameter.is_set(model)) {
+            throw InputError(arguments.text("model") + " has " + parameter.name +
+                             ", a loss that acts at a frequency only: give --frequency or --frequency-sweep");
+        }
+    }
+}
+
+/// Parameters that the model has but that play no part at vanishing strain, by name.
+std::string without_effect(const ContactModel& model) {
+    std::string names;
+    for (const ContactParameter& parameter : contact_parameters()) {
+        if (parameter.role == ContactRole::limit && parameter.is_set(model)) {
+            names += (names.empty() ? "" : ", ") + parameter.name;
+        }
+    }
+    return names;
+}
+
+/// Says in the results what of the model did not act.
+void append_without_effect(Findings& found, const ContactModel& model) {
+    const std::string names = without_effect(model);
+    if (!names.empty()) {
+        found.results.push_back(
+            io::text(found.group + "/without_effect", names, "parameters of the model that play no part at vanishing strain"));
+        found.table.emplace_back("without effect", names + ": nothing breaks, slips or ages at vanishing strain");
+    }
+}
+
+mechanics::LinearOptions linear_options(const Arguments& arguments, const ContactModel& model) {
+    mechanics::LinearOptions options;
+    options.normal_stiffness = model.normal_stiffness;
+    options.shear_stiffness = model.shear_stiffness;
+    options.solver = chosen_solver(arguments.text("solver"));
+    options.memory_limit = arguments.quantity("memory-limit");
+    options.tolerance = arguments.quantity("tolerance");
+    options.modulus_tolerance = arguments.quantity("modulus-tolerance");
+    return options;
+}
+
+/// The network at rest, if the user asks for it.
+std::optional<mechanics::RelaxedNetwork> relaxed(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
+                                                 const ContactModel& model, const Progress& progress) {
+    const std::string& scheme = arguments.text("relax");
+    if (scheme == "none") {
+        return std::nullopt;
+    }
+    if (!std::isnan(model.prestress)) {
+        throw InputError("--relax brings bonds of rest length r_i + r_j to rest and takes them as unstressed there, but " +
+                         arguments.text("model") +
+                         " has prestress, which every bond as found would carry again; --method quasistatic and dem bring a "
+                         "prestressed network to rest themselves");
+    }
+    if (!std::isnan(model.young_modulus)) {
+        throw InputError("--relax knows linear springs only, but " + arguments.text("model") +
+                         " has young_modulus; --method quasistatic and dem with --rest-length radii bring such contacts to rest");
+    }
+    mechanics::RelaxationOptions options;
+    options.normal_stiffness = model.normal_stiffness;
+    options.shear_stiffness = model.shear_stiffness;
+    options.scheme = scheme == "paper" ? mechanics::RelaxationScheme::stopped_steps : mechanics::RelaxationScheme::minimise;
+    return mechanics::relax(packing, bonds, options, progress);
+}
+
+void append_load_structure(Findings& found, const mechanics::LoadStructure& structure, bool periodic) {
+    for (io::Dataset& dataset : load_structure_datasets(structure, periodic)) {
+        found.results.push_back(std::move(dataset));
+    }
+    for (io::ParticleField& field : load_structure_fields(structure)) {
+        found.fields.push_back(std::move(field));
+    }
+    for (auto& line : load_structure_table(structure)) {
+        found.table.push_back(std::move(line));
+    }
+    found.bond_results = bond_datasets(structure);
+    found.bond_fields = load_structure_bond_fields(structure);
+}
+
+/// @param before the packing before it was relaxed, which tells inside and surface.
+Findings linear_response(const Arguments& arguments, const Packing& before, const Packing& packing, const ContactNetwork& bonds,
+                         const ContactModel& model, const Progress& progress) {
+    mechanics::LinearOptions options = linear_options(arguments, model);
+    options.bond_tangents = mechanics::bond_tangents(packing, bonds, model);
+    if (!before.cell.is_periodic()) {
+        hold_surface(before, options);
+    }
+    const mechanics::LinearResponse response = mechanics::solve_linear(packing, bonds, options, progress);
+    Findings found{.group = "/mechanics/linear",
+                   .results = datasets_of(response, arguments.quantity("bond-tolerance"), options),
+                   .fields = fields_of(response),
+                   .table = table_of(response)};
+    append_load_structure(found, mechanics::find_load_structure(packing, bonds, response, {.held = options.held}),
+                          packing.cell.is_periodic());
+    return found;
+}
+
+Findings frequency_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,
+                            const ContactModel& model, const std::vector<double>& frequencies, const Progress& progress) {
+    const auto response = mechanics::solve_frequency_sweep(packing, bonds, model, frequencies,
+                                                           {.tolerance = arguments.quantity("tolerance")}, progress);
+    return {.group = "/mechanics/frequency",
+            .results = datasets_of(response, arguments.quantity("bond-tolerance"), model),
+            .table = table_of(response)};
+}
+
+void run(const Arguments& arguments) {
+    const Stopwatch clock;
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    const std::vector<double> frequencies = frequencies_of(arguments);
+    const ContactModel model = contact_model(arguments);
+    const bool explicit_run = arguments.text("method") == "dem";
+    const bool quasistatic = arguments.text("method") == "quasistatic";
+    if (frequencies.empty() && !explicit_run && !quasistatic) {
+        check_elastic(arguments, model);
+    }
+    const Packing packing = io::read_structure(arguments.input()).packing;
+    const std::string target = checked_target(arguments);
+
+    const ContactNetwork bonds = find_contacts(packing, arguments.quantity("bond-tolerance"));
+    const auto rest = relaxed(arguments, packing, bonds, model, progress);
+    const Packing& sheared = rest ? rest->packing : packing;
+    const ContactNetwork& network = rest ? rest->bonds : bonds;
+    Findings found = explicit_run          ? rheometer_response(arguments, sheared, network, model, frequencies, progress)
+                     : quasistatic         ? quasistatic_response(arguments, sheared, network, model, frequencies, progress)
+                     : frequencies.empty() ? linear_response(arguments, packing, sheared, network, model, progress)
+                                           : frequency_response(arguments, sheared, network, model, frequencies, progress);
+    if (!explicit_run && !quasistatic) {
+        append_without_effect(found, model);
+    }
+    if (rest) {
+        append_relaxation(found.group, found.results, found.fields, *rest);
+    }
+    progress.update("writing", 1.0);
+    Json json = to_json(found.results, found.group);
+    std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
+    check_finite(found.results);
+    io::add_results(arguments.input(), target, {found.group}, bonds, found.fields, found.results,
+                    describe_call(arguments, &packing, clock), arguments.flag("force"), found.bond_fields);
+
+    if (json.value("floppy_modes", 0) < 0) {
+        json["floppy_modes"] = nullptr;
+    }
+    json["output"] = target;
+    json["seconds"] = clock.seconds();
+    found.table.emplace_back("written to", target);
+    report(arguments, json, found.table);
+}
+
+}  // namespace
+
+Verb shear_verb() {
+    Verb verb{
+        .name = "shear",
+        .summary = "shear modulus and elastic tensor of the bonded packing",
+        .input = "FILE.h5",
+        .options = {choice("method", {"linear", "quasistatic", "dem"}, "how the response is computed", "linear"),
+                    quantity("normal-stiffness", "N/m", "normal stiffness of a particle, two in series make a contact", "100N/m",
+                             physical::stiffness),
+                    quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", within(0, 1e15)),
+                    quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
+                    text("frequency", "LIST", "response to harmonic strain at these frequencies instead, such as 1Hz,10Hz"),
+                    text("frequency-sweep", "FROM:TO:N", "the same at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
+                    text("model", "FILE.toml", "the contact in full and the solvent (docs/contact-model.md)"),
+                    choice("relax", {"none", "minimise", "paper"},
+                           "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero",
+                           "none"),
+                    choice("solver", {"auto", "direct", "iterative"}, "of the linear equations", "auto"),
+                    quantity("memory-limit", "byte", "memory of the direct solver; beyond it 'auto' iterates", "4GB",
+                             within(1, 1e18)),
+                    quantity("tolerance", "1", "direct solver: relative residual of every strain", "1e-10", within(1e-14, 1e-2)),
+                    quantity("modulus-tolerance", "1", "iterative solver: estimated relative error of the moduli", "1e-5",
+                             within(1e-12, 1e-2)),
+                    output("write to a new file; results are added to the input file when not given"),
+                    flag("force", "replace an existing output file")},
+        .run = run,
+        .notes = {"With --method dem one --frequency counts (default 1Hz); masses are scaled so that it can be stepped through.",
+                  "With --frequency the springs may have losses (--model); of the solver's options the tolerance counts.",
+                  "Strengths, friction and ageing play no part at vanishing strain: linear and --frequency results name them.",
+                  "--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
+                  "With --method quasistatic and neither --amplitudes nor --ramp: secant moduli at a strain of 1e-6."}};
+    for (const std::vector<Option>& own : {rheometer_options(), quasistatic_options()}) {
+        verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
+    }
+    return verb;
+}
+
+}  // namespace coagula::tools
