@@ -1,11 +1,11 @@
 // coagula calibrate: shear modulus against the stiffness of the particles, and the stiffness that matches measured moduli.
+#include "free_surface.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "cli/verbs.hpp"
-#include "free_surface.hpp"
 #include "report.hpp"
 #include "rheometer_run.hpp"
+#include "cli/verbs.hpp"
 
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>

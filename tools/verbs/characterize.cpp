@@ -3,8 +3,8 @@
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "cli/verbs.hpp"
 #include "report.hpp"
+#include "cli/verbs.hpp"
 
 #include <coagula/io/structure_file.hpp>
 

@@ -1,9 +1,9 @@
 #include "diagnose_power.hpp"
 
-#include "cli/progress_bar.hpp"
-#include "cli/provenance.hpp"
 #include "experiment_file.hpp"
 #include "experiment_structures.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
 #include "report.hpp"
 #include "result_folder.hpp"
 #include "simulation_cache.hpp"

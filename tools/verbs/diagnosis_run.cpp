@@ -1,11 +1,11 @@
 #include "diagnosis_run.hpp"
 
-#include "cli/progress_bar.hpp"
-#include "cli/provenance.hpp"
 #include "diagnosis_datasets.hpp"
 #include "diagnosis_page.hpp"
 #include "diagnosis_results.hpp"
 #include "experiment_structures.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
 #include "result_folder.hpp"
 #include "simulation_cache.hpp"
 

@@ -1,7 +1,7 @@
 // coagula export: coordinates (and bonds) as text for other programs.
 #include "cli/output_file.hpp"
-#include "cli/verbs.hpp"
 #include "report.hpp"
+#include "cli/verbs.hpp"
 
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/text_formats.hpp>

@@ -3,14 +3,14 @@
 #include "brownian_results.hpp"
 #include "cli/checkpoint_file.hpp"
 #include "cli/checkpoint_lock.hpp"
+#include "generate.hpp"
 #include "cli/output_file.hpp"
+#include "potential_options.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "cli/verbs.hpp"
-#include "generate.hpp"
-#include "potential_options.hpp"
 #include "report.hpp"
 #include "size_distribution_text.hpp"
+#include "cli/verbs.hpp"
 
 #include <coagula/generators/brownian_dynamics.hpp>
 #include <coagula/io/structure_file.hpp>

@@ -1,11 +1,11 @@
 // coagula generate vem: a packing of chosen heterogeneity by the void expansion method.
+#include "generate.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "cli/verbs.hpp"
-#include "generate.hpp"
 #include "report.hpp"
 #include "size_distribution_text.hpp"
+#include "cli/verbs.hpp"
 
 #include <coagula/generators/void_expansion.hpp>
 #include <coagula/io/structure_file.hpp>

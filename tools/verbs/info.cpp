@@ -1,6 +1,6 @@
 // coagula info: what is in a file.
-#include "cli/verbs.hpp"
 #include "report.hpp"
+#include "cli/verbs.hpp"
 
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>

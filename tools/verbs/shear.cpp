@@ -1,17 +1,17 @@
 // coagula shear: elastic response of the bonded packing, or its response to harmonic strain.
-#include "cli/output_file.hpp"
-#include "cli/progress_bar.hpp"
-#include "cli/provenance.hpp"
-#include "cli/verbs.hpp"
 #include "free_surface.hpp"
 #include "frequency_list.hpp"
 #include "frequency_results.hpp"
 #include "load_structure_results.hpp"
+#include "cli/output_file.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
 #include "quasistatic_run.hpp"
 #include "report.hpp"
 #include "rheometer_run.hpp"
 #include "shear_findings.hpp"
 #include "shear_results.hpp"
+#include "cli/verbs.hpp"
 
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/contact_model_file.hpp>

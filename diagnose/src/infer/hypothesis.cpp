@@ -1,9 +1,9 @@
 #include "hypothesis.hpp"
 
-#include "data/median.hpp"
 #include "departures.hpp"
-#include "noise/weights.hpp"
+#include "data/median.hpp"
 #include "simulate/quiet_log.hpp"
+#include "noise/weights.hpp"
 
 #include <ceres/ceres.h>
 #include <Eigen/Cholesky>

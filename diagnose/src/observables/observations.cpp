@@ -1,8 +1,8 @@
 #include "observations.hpp"
 
-#include "data/table_cells.hpp"
 #include "neighbour_shells.hpp"
 #include "pore_curves.hpp"
+#include "data/table_cells.hpp"
 
 #include <coagula/common/checks.hpp>
 

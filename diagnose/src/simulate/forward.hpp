@@ -6,8 +6,8 @@
 #include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
-#include "noise/prediction.hpp"
 #include "observables/observations.hpp"
+#include "noise/prediction.hpp"
 
 #include <Eigen/Core>
 
