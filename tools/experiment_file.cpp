@@ -5,6 +5,7 @@
 #include "toml_keys.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/diagnose/tool_constants.hpp>
 #include <coagula/io/measured_file.hpp>
 
 #include <algorithm>
@@ -41,6 +42,7 @@ public:
         read_measurements();
         result_.taken_over = metadata_.give_to(result_.experiment);
         result_.facts.resize(result_.experiment.measurements.size());
+        naming(path_, [&] { derive_moduli(); });
         naming(path_, [&] { diagnose::check(result_.experiment); });
         return std::move(result_);
     }
@@ -65,6 +67,7 @@ private:
     void read_noise();
     void read_expectation();
     void read_measurements();
+    void derive_moduli();
     void read_measurement(const toml::table& table, std::size_t number);
     diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const;
     ColumnRules column_rules(TomlKeys& keys) const;
@@ -73,6 +76,7 @@ private:
     toml::table root_;
     ExperimentFile result_;
     ExportMetadata metadata_;
+    std::vector<std::size_t> raw_moduli_;  ///< measurements whose moduli are to be those of torque and raw phase
 };
 
 void ExperimentReader::read_sample() {
@@ -108,6 +112,10 @@ void ExperimentReader::read_instrument() {
     instrument.cone_angle = keys.quantity("cone_angle", "rad").value_or(unset);
     instrument.inner_radius = keys.quantity("inner_radius", "m").value_or(unset);
     instrument.outer_radius = keys.quantity("outer_radius", "m").value_or(unset);
+    instrument.bob_length = keys.quantity("bob_length", "m").value_or(unset);
+    instrument.end_correction = keys.quantity("end_correction", "1").value_or(1);
+    instrument.stress_constant = keys.quantity("stress_constant", "Pa/(N.m)").value_or(unset);
+    instrument.strain_constant = keys.quantity("strain_constant", "1/rad").value_or(unset);
     instrument.tool_inertia = keys.quantity("tool_inertia", "kg.m2").value_or(unset);
     instrument.instrument_inertia = keys.quantity("instrument_inertia", "kg.m2").value_or(unset);
     instrument.tool_compliance = keys.quantity("tool_compliance", "rad/(N.m)").value_or(unset);
@@ -186,6 +194,12 @@ void ExperimentReader::read_noise() {
             keys.fail("stated_phase", "must lie between 0 and 1 rad");
         }
         result_.noise.stated_phase = *value;
+    }
+    if (const auto value = keys.quantity("stated_correlation", "1")) {
+        if (!(*value >= 0 && *value < 1)) {
+            keys.fail("stated_correlation", "must be 0 or more and below 1");
+        }
+        result_.noise.stated_correlation = *value;
     }
     keys.refuse_other_keys();
 }
@@ -331,6 +345,17 @@ TableSetting read_setting(TomlKeys& keys, std::size_t number) {
     return setting;
 }
 
+/// Once the tool is known, to which exports may contribute.
+void ExperimentReader::derive_moduli() {
+    std::vector<diagnose::Measurement>& tables = result_.experiment.measurements;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const bool raw = std::find(raw_moduli_.begin(), raw_moduli_.end(), i) != raw_moduli_.end();
+        if (!tables[i].label.ends_with("(planned)")) {
+            diagnose::derive_moduli(tables[i], result_.experiment.instrument, raw);
+        }
+    }
+}
+
 /// The table, its columns named by the list `columns` where the file has no headings.
 io::PlainTable with_names(TomlKeys& keys, io::PlainTable table, const ColumnRules& rules, const std::string& label) {
     if (table.has_headings && !rules.names.empty()) {
@@ -350,6 +375,15 @@ io::PlainTable with_names(TomlKeys& keys, io::PlainTable table, const ColumnRule
         }
     }
     return table;
+}
+
+/// Whether moduli are to be those of torque, deflection and raw phase.
+bool moduli_are_raw(TomlKeys& keys) {
+    const std::string moduli = keys.text("moduli").value_or("as-given");
+    if (moduli != "raw" && moduli != "as-given") {
+        keys.fail("moduli", "'" + moduli + "' is neither raw nor as-given");
+    }
+    return moduli == "raw";
 }
 
 void ExperimentReader::read_measurement(const toml::table& table, std::size_t number) {
@@ -376,6 +410,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
     const std::vector<const io::PlainTable*> tables = chosen_tables(keys, file, *kind);
     const ColumnRules rules = column_rules(keys);
     const TableSelection selection = read_selection(keys);
+    const bool raw = moduli_are_raw(keys);
     keys.refuse_other_keys();
     const std::size_t first = result_.experiment.measurements.size();
     for (const io::PlainTable* chosen : tables) {
@@ -388,6 +423,9 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +
                                     " points, but has " + std::to_string(chosen->rows()));
+        }
+        if (raw) {
+            raw_moduli_.push_back(result_.experiment.measurements.size());
         }
         result_.experiment.measurements.push_back(std::move(measurement));
         result_.facts.resize(result_.experiment.measurements.size());

@@ -17,19 +17,36 @@ using diagnose::Experiment;
 using diagnose::Instrument;
 
 /// The geometry first: it says which of the others make sense. Radii of cylinders go together.
-constexpr std::array names = {"geometry",     "plate_radius",       "gap",
-                              "cone_angle",   "inner_radius",       "outer_radius",
-                              "tool_inertia", "instrument_inertia", "tool_compliance"};
+constexpr std::array names = {"geometry",        "plate_radius",   "gap",          "cone_angle",         "inner_radius",
+                              "outer_radius",    "bob_length",     "tool_inertia", "instrument_inertia", "tool_compliance",
+                              "stress_constant", "strain_constant"};
+
+/// Values that an instrument has together or not at all.
+constexpr std::array pairs = {std::pair{"inner_radius", "outer_radius"}, std::pair{"stress_constant", "strain_constant"}};
+
+std::string partner_of(const std::string& name) {
+    for (const auto& [one, other] : pairs) {
+        if (name == one || name == other) {
+            return name == one ? other : one;
+        }
+    }
+    return "";
+}
+
+/// Whether the experiment file gives a size of the tool: then the constants of an export may be those of another.
+bool gives_size(const Instrument& instrument) {
+    return std::isfinite(instrument.plate_radius) || std::isfinite(instrument.gap) || std::isfinite(instrument.cone_angle) ||
+           std::isfinite(instrument.inner_radius) || std::isfinite(instrument.bob_length);
+}
 
 double& field(Instrument& instrument, const std::string& name) {
-    static const std::map<std::string, double Instrument::*> fields = {{"plate_radius", &Instrument::plate_radius},
-                                                                       {"gap", &Instrument::gap},
-                                                                       {"cone_angle", &Instrument::cone_angle},
-                                                                       {"inner_radius", &Instrument::inner_radius},
-                                                                       {"outer_radius", &Instrument::outer_radius},
-                                                                       {"tool_inertia", &Instrument::tool_inertia},
-                                                                       {"instrument_inertia", &Instrument::instrument_inertia},
-                                                                       {"tool_compliance", &Instrument::tool_compliance}};
+    static const std::map<std::string, double Instrument::*> fields = {
+        {"plate_radius", &Instrument::plate_radius},       {"gap", &Instrument::gap},
+        {"cone_angle", &Instrument::cone_angle},           {"inner_radius", &Instrument::inner_radius},
+        {"outer_radius", &Instrument::outer_radius},       {"bob_length", &Instrument::bob_length},
+        {"stress_constant", &Instrument::stress_constant}, {"strain_constant", &Instrument::strain_constant},
+        {"tool_inertia", &Instrument::tool_inertia},       {"instrument_inertia", &Instrument::instrument_inertia},
+        {"tool_compliance", &Instrument::tool_compliance}};
     return instrument.*fields.at(name);
 }
 
@@ -111,8 +128,7 @@ void ExportMetadata::give_value(const std::string& name, Experiment& experiment,
         taken.fate = "not taken over: [instrument] gives it";
     } else {
         set(candidate, source.value);
-        // The outer radius comes with the inner one.
-        const auto partner = sources_.find(name == "inner_radius" ? "outer_radius" : name == "outer_radius" ? "inner_radius" : "");
+        const auto partner = sources_.find(partner_of(name));
         if (partner != sources_.end() && !is_given(candidate, partner->first)) {
             set(candidate, partner->second.front().value);
         }
@@ -143,9 +159,10 @@ void ExportMetadata::give_to_tables(const std::string& name, Experiment& experim
 
 std::vector<TakenOver> ExportMetadata::give_to(Experiment& experiment) const {
     std::vector<TakenOver> list;
+    const bool size_given = gives_size(experiment.instrument);
     for (const std::string name : names) {
         const auto found = sources_.find(name);
-        if (found == sources_.end()) {
+        if (found == sources_.end() || (size_given && name.ends_with("_constant"))) {
             continue;
         }
         const std::vector<Source>& sources = found->second;

@@ -1,7 +1,7 @@
 #include "structure_recipe.hpp"
 
-#include "verbs/generate.hpp"
 #include "cli/verbs.hpp"
+#include "verbs/generate.hpp"
 
 #include <coagula/common/checks.hpp>
 

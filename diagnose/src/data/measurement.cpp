@@ -154,6 +154,15 @@ void check_instrument(const Instrument& instrument) {
     check_positive(instrument.gap, "instrument.gap", "m");
     check_positive(instrument.inner_radius, "instrument.inner_radius", "m");
     check_positive(instrument.outer_radius, "instrument.outer_radius", "m");
+    check_positive(instrument.bob_length, "instrument.bob_length", "m");
+    check_positive(instrument.stress_constant, "instrument.stress_constant", "Pa/(N.m)");
+    check_positive(instrument.strain_constant, "instrument.strain_constant", "1/rad");
+    check_parameter(
+        instrument.end_correction, "instrument.end_correction", [](double value) { return value >= 1 && value < 2; },
+        "must be 1 or more and below 2");
+    if (std::isnan(instrument.stress_constant) != std::isnan(instrument.strain_constant)) {
+        throw InputError("instrument.stress_constant and instrument.strain_constant go together: give both or none");
+    }
     check_positive(instrument.tool_inertia, "instrument.tool_inertia", "kg.m2");
     check_positive(instrument.instrument_inertia, "instrument.instrument_inertia", "kg.m2");
     check_positive(instrument.tool_compliance, "instrument.tool_compliance", "rad/(N.m)");
@@ -175,6 +184,7 @@ void check_instrument(const Instrument& instrument) {
     if (instrument.geometry && instrument.geometry != Geometry::concentric_cylinders) {
         refuse_if_set(instrument.inner_radius, "instrument.inner_radius", instrument);
         refuse_if_set(instrument.outer_radius, "instrument.outer_radius", instrument);
+        refuse_if_set(instrument.bob_length, "instrument.bob_length", instrument);
     }
 }
 
