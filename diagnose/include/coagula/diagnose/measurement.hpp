@@ -131,6 +131,7 @@ struct Instrument {
     double stress_constant = unset;  ///< stress over torque where it is stated [Pa/(N.m)]
     double strain_constant = unset;  ///< strain over deflection where it is stated [1/rad]
     double tool_inertia = unset;     ///< kg.m2
+    double instrument_inertia = unset;  ///< of the shaft that turns with the tool [kg.m2]
     double tool_compliance = unset;  ///< rad/(N.m)
 };
 
