@@ -1,4 +1,6 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
+#include "cli/verbs.hpp"
+#include "diagnose_new.hpp"
 #include "diagnose_power.hpp"
 #include "diagnosis_catalogue.hpp"
 #include "diagnosis_results.hpp"
@@ -6,7 +8,6 @@
 #include "experiment_file.hpp"
 #include "measured_tables.hpp"
 #include "report.hpp"
-#include "cli/verbs.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/check_data.hpp>
@@ -51,7 +52,7 @@ std::optional<diagnose::WaveformHarmonics> harmonics_in(const diagnose::Measurem
     return table.kind == diagnose::MeasurementKind::waveform ? diagnose::harmonics_of(table) : std::nullopt;
 }
 
-Json measurement_json(const CheckedMeasurement& checked) {
+Json measurement_json(const CheckedMeasurement& checked, const TableFacts& facts) {
     const diagnose::Measurement& table = checked.measurement;
     Json json = {{"label", table.label},      {"kind", diagnose::name_of(table.kind)},
                  {"sample", table.sample},    {"run_order", table.run_order},
@@ -67,6 +68,11 @@ Json measurement_json(const CheckedMeasurement& checked) {
     for (const diagnose::RelationResult& relation : checked.relations) {
         json["relations"].push_back({{"name", relation.name}, {"rows", relation.rows}, {"failed", relation.failed}});
     }
+    json["not_understood"] = facts.not_understood;
+    json["flags"] = Json::object();
+    for (const auto& [flag, rows] : facts.flags) {
+        json["flags"][flag] = rows;
+    }
     if (const auto harmonics = harmonics_in(table)) {
         json["harmonics"] = {{"strain", harmonics->strain},
                              {"angular_frequency", harmonics->angular_frequency},
@@ -78,6 +84,14 @@ Json measurement_json(const CheckedMeasurement& checked) {
                              {"error", harmonics->error}};
     }
     return json;
+}
+
+std::string list_of(const std::vector<std::string>& headings) {
+    std::string list;
+    for (const std::string& heading : headings) {
+        list += (list.empty() ? "" : ", ") + heading;
+    }
+    return list;
 }
 
 /// "1-3, 7".
@@ -128,6 +142,31 @@ void add_measurement_lines(Table& lines, const CheckedMeasurement& checked) {
     }
 }
 
+/// Empty cells, flags of the instrument and columns that nobody has a meaning for.
+void add_fact_lines(Table& lines, const diagnose::Measurement& table, const TableFacts& facts) {
+    for (const diagnose::Column& column : table.columns) {
+        const auto without =
+            std::count_if(column.values.begin(), column.values.end(), [](double value) { return std::isnan(value); });
+        const auto left_out = std::count_if(table.left_out.begin(), table.left_out.end(),
+                                            [&](const diagnose::LeftOutCell& cell) { return cell.column == column.name; });
+        if (without > left_out) {
+            lines.emplace_back("  empty", column.name + ": " + std::to_string(without - left_out) + " of " +
+                                              std::to_string(column.values.size()) + " cells");
+        }
+    }
+    std::string flags;
+    for (const auto& [flag, rows] : facts.flags) {
+        flags += (flags.empty() ? "" : ", ") + flag + " in " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
+    }
+    if (!flags.empty()) {
+        lines.emplace_back("  flags", flags);
+    }
+    if (!facts.not_understood.empty()) {
+        lines.emplace_back("  not used", list_of(facts.not_understood) +
+                                             ": not understood; if one is needed: columns = { quantity = \"heading\" }");
+    }
+}
+
 void add_noise_lines(Table& lines, const NoiseModel& noise) {
     const auto interval = [](const diagnose::Estimate& estimate, auto text) {
         return text(estimate.value) +
@@ -170,13 +209,37 @@ void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tabl
     }
 }
 
-std::vector<CheckedMeasurement> check_all(const diagnose::Experiment& experiment) {
-    refuse_what_was_not_measured(experiment.measurements);
+/// What a table lacks that its kind needs; nothing where it lacks nothing.
+std::string missing_column(const diagnose::Measurement& table) {
+    const diagnose::TableRule rule = diagnose::rule_of(table.kind);
+    if (!rule.axes.empty() && diagnose::axis_of(table) == nullptr) {
+        return std::string(rule.axes.front());
+    }
+    const auto absent = std::find_if(rule.required.begin(), rule.required.end(),
+                                     [&](std::string_view name) { return diagnose::find_column(table, name) == nullptr; });
+    return absent == rule.required.end() ? "" : std::string(*absent);
+}
+
+/// The line that may make up for a missing column.
+std::string remedy(const diagnose::Measurement& table, const TableFacts& facts) {
+    const std::string missing = missing_column(table);
+    if (missing.empty() || facts.not_understood.empty()) {
+        return "";
+    }
+    const std::string& first = facts.not_understood.front();
+    return "; not understood are the columns " + list_of(facts.not_understood) +
+           ": if one of them is it, add to the measurement, say, " + "columns = { " + missing + " = \"" +
+           first.substr(1, first.size() - 2) + "\" }";
+}
+
+std::vector<CheckedMeasurement> check_all(const ExperimentFile& file) {
+    const std::vector<diagnose::Measurement>& measurements = file.experiment.measurements;
+    refuse_what_was_not_measured(measurements);
     std::vector<CheckedMeasurement> checked;
-    for (const diagnose::Measurement& measurement : experiment.measurements) {
-        checked.push_back(diagnose::check_data(measurement));
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+        checked.push_back(diagnose::check_data(measurements[i]));
         if (!checked.back().problems.empty()) {
-            throw InputError(checked.back().problems.front());
+            throw InputError(checked.back().problems.front() + remedy(measurements[i], file.facts[i]));
         }
     }
     return checked;
@@ -196,6 +259,11 @@ void run(const Arguments& arguments) {
         print_catalogue(arguments);
         return;
     }
+    if (arguments.flag("new")) {
+        refuse_options(arguments, "with --new", {"check", "power", "causes", "data-sets", "diagnoses"});
+        run_new(arguments);
+        return;
+    }
     if (arguments.flag("power")) {
         refuse_options(arguments, "with --power", {"check"});
         run_power(arguments);
@@ -208,7 +276,7 @@ void run(const Arguments& arguments) {
         throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
     }
     ExperimentFile file = read_experiment(arguments.input());
-    const std::vector<CheckedMeasurement> checked = check_all(file.experiment);
+    const std::vector<CheckedMeasurement> checked = check_all(file);
     std::vector<diagnose::Measurement> tables;
     for (const CheckedMeasurement& entry : checked) {
         tables.push_back(entry.measurement);
@@ -222,12 +290,26 @@ void run(const Arguments& arguments) {
         run_diagnosis(arguments, std::move(file), noises);
         return;
     }
-    Json json = {
-        {"title", file.experiment.title}, {"measurements", Json::array()}, {"noise", Json::array()}, {"notes", file.notes}};
+    Json json = {{"title", file.experiment.title},
+                 {"taken_over", Json::array()},
+                 {"measurements", Json::array()},
+                 {"noise", Json::array()},
+                 {"notes", file.notes}};
     Table lines;
-    for (const CheckedMeasurement& entry : checked) {
-        json["measurements"].push_back(measurement_json(entry));
-        add_measurement_lines(lines, entry);
+    for (const TakenOver& value : file.taken_over) {
+        const bool is_number = value.text.empty();
+        json["taken_over"].push_back({{"name", value.name},
+                                      {"value", is_number ? Json(value.value) : Json(value.text)},
+                                      {"unit", value.unit},
+                                      {"source", value.source},
+                                      {"fate", value.fate}});
+        lines.emplace_back(value.name, (is_number ? with_unit(value.value, value.unit) : value.text) + ", from " + value.source +
+                                           " (" + value.fate + ")");
+    }
+    for (std::size_t i = 0; i < checked.size(); ++i) {
+        json["measurements"].push_back(measurement_json(checked[i], file.facts[i]));
+        add_measurement_lines(lines, checked[i]);
+        add_fact_lines(lines, checked[i].measurement, file.facts[i]);
     }
     for (const NoiseModel& noise : noises) {
         json["noise"].push_back(noise_json(noise));
@@ -246,7 +328,10 @@ Verb diagnose_verb() {
         .name = "diagnose",
         .summary = "what the simulation gets wrong about measured moduli, and the cause",
         .input = "EXPERIMENT.toml",
-        .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
+        .options = {flag("new",
+                         "write a commented experiment file (-o, otherwise printed) from exports of instruments, DATA..., which "
+                         "then stand in place of EXPERIMENT.toml"),
+                    flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
                     flag("power", "before anyone measures: which causes this experiment could find, and from which strength on"),
                     flag("catalogue",
                          "the causes that are known, with their parameters and priors, as a table; needs no experiment"),
@@ -257,6 +342,7 @@ Verb diagnose_verb() {
         .notes = {"Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore "
                   "curves "
                   "are diagnosed; see docs/diagnosis.md."},
+        .many_beside = "new",
         .alone = "catalogue"};
     const std::vector<Option> own = diagnosis_options();
     verb.options.insert(verb.options.end(), own.begin(), own.end());

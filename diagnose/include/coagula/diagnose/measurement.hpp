@@ -67,6 +67,7 @@ struct Column {
     std::string unit;                          ///< SI
     std::vector<double> values;                ///< one per row; NaN where the cell is empty or left out
     std::vector<double> standard_errors = {};  ///< one per row in the same unit, or none
+    bool errors_estimated = false;             ///< these were estimated from replicates, or assumed
     ErrorLaw errors = {};
 };
 
@@ -130,6 +131,7 @@ struct Instrument {
     double stress_constant = unset;  ///< stress over torque where it is stated [Pa/(N.m)]
     double strain_constant = unset;  ///< strain over deflection where it is stated [1/rad]
     double tool_inertia = unset;     ///< kg.m2
+    double instrument_inertia = unset;  ///< of the shaft that turns with the tool [kg.m2]
     double tool_compliance = unset;  ///< rad/(N.m)
 };
 
