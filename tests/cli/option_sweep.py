@@ -21,6 +21,7 @@ from pathlib import Path
 STRANGE = ["0", "-1", "5e-324", "-5e-324", "1e-300", "1e150", "-1e150", "1e300", "1.8e308", "nan", "inf"]
 STRANGE_COUNTS = ["0", "-1", "9223372036854775807", "-9223372036854775808", "1e300", "nan"]
 PATIENCE = 5  # seconds until Ctrl-C, and then until the call counts as hanging
+USUAL_PATIENCE = 120  # of a call as it is meant, on a busy machine
 MEMORY = 4 << 30
 
 SUSPENSION = "generate brownian --particles 100 --volume-fraction 0.2 --radius 0.25um --equilibration-time 1us --surface-potential 0"
@@ -130,13 +131,13 @@ class Sweep:
         self.defects = []
         self.usual = {}
 
-    def run(self, words):
+    def run(self, words, patience):
         """Exit code, output and complaint; the code is None for a call that does not stop."""
         process = subprocess.Popen([self.program, *words, "--json", "--threads", "1"], cwd=self.folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=limit_memory)
         for number in (signal.SIGINT, signal.SIGKILL):
             try:
-                output, complaint = process.communicate(timeout=PATIENCE)
+                output, complaint = process.communicate(timeout=patience)
                 return process.returncode, output, complaint
             except subprocess.TimeoutExpired:
                 process.send_signal(number)
@@ -177,7 +178,7 @@ class Sweep:
             if flag in words:
                 del words[words.index(flag): words.index(flag) + 2]
             words.append(f"{flag}={value}")
-        code, output, complaint = self.run(words)
+        code, output, complaint = self.run(words, PATIENCE if option else USUAL_PATIENCE)
         what, defect = self.verdict(call, code, output, complaint)
         if option is None and code == 0:
             self.usual[call] = nulls(json.loads(output))
