@@ -1,12 +1,10 @@
 #include "structure_recipe.hpp"
 
-#include "verbs/generate.hpp"
-#include "cli/verbs.hpp"
-
 #include <coagula/common/checks.hpp>
+#include <coagula/generators/coagulation.hpp>
+#include <coagula/generators/void_expansion.hpp>
 
 #include <cmath>
-#include <vector>
 
 namespace coagula::tools {
 
@@ -18,24 +16,72 @@ using diagnose::StructureRecipe;
 
 constexpr double usual_coordination = 4.69;  ///< where coagulation stops, as void expansion does
 
-double needed(double value, const std::string& key, const std::string& generator) {
-    if (std::isnan(value)) {
-        throw InputError("structures by '" + generator + "' need " + key);
-    }
-    return value;
+double coordination_of(const StructureRecipe& recipe) {
+    return std::isfinite(recipe.target_coordination) ? recipe.target_coordination : usual_coordination;
 }
 
-/// What follows `coagula generate vem` or `coagula generate brownian`. The viscosity is not in it: it sets how long coagulation
-/// takes, not what comes of it.
-std::vector<std::string> words_of(const StructureRecipe& recipe, const Sample& sample, std::size_t seed,
-                                  const StructureChange& change) {
+double surface_potential_of(const StructureRecipe& recipe, const StructureChange& change) {
+    return std::isfinite(change.surface_potential) ? change.surface_potential : recipe.surface_potential;
+}
+
+generators::SizeDistribution sizes_of(const Sample& sample, const StructureChange& change) {
+    if (change.size_deviation > 0) {
+        return {generators::SizeKind::lognormal, sample.particle_radius, change.size_deviation};
+    }
+    return {generators::SizeKind::monodisperse, sample.particle_radius};
+}
+
+generators::VoidExpansionOptions expansion_of(const StructureRecipe& recipe, const Sample& sample, std::size_t seed,
+                                              const StructureChange& change) {
+    generators::VoidExpansionOptions options;
+    options.particles = recipe.particles;
+    options.voids = recipe.voids > 0 ? recipe.voids : recipe.particles / 2;
+    options.volume_fraction = sample.volume_fraction;
+    options.target_coordination = coordination_of(recipe);
+    options.seed = seed;
+    options.radii = generators::draw_radii(sizes_of(sample, change), options.particles, seed);
+    return options;
+}
+
+generators::CoagulationOptions coagulation_of(const StructureRecipe& recipe, const Sample& sample, std::size_t seed,
+                                              const StructureChange& change) {
+    generators::CoagulationOptions options;
+    options.particles = recipe.particles;
+    options.sizes = sizes_of(sample, change);
+    options.volume_fraction = sample.volume_fraction;
+    options.surface_potential = surface_potential_of(recipe, change);
+    options.temperature = std::isfinite(sample.temperature) ? sample.temperature : options.temperature;
+    options.target_coordination = coordination_of(recipe);
+    options.seed = seed;
+    return options;
+}
+
+/// What `work` on a structure returns; what cannot be made is named first.
+template <class Work>
+auto naming_structure(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change,
+                      const Work& work) {
+    const std::string call = generation_call(recipe, sample, seed, change);
+    try {
+        require(recipe.particles <= 100000000, "a structure can have at most 100 million particles");
+        return work();
+    } catch (const InputError& error) {
+        throw InputError("structures by '" + call + "': " + error.what());
+    } catch (const std::invalid_argument& error) {
+        throw InputError("structures by '" + call + "': " + error.what());
+    }
+}
+
+}  // namespace
+
+std::string generation_call(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change) {
     const bool coagulates = recipe.generator == "brownian";
-    std::vector<std::string> words;
-    const auto add = [&](const std::string& option, const std::string& value) {
-        words.insert(words.end(), {"--" + option, value});
-    };
+    std::string call = "coagula generate " + recipe.generator;
+    const auto add = [&](const std::string& option, const std::string& value) { call += " --" + option + " " + value; };
     const auto add_needed = [&](const std::string& option, double value, const std::string& key) {
-        add(option, to_text(needed(value, key, recipe.generator)));
+        if (std::isnan(value)) {
+            throw InputError("structures by '" + recipe.generator + "' need " + key);
+        }
+        add(option, to_text(value));
     };
     add("particles", std::to_string(recipe.particles));
     if (recipe.voids > 0) {
@@ -46,42 +92,32 @@ std::vector<std::string> words_of(const StructureRecipe& recipe, const Sample& s
     if (change.size_deviation > 0) {
         add("size-distribution", "lognormal:" + to_text(change.size_deviation));
     }
-    const double coordination = std::isfinite(recipe.target_coordination) ? recipe.target_coordination : usual_coordination;
     if (coagulates) {
-        const bool changed = std::isfinite(change.surface_potential);
-        add_needed("surface-potential", changed ? change.surface_potential : recipe.surface_potential,
-                   "structures.surface_potential");
+        add_needed("surface-potential", surface_potential_of(recipe, change), "structures.surface_potential");
         if (std::isfinite(sample.temperature)) {
             add("temperature", to_text(sample.temperature));
         }
     }
-    add(coagulates ? "stop-coordination" : "target-coordination", to_text(coordination));
+    add(coagulates ? "stop-coordination" : "target-coordination", to_text(coordination_of(recipe)));
     add("seed", std::to_string(seed));
-    return words;
+    return call;
 }
 
-}  // namespace
-
-std::string generation_call(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change) {
-    std::string call = "coagula generate " + recipe.generator;
-    for (const std::string& word : words_of(recipe, sample, seed, change)) {
-        call += " " + word;
+void check_recipe(const StructureRecipe& recipe, const Sample& sample) {
+    for (const std::size_t seed : recipe.seeds) {
+        naming_structure(recipe, sample, seed, {}, [&] {
+            return recipe.generator == "vem" ? generators::check(expansion_of(recipe, sample, seed, {}))
+                                             : generators::check(coagulation_of(recipe, sample, seed, {}));
+        });
     }
-    return call;
 }
 
 Packing generate_structure(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change,
                            const Progress& progress) {
-    std::vector<std::string> words = words_of(recipe, sample, seed, change);
-    words.insert(words.end(), {"--output", "unused"});
-    try {
-        return recipe.generator == "vem" ? expanded_packing({generate_vem_verb(), words}, progress)
-                                         : coagulated_packing({generate_brownian_verb(), words}, progress);
-    } catch (const InputError& error) {
-        throw InputError("structures by '" + generation_call(recipe, sample, seed, change) + "': " + error.what());
-    } catch (const std::invalid_argument& error) {
-        throw InputError("structures by '" + generation_call(recipe, sample, seed, change) + "': " + error.what());
-    }
+    return naming_structure(recipe, sample, seed, change, [&] {
+        return recipe.generator == "vem" ? generators::expand_voids(expansion_of(recipe, sample, seed, change), progress).packing
+                                         : generators::coagulate(coagulation_of(recipe, sample, seed, change), progress);
+    });
 }
 
 }  // namespace coagula::tools

@@ -14,7 +14,10 @@ namespace coagula::tools {
 std::string generation_call(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
                             const diagnose::StructureChange& change = {});
 
-/// Makes it. Throws InputError when sample or recipe lack something, or when nothing coagulates.
+/// What needs no simulation. Throws InputError when sample or recipe lack something, or no structure can be made of them.
+void check_recipe(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample);
+
+/// Makes one. Throws InputError when sample or recipe lack something, or when nothing coagulates.
 Packing generate_structure(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
                            const diagnose::StructureChange& change, const Progress& progress);
 
