@@ -5,6 +5,7 @@
 #include "toml_keys.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/diagnose/tool_constants.hpp>
 #include <coagula/io/measured_file.hpp>
 
 #include <algorithm>
@@ -105,6 +106,10 @@ void ExperimentReader::read_instrument() {
     instrument.cone_angle = keys.quantity("cone_angle", "rad").value_or(unset);
     instrument.inner_radius = keys.quantity("inner_radius", "m").value_or(unset);
     instrument.outer_radius = keys.quantity("outer_radius", "m").value_or(unset);
+    instrument.bob_length = keys.quantity("bob_length", "m").value_or(unset);
+    instrument.end_correction = keys.quantity("end_correction", "1").value_or(1);
+    instrument.stress_constant = keys.quantity("stress_constant", "Pa/(N.m)").value_or(unset);
+    instrument.strain_constant = keys.quantity("strain_constant", "1/rad").value_or(unset);
     instrument.tool_inertia = keys.quantity("tool_inertia", "kg.m2").value_or(unset);
     instrument.tool_compliance = keys.quantity("tool_compliance", "rad/(N.m)").value_or(unset);
     keys.refuse_other_keys();
@@ -182,6 +187,12 @@ void ExperimentReader::read_noise() {
             keys.fail("stated_phase", "must lie between 0 and 1 rad");
         }
         result_.noise.stated_phase = *value;
+    }
+    if (const auto value = keys.quantity("stated_correlation", "1")) {
+        if (!(*value >= 0 && *value < 1)) {
+            keys.fail("stated_correlation", "must be 0 or more and below 1");
+        }
+        result_.noise.stated_correlation = *value;
     }
     keys.refuse_other_keys();
 }
@@ -323,6 +334,15 @@ TableSetting read_setting(TomlKeys& keys, std::size_t number) {
     return setting;
 }
 
+/// Whether moduli are to be those of torque, deflection and raw phase.
+bool moduli_are_raw(TomlKeys& keys) {
+    const std::string moduli = keys.text("moduli").value_or("as-given");
+    if (moduli != "raw" && moduli != "as-given") {
+        keys.fail("moduli", "'" + moduli + "' is neither raw nor as-given");
+    }
+    return moduli == "raw";
+}
+
 void ExperimentReader::read_measurement(const toml::table& table, std::size_t number) {
     TomlKeys keys(table, path_ + ", measurement " + std::to_string(number));
     const std::string kind_name = keys.required_text("kind");
@@ -347,6 +367,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
     const std::vector<const io::PlainTable*> tables = chosen_tables(keys, file, *kind);
     const ColumnRules rules = column_rules(keys);
     const TableSelection selection = read_selection(keys);
+    const bool raw = moduli_are_raw(keys);
     keys.refuse_other_keys();
     const bool several = file.tables.size() > 1;
     for (const io::PlainTable* chosen : tables) {
@@ -355,6 +376,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         diagnose::Measurement measurement = to_measurement(*chosen, *kind, label, rules);
         setting.give_to(measurement);
         select(measurement, selection);
+        naming(path_, [&] { diagnose::derive_moduli(measurement, result_.experiment.instrument, raw); });
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +
                                     " points, but has " + std::to_string(chosen->rows()));

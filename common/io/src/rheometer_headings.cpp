@@ -51,6 +51,7 @@ constexpr std::array headings = {
     Entry{"phasenverschiebungswinkel", "phase"},
     Entry{"phase angle", "phase"},
     Entry{"phase", "phase"},
+    Entry{"raw phase", "raw_phase"},
     Entry{"angular frequency", "angular_frequency"},
     Entry{"kreisfrequenz", "angular_frequency"},
     Entry{"omega", "angular_frequency"},

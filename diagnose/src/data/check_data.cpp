@@ -305,6 +305,10 @@ void Checker::check_relations() {
 std::set<const Column*> suspects_in(const std::vector<const Relation*>& failing, const std::set<const Column*>& vouched) {
     std::set<const Column*> all;
     for (const Relation* relation : failing) {
+        if (relation->of_raw_torque) {
+            all.insert(relation->redundant);
+            continue;
+        }
         std::copy_if(relation->columns.begin(), relation->columns.end(), std::inserter(all, all.end()),
                      [&](const Column* column) { return !vouched.contains(column); });
     }
@@ -341,7 +345,9 @@ void Checker::leave_out_suspects(const std::vector<Relation>& relations) {
                 return std::find(each->columns.begin(), each->columns.end(), suspect) != each->columns.end();
             });
             const double ratio = (*relation)->ratio((*relation)->cells(row));
-            leave_out(column(suspect->name), row, (*relation)->name + " fails by a factor of " + factor_text(ratio));
+            leave_out(column(suspect->name), row,
+                      (*relation)->name + " fails by a factor of " + factor_text(ratio) +
+                          ((*relation)->of_raw_torque ? ", as where the torque also turns the tool" : ""));
         }
     }
 }

@@ -49,6 +49,8 @@ constexpr std::array quantities = {
              "third harmonic of the stress over the first, viscous: G3''/|G*|"},
     Quantity{"loss_tangent", "1", -infinite, false, infinite, "G''/G'"},
     Quantity{"phase", "rad", -std::numbers::pi, false, std::numbers::pi, "of the stress before the strain"},
+    Quantity{"raw_phase", "rad", -std::numbers::pi, false, std::numbers::pi,
+             "of torque before deflection, as the instrument measured it"},
     Quantity{"angular_frequency", "rad/s", 0, true, infinite, "2 pi times the frequency"},
     Quantity{"frequency", "Hz", 0, true, infinite, "cycles per second"},
     Quantity{"complex_viscosity", "Pa.s", 0, false, infinite, "|G*| over the angular frequency"},
@@ -152,6 +154,15 @@ void check_instrument(const Instrument& instrument) {
     check_positive(instrument.gap, "instrument.gap", "m");
     check_positive(instrument.inner_radius, "instrument.inner_radius", "m");
     check_positive(instrument.outer_radius, "instrument.outer_radius", "m");
+    check_positive(instrument.bob_length, "instrument.bob_length", "m");
+    check_positive(instrument.stress_constant, "instrument.stress_constant", "Pa/(N.m)");
+    check_positive(instrument.strain_constant, "instrument.strain_constant", "1/rad");
+    check_parameter(
+        instrument.end_correction, "instrument.end_correction", [](double value) { return value >= 1 && value < 2; },
+        "must be 1 or more and below 2");
+    if (std::isnan(instrument.stress_constant) != std::isnan(instrument.strain_constant)) {
+        throw InputError("instrument.stress_constant and instrument.strain_constant go together: give both or none");
+    }
     check_positive(instrument.tool_inertia, "instrument.tool_inertia", "kg.m2");
     check_positive(instrument.tool_compliance, "instrument.tool_compliance", "rad/(N.m)");
     check_cone(instrument.cone_angle, "instrument.cone_angle");
@@ -172,6 +183,7 @@ void check_instrument(const Instrument& instrument) {
     if (instrument.geometry && instrument.geometry != Geometry::concentric_cylinders) {
         refuse_if_set(instrument.inner_radius, "instrument.inner_radius", instrument);
         refuse_if_set(instrument.outer_radius, "instrument.outer_radius", instrument);
+        refuse_if_set(instrument.bob_length, "instrument.bob_length", instrument);
     }
 }
 

@@ -5,8 +5,8 @@
 #include "gain.hpp"
 #include "hypothesis.hpp"
 #include "localise.hpp"
-#include "proposal.hpp"
 #include "noise/weights.hpp"
+#include "proposal.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "gain.hpp"
 
-#include "flexible.hpp"
 #include "data/table_cells.hpp"
+#include "flexible.hpp"
 #include "noise/weights.hpp"
 
 #include <coagula/common/random.hpp>

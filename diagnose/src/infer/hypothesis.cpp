@@ -1,9 +1,9 @@
 #include "hypothesis.hpp"
 
-#include "departures.hpp"
 #include "data/median.hpp"
-#include "simulate/quiet_log.hpp"
+#include "departures.hpp"
 #include "noise/weights.hpp"
+#include "simulate/quiet_log.hpp"
 
 #include <ceres/ceres.h>
 #include <Eigen/Cholesky>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "noise/error_model.hpp"
-#include "simulate/forward.hpp"
 #include "posterior_grid.hpp"
+#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/model.hpp>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coagula/diagnose/mechanism.hpp>
+#include <coagula/diagnose/tool_constants.hpp>
 
 #include "observables/observations.hpp"
 
@@ -23,12 +24,9 @@ inline bool has_moduli(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) { return find_column(table, "storage_modulus") != nullptr; });
 }
 
-/// Torque per angle over the modulus is known: a radius, and the gap between plates or the angle of a cone.
-inline bool knows_plates(const Experiment& experiment) {
-    const Instrument& instrument = experiment.instrument;
-    const bool cone = instrument.geometry == Geometry::cone_plate;
-    return has_moduli(experiment) && std::isfinite(instrument.plate_radius) &&
-           std::isfinite(cone ? instrument.cone_angle : instrument.gap);
+/// Torque per angle over the modulus is known.
+inline bool knows_tool(const Experiment& experiment) {
+    return has_moduli(experiment) && std::isfinite(tool_constants(experiment.instrument).torque_per_modulus());
 }
 
 inline bool knows_gap(const Experiment& experiment) {
@@ -38,7 +36,7 @@ inline bool knows_gap(const Experiment& experiment) {
 
 /// How far the walls are apart is known: between plates, or under a cone of known angle and radius.
 inline bool knows_walls(const Experiment& experiment) {
-    return knows_gap(experiment) || (experiment.instrument.geometry == Geometry::cone_plate && knows_plates(experiment));
+    return knows_gap(experiment) || (experiment.instrument.geometry == Geometry::cone_plate && knows_tool(experiment));
 }
 
 /// Some table has moduli that were measured one after the other.
@@ -63,8 +61,8 @@ inline bool knows_frequency(const Experiment& experiment) {
     });
 }
 
-inline bool knows_plates_and_frequencies(const Experiment& experiment) {
-    return knows_plates(experiment) && knows_frequency(experiment);
+inline bool knows_tool_and_frequencies(const Experiment& experiment) {
+    return knows_tool(experiment) && knows_frequency(experiment);
 }
 
 inline bool sweeps_amplitude(const Experiment& experiment) {

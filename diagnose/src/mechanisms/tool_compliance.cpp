@@ -7,10 +7,10 @@ Mechanism tool_compliance() {
             .term = "the tool yields more than the instrument corrects",
             .signature = "the apparent storage modulus saturates when the sample is stiff",
             .parameters = {{"compliance", "rad/(N.m)", 5e-4, 1e-2, true}},
-            .effect = ChangesTool{[](std::complex<double> modulus, const Observation&, double torque_per_modulus, Values values) {
-                return modulus / (1.0 + values[0] * torque_per_modulus * modulus);
+            .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
+                return modulus / (1.0 + values[0] * row.torque_per_modulus * modulus);
             }},
-            .applies = knows_plates};
+            .applies = knows_tool};
 }
 
 }  // namespace coagula::diagnose::mechanisms

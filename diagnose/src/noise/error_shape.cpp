@@ -93,7 +93,8 @@ ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseMod
     const bool told = own < 0.25;
     const double unbiased = told ? (all.lag / all.values + own) / (1 - 3 * own) : 0.0;
     const double error = told ? 1 / std::sqrt(all.degrees) / (1 - 3 * own) : std::numeric_limits<double>::infinity();
-    const auto [correlation, deviation] = correlation_by(unbiased, error);
+    const bool stated = !told && std::isfinite(model.stated_correlation);
+    const auto [correlation, deviation] = stated ? Correlation{model.stated_correlation, 0} : correlation_by(unbiased, error);
     shape.law.correlation = correlation;
     shape.law.correlation_error = deviation;
     if (model.rows_estimated) {

@@ -329,6 +329,7 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
         return noise;
     }
     noise.floor = stated(options.stated_floor);
+    noise.stated_correlation = options.stated_correlation;
     noise.relative = stated(is_of_phase(noise) ? options.stated_phase : options.stated_relative);
     noise.sample = stated(is_of_phase(noise) ? 0 : options.stated_sample);
     noise.statement =

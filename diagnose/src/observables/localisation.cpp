@@ -1,10 +1,10 @@
 // What errors of localisation do to the neighbours of a particle: structures with errors at the nodes of a grid.
 #include <coagula/diagnose/simulator.hpp>
 
-#include "simulate/cache_key.hpp"
-#include "simulate/interpolation.hpp"
 #include "neighbour_shells.hpp"
 #include "repeated_images.hpp"
+#include "simulate/cache_key.hpp"
+#include "simulate/interpolation.hpp"
 
 namespace coagula::diagnose {
 

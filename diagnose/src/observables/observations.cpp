@@ -1,8 +1,10 @@
 #include "observations.hpp"
 
+#include <coagula/diagnose/tool_constants.hpp>
+
+#include "data/table_cells.hpp"
 #include "neighbour_shells.hpp"
 #include "pore_curves.hpp"
-#include "data/table_cells.hpp"
 
 #include <coagula/common/checks.hpp>
 
@@ -103,27 +105,30 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
     const double gap = cell(table, "gap", row);
     const bool under_cone = std::isfinite(table.cone_angle);
     const double radius = cell(table, "plate_radius", row);
-    Observation one{.measurement = number,
-                    .row = row,
-                    .loss = what.loss,
-                    .value = column.values[row],
-                    .standard_error = column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset)
-                                                                     : column.standard_errors[row],
-                    .of_phase = what.loss,
-                    .strain = cell(table, "strain", row),
-                    .angular_frequency = angular_frequency(table, row),
-                    .time = series ? unset : time_in(table, row),
-                    .gap = under_cone ? unset : (std::isnan(gap) ? experiment.instrument.gap : gap),
-                    .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
-                    .errors = column.errors,
-                    .third_harmonic = what.third_harmonic,
-                    .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
-                    .rough_plates = table.rough_plates,
-                    .fluid_viscosity = table.fluid_viscosity,
-                    .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
-                    .heterogeneity = cell(table, "heterogeneity", row),
-                    .coordination = cell(table, "coordination", row),
-                    .volume_fraction = cell(table, "volume_fraction", row)};
+    Observation one{
+        .measurement = number,
+        .row = row,
+        .loss = what.loss,
+        .value = column.values[row],
+        .standard_error =
+            column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset) : column.standard_errors[row],
+        .of_phase = what.loss,
+        .strain = cell(table, "strain", row),
+        .angular_frequency = angular_frequency(table, row),
+        .time = series ? unset : time_in(table, row),
+        .gap = under_cone ? unset : (std::isnan(gap) ? experiment.instrument.gap : gap),
+        .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
+        .torque_per_modulus =
+            tool_constants(experiment.instrument, cell(table, "gap", row), radius, table.cone_angle).torque_per_modulus(),
+        .errors = column.errors,
+        .third_harmonic = what.third_harmonic,
+        .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
+        .rough_plates = table.rough_plates,
+        .fluid_viscosity = table.fluid_viscosity,
+        .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
+        .heterogeneity = cell(table, "heterogeneity", row),
+        .coordination = cell(table, "coordination", row),
+        .volume_fraction = cell(table, "volume_fraction", row)};
     if (table.polar_errors && !what.third_harmonic) {
         take_polar_errors(table, one);
     }

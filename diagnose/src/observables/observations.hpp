@@ -26,14 +26,15 @@ struct Observation {
     double turned = 0;       ///< from the axis of G' to that of its error, towards G'' [rad]
     double other_error = 0;  ///< of the other part of G*, as turned [Pa]
     // Where and when; NaN where the table does not say.
-    double strain = unset;             ///< amplitude
-    double angular_frequency = unset;  ///< [rad/s]
-    double time = unset;               ///< since the first run on the sample [s]
-    double gap = unset;                ///< [m]
-    double plate_radius = unset;       ///< [m]
-    ErrorLaw errors = {};              ///< of the errors, torque or phase
-    bool third_harmonic = false;       ///< of the stress over the first, elastic or viscous part, in place of a modulus
-    double cone_angle = unset;         ///< [rad]; NaN where there is no cone
+    double strain = unset;              ///< amplitude
+    double angular_frequency = unset;   ///< [rad/s]
+    double time = unset;                ///< since the first run on the sample [s]
+    double gap = unset;                 ///< [m]
+    double plate_radius = unset;        ///< [m]
+    double torque_per_modulus = unset;  ///< torque per deflection over the modulus [m^3]
+    ErrorLaw errors = {};               ///< of the errors, torque or phase
+    bool third_harmonic = false;        ///< of the stress over the first, elastic or viscous part, in place of a modulus
+    double cone_angle = unset;          ///< [rad]; NaN where there is no cone
     bool rough_plates = false;
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]
     // Of a structure series.

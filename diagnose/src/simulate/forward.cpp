@@ -3,7 +3,6 @@
 #include "data/median.hpp"
 #include "observables/pore_curves.hpp"
 #include "springpot.hpp"
-#include "torque.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +41,6 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
       simulator_(simulator),
       largest_strains_before_(largest_strains_before()) {
     for (const Observation& observation : observations_) {
-        torques_per_modulus_.push_back(torque_per_modulus(observation));
         const Measurement& table = experiment_.measurements[observation.measurement];
         if (table.kind != MeasurementKind::structure_series) {
             continue;
@@ -64,9 +62,8 @@ Complex Forward::seen_by_instrument(const Model& model, std::size_t number, Comp
     const Observation& observation = observations_[number];
     model.for_each<ChangesGeometry>(
         [&](const ChangesGeometry& effect, Values values) { modulus = effect.apparent(modulus, observation, values); });
-    model.for_each<ChangesTool>([&](const ChangesTool& effect, Values values) {
-        modulus = effect.apparent(modulus, observation, torques_per_modulus_[number], values);
-    });
+    model.for_each<ChangesTool>(
+        [&](const ChangesTool& effect, Values values) { modulus = effect.apparent(modulus, observation, values); });
     return modulus;
 }
 

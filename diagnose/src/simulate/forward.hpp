@@ -6,8 +6,8 @@
 #include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
-#include "observables/observations.hpp"
 #include "noise/prediction.hpp"
+#include "observables/observations.hpp"
 
 #include <Eigen/Core>
 
@@ -71,7 +71,6 @@ private:
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
     std::vector<double> largest_strains_before_;
-    std::vector<double> torques_per_modulus_;
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
     mutable std::vector<ActingMechanism> last_acting_;

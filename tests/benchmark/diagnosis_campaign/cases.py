@@ -171,9 +171,10 @@ def null_one_sample(generator, material):
 
 
 def drag(generator, material):
-    """The sample is as large as eight structures."""
+    """The sample is as large as eight structures; the two of the diagnosis are others each time, or all runs would share their error."""
     viscosity = float(generator.choice(VISCOSITIES))
-    return replace(draw_session(generator, material), mean_of_all=True, hidden=Hidden("solvent-drag", viscosity=viscosity))
+    known = tuple(int(number) for number in generator.choice(KNOWN, 2, replace=False))
+    return replace(draw_session(generator, material), mean_of_all=True, hidden=Hidden("solvent-drag", viscosity=viscosity), known_structures=known)
 
 
 def misstated(kind):

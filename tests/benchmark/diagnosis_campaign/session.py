@@ -72,7 +72,6 @@ class Session:
     known_structures: tuple = (0, 1)
     storage_only: bool = False
     mean_of_all: bool = False    # the sample is as large as all structures together
-    told_fraction: float = 0.4   # volume fraction that the experiment file states
     told_noise: bool = False     # the file states the errors that there are
 
     def write(self, material, folder, generator):
@@ -80,7 +79,7 @@ class Session:
         folder.mkdir(parents=True, exist_ok=True)
         structures = [material.known_structure(number) for number in self.known_structures]
         offsets = {}
-        lines = ["[sample]", 'particle_radius = "0.25 um"', f"volume_fraction = {self.told_fraction}", "", "[instrument]", 'geometry = "plate-plate"',
+        lines = ["[sample]", 'particle_radius = "0.25 um"', "volume_fraction = 0.4", "", "[instrument]", 'geometry = "plate-plate"',
                  f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
         if self.known_stiffness:
             lines[3:3] = [f"normal_stiffness = {self.stiffness}", "normal_stiffness_error = 0.05"]

@@ -60,10 +60,9 @@ struct ChangesGeometry {
     std::complex<double> (*apparent)(std::complex<double> modulus, const Observation& row, Values values);
 };
 
-/// The modulus that the tool shows [Pa]. @param torque_per_modulus of the geometry, per angle [m3].
+/// The modulus that the tool shows [Pa].
 struct ChangesTool {
-    std::complex<double> (*apparent)(std::complex<double> modulus, const Observation& row, double torque_per_modulus,
-                                     Values values);
+    std::complex<double> (*apparent)(std::complex<double> modulus, const Observation& row, Values values);
 };
 
 using Effect = std::variant<ChangesSimulation, ScalesMaterial, ChangesGeometry, ChangesTool>;

@@ -54,8 +54,9 @@ struct NoiseOptions {
     /// What is assumed where there are no replicates to tell.
     double stated_relative = 0.05;
     double stated_sample = 0.1;
-    double stated_floor = 0;      ///< unit of the observable; of the stress where the strain is known
-    double stated_phase = 0.005;  ///< error of the phase [rad]
+    double stated_floor = 0;            ///< unit of the observable; of the stress where the strain is known
+    double stated_phase = 0.005;        ///< error of the phase [rad]
+    double stated_correlation = unset;  ///< of neighbouring rows; unset: nobody knows
     /// Largest over smallest ratio of level to w below which floor and relative part cannot be told apart, and the floor is left
     /// out.
     double least_range = 3;
@@ -80,6 +81,7 @@ struct NoiseModel {
     double autocorrelation = 0;
     bool fluid = false;                                        ///< of a Newtonian fluid
     std::vector<std::string> labels = {};                      ///< of the tables
+    double stated_correlation = unset;                         ///< of neighbouring rows, where no replicates tell
     std::size_t conditions = 0;                                ///< with replicates
     double excess_kurtosis = 0;                                ///< of a single error, 0 for normal ones
     double degrees = std::numeric_limits<double>::infinity();  ///< of freedom of the rows' deviation
@@ -104,8 +106,8 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options =
 std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const NoiseOptions& options = {});
 
 /// What the models of torque, or of phase, say together about errors besides their size. Correlation of neighbours: what replicates
-/// show, freed from the bias that estimated sample effects make, beside a prior that falls from 0 to 0.9; that prior alone where there
-/// are none. Tail: the kurtosis, drawn towards that of normal errors.
+/// show, freed from the bias that estimated sample effects make, beside a prior that falls from 0 to 0.9; that prior alone where
+/// there are none. Tail: the kurtosis, drawn towards that of normal errors.
 struct ErrorShape {
     ErrorLaw law;
     double factor = 1;  ///< on the model's deviation: drawn towards the other tables', and freed from what correlated rows lose to
