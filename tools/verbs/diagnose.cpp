@@ -1,12 +1,12 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
+#include <coagula/experiment/experiment_file.hpp>
+#include "../../experiment/src/measured_tables.hpp"
+#include "cli/verbs.hpp"
 #include "diagnose_power.hpp"
 #include "diagnosis_catalogue.hpp"
 #include "diagnosis_results.hpp"
 #include "diagnosis_run.hpp"
-#include "experiment_file.hpp"
-#include "measured_tables.hpp"
 #include "report.hpp"
-#include "cli/verbs.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/check_data.hpp>
@@ -27,6 +27,7 @@ namespace {
 
 using diagnose::CheckedMeasurement;
 using diagnose::NoiseModel;
+using namespace experiment;
 
 Json number_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);

@@ -1,12 +1,12 @@
 #include "diagnose_power.hpp"
 
-#include "experiment_file.hpp"
-#include "experiment_structures.hpp"
+#include <coagula/experiment/experiment_file.hpp>
+#include <coagula/experiment/experiment_structures.hpp>
+#include <coagula/experiment/simulation_cache.hpp>
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
 #include "report.hpp"
 #include "result_folder.hpp"
-#include "simulation_cache.hpp"
 
 #include <coagula/diagnose/power.hpp>
 
@@ -22,6 +22,7 @@ using diagnose::NamingRuns;
 using diagnose::Power;
 using diagnose::Share;
 using diagnose::Threshold;
+using namespace experiment;
 
 Json to_json(const Share& share) {
     return {{"count", share.count}, {"of", share.of}, {"low", share.low}, {"high", share.high}};

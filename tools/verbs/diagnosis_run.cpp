@@ -1,13 +1,13 @@
 #include "diagnosis_run.hpp"
 
+#include <coagula/experiment/experiment_structures.hpp>
+#include <coagula/experiment/simulation_cache.hpp>
+#include "cli/progress_bar.hpp"
+#include "cli/provenance.hpp"
 #include "diagnosis_datasets.hpp"
 #include "diagnosis_page.hpp"
 #include "diagnosis_results.hpp"
-#include "experiment_structures.hpp"
-#include "cli/progress_bar.hpp"
-#include "cli/provenance.hpp"
 #include "result_folder.hpp"
-#include "simulation_cache.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
@@ -28,6 +28,7 @@ namespace coagula::tools {
 namespace {
 
 using diagnose::Experiment;
+using namespace experiment;
 namespace fs = std::filesystem;
 
 /// What a model of the contact cannot have of a cause.

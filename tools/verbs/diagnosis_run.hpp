@@ -1,8 +1,8 @@
 // coagula diagnose: structures, noise, diagnosis, files.
 #pragma once
 
+#include <coagula/experiment/experiment_file.hpp>
 #include "cli/arguments.hpp"
-#include "experiment_file.hpp"
 
 #include <coagula/diagnose/noise.hpp>
 
@@ -14,6 +14,6 @@ namespace coagula::tools {
 std::vector<Option> diagnosis_options();
 
 /// Diagnoses an experiment whose tables have passed the checks and writes diagnosis.json and extended_model.toml into --output.
-void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise);
+void run_diagnosis(const Arguments& arguments, experiment::ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise);
 
 }  // namespace coagula::tools

@@ -1,4 +1,4 @@
-#include "simulation_cache.hpp"
+#include <coagula/experiment/simulation_cache.hpp>
 
 #include <coagula/common/checks.hpp>
 #include <coagula/io/input_file.hpp>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::string cache_text(const diagnose::SimulationCache& cache) {
     return text;
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 namespace {
 
@@ -120,4 +120,4 @@ Packing generate_structure(const StructureRecipe& recipe, const Sample& sample, 
     });
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 /// How the columns of a table become those of a measurement.
 struct ColumnRules {
@@ -28,4 +28,4 @@ diagnose::Measurement to_measurement(const io::PlainTable& table, diagnose::Meas
 /// As many and the same, or no number in both.
 bool same_values(const std::vector<double>& one, const std::vector<double>& other);
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

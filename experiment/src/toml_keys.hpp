@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 /// Throws InputError when the file cannot be read or is not TOML.
 toml::table parse_toml(const std::string& path);
@@ -52,4 +52,4 @@ private:
     std::set<std::string> taken_;
 };
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

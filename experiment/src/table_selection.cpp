@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 namespace {
 
@@ -147,4 +147,4 @@ void select(diagnose::Measurement& table, const TableSelection& selection) {
     }
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

@@ -1,4 +1,4 @@
-#include "experiment_file.hpp"
+#include <coagula/experiment/experiment_file.hpp>
 
 #include "measured_tables.hpp"
 #include "table_selection.hpp"
@@ -14,7 +14,7 @@
 #include <limits>
 #include <numbers>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 namespace {
 
@@ -391,4 +391,4 @@ ExperimentFile read_experiment(const std::string& path) {
     return ExperimentReader(path).run();
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

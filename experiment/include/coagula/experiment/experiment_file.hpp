@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 struct ExperimentFile {
     diagnose::Experiment experiment;
@@ -31,4 +31,4 @@ auto naming(const std::string& path, const Work& work) {
     }
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 /// The call of `coagula generate` that makes a structure of the recipe with a change, without its output.
 std::string generation_call(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
@@ -21,4 +21,4 @@ void check_recipe(const diagnose::StructureRecipe& recipe, const diagnose::Sampl
 Packing generate_structure(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
                            const diagnose::StructureChange& change, const Progress& progress);
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 struct ExperimentStructures {
     std::vector<Packing> packings;
@@ -24,4 +24,4 @@ ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progr
 /// Each in one sentence: where it is from, its particles and hash.
 std::vector<std::string> structure_sentences(const diagnose::Experiment& experiment, const ExperimentStructures& structures);
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

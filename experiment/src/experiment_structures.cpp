@@ -1,4 +1,4 @@
-#include "experiment_structures.hpp"
+#include <coagula/experiment/experiment_structures.hpp>
 
 #include "structure_recipe.hpp"
 
@@ -6,7 +6,7 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/io/structure_file.hpp>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::vector<std::string> structure_sentences(const diagnose::Experiment& experim
     return sentences;
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 /// The section of a file, or the waveforms of it, that the keys section, result and points name. Throws InputError.
 std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file, diagnose::MeasurementKind kind);
@@ -33,4 +33,4 @@ TableSelection read_selection(TomlKeys& keys);
 /// InputError naming the table when nothing remains or a column is missing.
 void select(diagnose::Measurement& table, const TableSelection& selection);
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 toml::table parse_toml(const std::string& path) {
     const std::string text = io::read_toml_text(path);
@@ -140,4 +140,4 @@ void TomlKeys::refuse_other_keys() const {
     }
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment

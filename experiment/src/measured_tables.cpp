@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-namespace coagula::tools {
+namespace coagula::experiment {
 
 namespace {
 
@@ -185,4 +185,4 @@ diagnose::Measurement to_measurement(const io::PlainTable& table, diagnose::Meas
     return Converter(table, kind, label, rules).run();
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::experiment
