@@ -30,16 +30,6 @@ diagnose::PoreCurve measure_pores(const Packing& packing) {
     }
 }
 
-diagnose::OtherStages stages_of(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, const Progress& progress) {
-    return {
-        .make =
-            [=](std::size_t k, const diagnose::StructureChange& change) {
-                return generate_structure(recipe, sample, recipe.seeds[k], change, progress);
-            },
-        .name = [=](std::size_t k,
-                    const diagnose::StructureChange& change) { return generation_call(recipe, sample, recipe.seeds[k], change); }};
-}
-
 /// The scatter of structures tells how much they leave open; a copy scatters by nothing.
 void refuse_copies(const diagnose::Experiment& experiment, const std::vector<std::string>& hashes) {
     const auto& groups = experiment.structure_groups;
@@ -53,9 +43,20 @@ void refuse_copies(const diagnose::Experiment& experiment, const std::vector<std
     }
 }
 
+void note_packings(diagnose::Experiment& experiment, ExperimentStructures& structures) {
+    experiment.structure_sizes.clear();
+    experiment.structure_volume_fractions.clear();
+    for (const Packing& packing : structures.packings) {
+        structures.hashes.push_back(io::positions_sha256(packing));
+        experiment.structure_sizes.push_back(static_cast<std::size_t>(packing.size()));
+        experiment.structure_volume_fractions.push_back(volume_fraction(packing));
+    }
+    refuse_copies(experiment, structures.hashes);
+}
+
 }  // namespace
 
-ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progress& progress) {
+ExperimentStructures check_structures(diagnose::Experiment& experiment) {
     ExperimentStructures found;
     for (const std::string& path : experiment.structures) {
         found.packings.push_back(io::read_structure(path).packing);
@@ -63,23 +64,37 @@ ExperimentStructures structures_of(diagnose::Experiment& experiment, const Progr
             throw InputError(path + ": a structure for a diagnosis must have a periodic cell");
         }
     }
-    if (found.packings.empty() && experiment.recipe) {
-        for (const std::size_t seed : experiment.recipe->seeds) {
-            found.packings.push_back(generate_structure(*experiment.recipe, experiment.sample, seed, {}, progress));
-        }
-        found.stages = stages_of(*experiment.recipe, experiment.sample, progress);
-    }
-    if (found.packings.empty()) {
+    if (!found.packings.empty()) {
+        note_packings(experiment, found);
+    } else if (experiment.recipe && !experiment.recipe->seeds.empty()) {
+        check_recipe(*experiment.recipe, experiment.sample);
+        const std::size_t count = experiment.recipe->seeds.size();
+        experiment.structure_sizes.assign(count, static_cast<std::size_t>(experiment.recipe->particles));
+        experiment.structure_volume_fractions.assign(count, experiment.sample.volume_fraction);
+    } else {
         throw InputError("[structures] gives no structures: it needs 'files', or 'generator' with 'seeds'");
     }
-    found.stages.measure_pores = measure_pores;
-    for (const Packing& packing : found.packings) {
-        found.hashes.push_back(io::positions_sha256(packing));
-        experiment.structure_sizes.push_back(static_cast<std::size_t>(packing.size()));
-        experiment.structure_volume_fractions.push_back(volume_fraction(packing));
-    }
-    refuse_copies(experiment, found.hashes);
     return found;
+}
+
+void make_structures(diagnose::Experiment& experiment, ExperimentStructures& structures, const Progress& progress) {
+    structures.stages.measure_pores = measure_pores;
+    if (!structures.packings.empty()) {
+        return;
+    }
+    const auto make = [recipe = *experiment.recipe, sample = experiment.sample, progress](std::size_t k,
+                                                                                          const diagnose::StructureChange& change) {
+        return generate_structure(recipe, sample, recipe.seeds[k], change, progress);
+    };
+    for (std::size_t k = 0; k < experiment.recipe->seeds.size(); ++k) {
+        structures.packings.push_back(make(k, {}));
+    }
+    structures.stages.make = make;
+    structures.stages.name = [recipe = *experiment.recipe, sample = experiment.sample](std::size_t k,
+                                                                                       const diagnose::StructureChange& change) {
+        return generation_call(recipe, sample, recipe.seeds[k], change);
+    };
+    note_packings(experiment, structures);
 }
 
 std::vector<std::string> structure_sentences(const diagnose::Experiment& experiment, const ExperimentStructures& structures) {

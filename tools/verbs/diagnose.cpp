@@ -1,6 +1,5 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
-#include <coagula/experiment/experiment_file.hpp>
-#include "../../experiment/src/measured_tables.hpp"
+#include <coagula/experiment/checked_experiment.hpp>
 #include "cli/verbs.hpp"
 #include "diagnose_power.hpp"
 #include "diagnosis_catalogue.hpp"
@@ -9,9 +8,6 @@
 #include "report.hpp"
 
 #include <coagula/common/checks.hpp>
-#include <coagula/diagnose/check_data.hpp>
-#include <coagula/diagnose/noise.hpp>
-#include <coagula/diagnose/outliers.hpp>
 #include <coagula/diagnose/waveform.hpp>
 
 #include <algorithm>
@@ -149,38 +145,24 @@ void add_noise_lines(Table& lines, const NoiseModel& noise) {
     }
 }
 
-bool same_numbers(const diagnose::Measurement& one, const diagnose::Measurement& other) {
-    const auto alike = [](const diagnose::Column& a, const diagnose::Column& b) {
-        return a.name == b.name && same_values(a.values, b.values);
-    };
-    return one.kind == other.kind &&
-           std::equal(one.columns.begin(), one.columns.end(), other.columns.begin(), other.columns.end(), alike);
-}
-
-/// Plans, and copies: replicates are never the same to the last digit.
-void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tables) {
-    for (auto table = tables.begin(); table != tables.end(); ++table) {
-        if (table->label.ends_with("(planned)")) {
-            throw InputError(table->label + ": a plan has no measured moduli; it is for --power");
-        }
-        const auto copy = std::find_if(tables.begin(), table, [&](const auto& other) { return same_numbers(*table, other); });
-        if (copy != table && table->kind != diagnose::MeasurementKind::waveform) {
-            throw InputError(table->label + ", sample '" + table->sample + "': the same numbers as in " + copy->label +
-                             ", sample '" + copy->sample + "'; give each measurement once");
-        }
+void report_check(const Arguments& arguments, const CheckedExperiment& found) {
+    Json json = {{"title", found.file.experiment.title},
+                 {"measurements", Json::array()},
+                 {"noise", Json::array()},
+                 {"notes", found.file.notes}};
+    Table lines;
+    for (const CheckedMeasurement& entry : found.tables) {
+        json["measurements"].push_back(measurement_json(entry));
+        add_measurement_lines(lines, entry);
     }
-}
-
-std::vector<CheckedMeasurement> check_all(const diagnose::Experiment& experiment) {
-    refuse_what_was_not_measured(experiment.measurements);
-    std::vector<CheckedMeasurement> checked;
-    for (const diagnose::Measurement& measurement : experiment.measurements) {
-        checked.push_back(diagnose::check_data(measurement));
-        if (!checked.back().problems.empty()) {
-            throw InputError(checked.back().problems.front());
-        }
+    for (const NoiseModel& noise : found.noise) {
+        json["noise"].push_back(noise_json(noise));
+        add_noise_lines(lines, noise);
     }
-    return checked;
+    for (const std::string& note : found.file.notes) {
+        lines.emplace_back("note", note);
+    }
+    report(arguments, json, lines);
 }
 
 /// Options that this way of working would not heed.
@@ -208,36 +190,11 @@ void run(const Arguments& arguments) {
     } else if (!arguments.has("output")) {
         throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
     }
-    ExperimentFile file = read_experiment(arguments.input());
-    const std::vector<CheckedMeasurement> checked = check_all(file.experiment);
-    std::vector<diagnose::Measurement> tables;
-    for (const CheckedMeasurement& entry : checked) {
-        tables.push_back(entry.measurement);
-    }
-    for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(tables)) {
-        file.notes.push_back(outlier.sentence);
-    }
-    const std::vector<NoiseModel> noises = diagnose::noise_of_tables(tables, file.noise);
     if (!arguments.flag("check")) {
-        file.experiment.measurements = std::move(tables);
-        run_diagnosis(arguments, std::move(file), noises);
+        run_diagnosis(arguments);
         return;
     }
-    Json json = {
-        {"title", file.experiment.title}, {"measurements", Json::array()}, {"noise", Json::array()}, {"notes", file.notes}};
-    Table lines;
-    for (const CheckedMeasurement& entry : checked) {
-        json["measurements"].push_back(measurement_json(entry));
-        add_measurement_lines(lines, entry);
-    }
-    for (const NoiseModel& noise : noises) {
-        json["noise"].push_back(noise_json(noise));
-        add_noise_lines(lines, noise);
-    }
-    for (const std::string& note : file.notes) {
-        lines.emplace_back("note", note);
-    }
-    report(arguments, json, lines);
+    report_check(arguments, check_experiment(arguments.input()));
 }
 
 }  // namespace

@@ -172,7 +172,11 @@ void run_power(const Arguments& arguments) {
     options.diagnosis.level = arguments.quantity("level");
     options.diagnosis.bootstrap = static_cast<int>(std::min<std::int64_t>(arguments.count("bootstrap"), 199));
     options.diagnosis.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    ExperimentStructures structures = naming(arguments.input(), [&] { return structures_of(file.experiment, progress); });
+    ExperimentStructures structures = naming(arguments.input(), [&] {
+        ExperimentStructures found = check_structures(file.experiment);
+        make_structures(file.experiment, found, progress);
+        return found;
+    });
     diagnose::SimulationCache cache = folder ? read_cache(folder->path() / "simulations.txt") : diagnose::SimulationCache{};
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
                                   file.experiment.structure_groups);

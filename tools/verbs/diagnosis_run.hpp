@@ -1,10 +1,7 @@
 // coagula diagnose: structures, noise, diagnosis, files.
 #pragma once
 
-#include <coagula/experiment/experiment_file.hpp>
 #include "cli/arguments.hpp"
-
-#include <coagula/diagnose/noise.hpp>
 
 #include <vector>
 
@@ -13,7 +10,7 @@ namespace coagula::tools {
 /// Options beside --check.
 std::vector<Option> diagnosis_options();
 
-/// Diagnoses an experiment whose tables have passed the checks and writes diagnosis.json and extended_model.toml into --output.
-void run_diagnosis(const Arguments& arguments, experiment::ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise);
+/// Diagnoses an experiment and writes diagnosis.json, report.html and what belongs to them into --output.
+void run_diagnosis(const Arguments& arguments);
 
 }  // namespace coagula::tools
