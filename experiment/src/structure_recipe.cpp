@@ -104,12 +104,11 @@ std::string generation_call(const StructureRecipe& recipe, const Sample& sample,
 }
 
 void check_recipe(const StructureRecipe& recipe, const Sample& sample) {
-    for (const std::size_t seed : recipe.seeds) {
-        naming_structure(recipe, sample, seed, {}, [&] {
-            return recipe.generator == "vem" ? generators::check(expansion_of(recipe, sample, seed, {}))
-                                             : generators::check(coagulation_of(recipe, sample, seed, {}));
-        });
-    }
+    const std::size_t seed = recipe.seeds.front();  // decides nothing here
+    naming_structure(recipe, sample, seed, {}, [&] {
+        return recipe.generator == "vem" ? generators::check(expansion_of(recipe, sample, seed, {}))
+                                         : generators::check(coagulation_of(recipe, sample, seed, {}));
+    });
 }
 
 Packing generate_structure(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change,

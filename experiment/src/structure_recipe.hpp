@@ -14,7 +14,8 @@ namespace coagula::experiment {
 std::string generation_call(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample, std::size_t seed,
                             const diagnose::StructureChange& change = {});
 
-/// What needs no simulation. Throws InputError when sample or recipe lack something, or no structure can be made of them.
+/// What needs no simulation, of a recipe with seeds. Throws InputError when sample or recipe lack something, or no structure can be
+/// made of them.
 void check_recipe(const diagnose::StructureRecipe& recipe, const diagnose::Sample& sample);
 
 /// Makes one. Throws InputError when sample or recipe lack something, or when nothing coagulates.

@@ -2,9 +2,9 @@
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "report.hpp"
-#include "rheometer_run.hpp"
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "rheometer_run.hpp"
 
 #include <coagula/characterize/inner_particles.hpp>
 #include <coagula/common/contact_network.hpp>

@@ -1,11 +1,11 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
 #include <coagula/experiment/checked_experiment.hpp>
+#include <coagula/report/diagnosis_catalogue.hpp>
+#include <coagula/report/diagnosis_results.hpp>
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose_power.hpp"
-#include "diagnosis_catalogue.hpp"
-#include "diagnosis_results.hpp"
 #include "diagnosis_run.hpp"
-#include "report.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/waveform.hpp>
@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -24,6 +25,7 @@ namespace {
 using diagnose::CheckedMeasurement;
 using diagnose::NoiseModel;
 using namespace experiment;
+using namespace coagula::report;
 
 Json number_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -176,7 +178,10 @@ void refuse_options(const Arguments& arguments, const std::string& mode, const s
 
 void run(const Arguments& arguments) {
     if (arguments.flag("catalogue")) {
-        print_catalogue(arguments);
+        if (!arguments.flag("quiet")) {
+            std::cout << (arguments.flag("json") ? catalogue_json().dump(2) + "\n" : catalogue_table());
+        }
+        flush_output();
         return;
     }
     if (arguments.flag("power")) {

@@ -3,10 +3,10 @@
 #include <coagula/experiment/experiment_file.hpp>
 #include <coagula/experiment/experiment_structures.hpp>
 #include <coagula/experiment/simulation_cache.hpp>
+#include <coagula/report/result_folder.hpp>
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "report.hpp"
-#include "result_folder.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/diagnose/power.hpp>
 
@@ -17,6 +17,7 @@ namespace coagula::tools {
 
 namespace {
 
+using coagula::report::ResultFolder;
 using diagnose::CausePower;
 using diagnose::NamingRuns;
 using diagnose::Power;

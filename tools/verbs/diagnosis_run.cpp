@@ -2,12 +2,12 @@
 
 #include <coagula/experiment/checked_experiment.hpp>
 #include <coagula/experiment/simulation_cache.hpp>
+#include <coagula/report/diagnosis_datasets.hpp>
+#include <coagula/report/diagnosis_page.hpp>
+#include <coagula/report/diagnosis_results.hpp>
+#include <coagula/report/result_folder.hpp>
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "diagnosis_datasets.hpp"
-#include "diagnosis_page.hpp"
-#include "diagnosis_results.hpp"
-#include "result_folder.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
@@ -27,6 +27,7 @@ namespace {
 
 using diagnose::Experiment;
 using namespace experiment;
+using namespace coagula::report;
 namespace fs = std::filesystem;
 
 /// What a model of the contact cannot have of a cause.
@@ -148,7 +149,7 @@ void run_diagnosis(const Arguments& arguments) {
     }
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
     folder.write("simulations.txt", cache_text(cache));
-    Json json = to_json(diagnosis, checked.noise, model);
+    Json json = report::to_json(diagnosis, checked.noise, model);
     json["notes"] = notes;
     json["report"] = (folder.path() / "report.html").string();
     json["seconds"] = clock.seconds();

@@ -2,8 +2,8 @@
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
-#include "report.hpp"
 #include "size_distribution_text.hpp"
 
 #include <coagula/generators/void_expansion.hpp>

@@ -1,16 +1,16 @@
 // coagula shear: elastic response of the bonded packing, or its response to harmonic strain.
-#include "frequency_list.hpp"
-#include "frequency_results.hpp"
-#include "load_structure_results.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
+#include "cli/report.hpp"
+#include "cli/verbs.hpp"
+#include "frequency_list.hpp"
+#include "frequency_results.hpp"
+#include "load_structure_results.hpp"
 #include "quasistatic_run.hpp"
-#include "report.hpp"
 #include "rheometer_run.hpp"
 #include "shear_findings.hpp"
 #include "shear_results.hpp"
-#include "cli/verbs.hpp"
 
 #include <coagula/characterize/inner_particles.hpp>
 #include <coagula/common/contact_network.hpp>

@@ -1,7 +1,7 @@
 // What `coagula diagnose` finds: diagnosis.json and a table.
 #pragma once
 
-#include "report.hpp"
+#include <coagula/report/results.hpp>
 
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/noise.hpp>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 /// What replicates or statements say about the errors of some tables.
 Json noise_json(const diagnose::NoiseModel& noise);
@@ -32,4 +32,4 @@ std::string list_of(const std::vector<std::string>& names);
 /// No data set drawn from the base model has a misfit as large, so that p is at most what is stated.
 bool is_least_p(const diagnose::Diagnosis& diagnosis);
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 /// Errors of rows and samples, and where they are from; empty where none are known.
 std::string noise_section(const std::vector<diagnose::NoiseModel>& noise);
@@ -15,4 +15,4 @@ std::string noise_section(const std::vector<diagnose::NoiseModel>& noise);
 /// Cells that are not used, with reasons.
 std::string left_out_section(const diagnose::Experiment& experiment);
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

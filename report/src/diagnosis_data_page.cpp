@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::string left_out_section(const diagnose::Experiment& experiment) {
            html_table({"table", "column", "cells", "rows", "the first and why"}, rows);
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -1,7 +1,5 @@
-// What a verb prints: one JSON object, or a short table. Both are made from the data sets that go into the file.
+// Results as data sets of a file, as a JSON object and as a short table for people.
 #pragma once
-
-#include "cli/arguments.hpp"
 
 #include <coagula/common/cell.hpp>
 #include <coagula/io/structure_file.hpp>
@@ -12,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 using Json = nlohmann::ordered_json;
 using Results = std::vector<io::Dataset>;
@@ -39,10 +37,4 @@ std::string describe(const Cell& cell);
 /// Label and text of each line.
 using Table = std::vector<std::pair<std::string, std::string>>;
 
-/// Throws std::runtime_error when standard output takes no more.
-void flush_output();
-
-/// Prints the JSON object (--json), nothing (--quiet) or the table. Throws std::runtime_error when standard output takes no more.
-void report(const Arguments& arguments, const Json& json, const Table& table);
-
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 std::string conditions_of(const diagnose::Measurement& table) {
     std::string text = std::string(diagnose::name_of(table.kind)) + " · sample " + table.sample;
@@ -50,4 +50,4 @@ std::string image_table(const diagnose::Diagnosis& diagnosis, std::size_t number
     return rows.empty() ? std::string{} : html_table(head, rows);
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 /// Files are first written into the hidden folder .new inside the target, whatever fails meanwhile leaves the target as it was;
 /// `publish` then renames them into place. The key file goes first and comes last, so that where it stands, all files are of one
@@ -43,4 +43,4 @@ private:
     std::vector<std::string> withdrawn_;
 };
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

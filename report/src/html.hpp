@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 /// The text with every `what` replaced.
 std::string replaced(std::string text, std::string_view what, std::string_view by);
@@ -35,4 +35,4 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
 /// A whole page that needs no other file: <title>, style, body.
 std::string html_page(const std::string& title, const std::string& body);
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

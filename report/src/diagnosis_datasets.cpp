@@ -1,9 +1,9 @@
-#include "diagnosis_datasets.hpp"
+#include <coagula/report/diagnosis_datasets.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -232,4 +232,4 @@ Results datasets_of(const DiagnosisRecord& record) {
     return results;
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 struct GnuplotOutput {
     std::string picture;
@@ -30,4 +30,4 @@ private:
     int drawn_ = 0;
 };
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

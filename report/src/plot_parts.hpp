@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 /// Colours of Okabe and Ito (2008).
 inline const std::string palette = R"(
@@ -66,4 +66,4 @@ inline std::string line_of(const std::vector<double>& values) {
     return line + "\n";
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -1,4 +1,4 @@
-#include "gnuplot.hpp"
+#include <coagula/report/gnuplot.hpp>
 
 #include "html.hpp"
 
@@ -12,7 +12,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -133,4 +133,4 @@ std::string Gnuplot::draw(const std::string& commands, int width, int height, co
     return svg;
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

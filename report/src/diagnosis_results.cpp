@@ -1,8 +1,8 @@
-#include "diagnosis_results.hpp"
+#include <coagula/report/diagnosis_results.hpp>
 
 #include <cmath>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -221,4 +221,4 @@ Table table_of(const Diagnosis& diagnosis) {
     return lines;
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -1,13 +1,9 @@
-#include "diagnosis_catalogue.hpp"
-
-#include "report.hpp"
+#include <coagula/report/diagnosis_catalogue.hpp>
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/mechanism.hpp>
 
-#include <iostream>
-
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -45,17 +41,20 @@ Json to_json(const Mechanism& mechanism) {
 
 }  // namespace
 
-void print_catalogue(const Arguments& arguments) {
-    Json json = Json::array();
+std::string catalogue_table() {
     std::string text = "| cause | what it changes | how it shows | parameters and their range |\n|---|---|---|---|\n";
     for (const Mechanism& mechanism : diagnose::catalogue()) {
-        json.push_back(to_json(mechanism));
         text += row_of(mechanism);
     }
-    if (!arguments.flag("quiet")) {
-        std::cout << (arguments.flag("json") ? json.dump(2) + "\n" : text);
-    }
-    flush_output();
+    return text;
 }
 
-}  // namespace coagula::tools
+Json catalogue_json() {
+    Json json = Json::array();
+    for (const Mechanism& mechanism : diagnose::catalogue()) {
+        json.push_back(to_json(mechanism));
+    }
+    return json;
+}
+
+}  // namespace coagula::report

@@ -1,7 +1,7 @@
 // report.html: what a diagnosis found, as one page that needs no other file.
 #pragma once
 
-#include "gnuplot.hpp"
+#include <coagula/report/gnuplot.hpp>
 
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/noise.hpp>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 /// All that the page and the HDF5 file are made from.
 struct DiagnosisRecord {
@@ -29,4 +29,4 @@ std::string verdict_sentence(const diagnose::Diagnosis& found);
 
 std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot);
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 /// Kind, sample and what was special about it: "amplitude-sweep · sample A · under a cone of 1°".
 std::string conditions_of(const diagnose::Measurement& table);
@@ -14,4 +14,4 @@ std::string conditions_of(const diagnose::Measurement& table);
 /// @param cause name of the best cause; empty: there is none, and the base model stands alone.
 std::string image_table(const diagnose::Diagnosis& diagnosis, std::size_t number, const std::string& cause);
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 std::string draw_detection(Gnuplot& gnuplot, const diagnose::Diagnosis& diagnosis) {
     if (diagnosis.bootstrap.empty() || diagnosis.statistics.empty()) {
@@ -37,4 +37,4 @@ std::string draw_detection(Gnuplot& gnuplot, const diagnose::Diagnosis& diagnosi
         1080, 260, "Misfit of the data beside that of data sets drawn from the base model");
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

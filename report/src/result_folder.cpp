@@ -1,4 +1,4 @@
-#include "result_folder.hpp"
+#include <coagula/report/result_folder.hpp>
 
 #include <coagula/common/checks.hpp>
 
@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace fs = std::filesystem;
 
@@ -97,4 +97,4 @@ void ResultFolder::publish() {
     names_.clear();
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -1,14 +1,14 @@
 // The pictures of a diagnosis, as commands for gnuplot.
 #pragma once
 
-#include "gnuplot.hpp"
+#include <coagula/report/gnuplot.hpp>
 
 #include <coagula/diagnose/diagnosis.hpp>
 
 #include <string>
 #include <vector>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 struct Picture {
     std::string svg;
@@ -33,4 +33,4 @@ std::string draw_detection(Gnuplot& gnuplot, const diagnose::Diagnosis& diagnosi
 /// "G'", "G''" and so on for the name of an observable.
 std::string symbol_of(const std::string& observable);
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

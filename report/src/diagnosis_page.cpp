@@ -1,15 +1,15 @@
-#include "diagnosis_page.hpp"
+#include <coagula/report/diagnosis_page.hpp>
 
+#include <coagula/report/diagnosis_results.hpp>
 #include "diagnosis_data_page.hpp"
 #include "diagnosis_plots.hpp"
-#include "diagnosis_results.hpp"
 #include "diagnosis_tables.hpp"
 #include "html.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -305,4 +305,4 @@ std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot) {
     return html_page((record.experiment.title.empty() ? "Diagnosis" : record.experiment.title) + " – coagula", head + body);
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

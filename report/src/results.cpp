@@ -1,15 +1,12 @@
-#include "report.hpp"
-
-#include "printable.hpp"
+#include <coagula/report/results.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <stdexcept>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -50,21 +47,6 @@ Json nested(const std::vector<T>& values, const std::vector<std::size_t>& shape,
         list.push_back(nested(values, shape, level + 1, next));
     }
     return list;
-}
-
-/// Objects are indented, arrays stay on one line.
-void print(std::ostream& stream, const Json& json, const std::string& indent) {
-    if (!json.is_object() || json.empty()) {
-        stream << json.dump();
-        return;
-    }
-    const char* separator = "{\n";
-    for (const auto& [key, value] : json.items()) {
-        stream << separator << indent << "  " << Json(key).dump() << ": ";
-        print(stream, value, indent + "  ");
-        separator = ",\n";
-    }
-    stream << '\n' << indent << '}';
 }
 
 /// The power of 1000 that brings a value between 1 and 1000, as an SI prefix between pico and giga.
@@ -136,27 +118,4 @@ std::string describe(const Cell& cell) {
     return text + (cell.is_periodic() ? ", periodic" : ", open");
 }
 
-void flush_output() {
-    std::cout.flush();
-    if (!std::cout) {
-        throw std::runtime_error("standard output cannot be written");
-    }
-}
-
-void report(const Arguments& arguments, const Json& json, const Table& table) {
-    if (arguments.flag("json")) {
-        print(std::cout, json, "");
-        std::cout << '\n';
-    } else if (!arguments.flag("quiet")) {
-        std::size_t width = 0;
-        for (const auto& [label, text] : table) {
-            width = std::max(width, label.size());
-        }
-        for (const auto& [label, text] : table) {
-            std::cout << label << std::string(width + 3 - label.size(), ' ') << printable(text) << '\n';
-        }
-    }
-    flush_output();
-}
-
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 bool is_utf8(const std::string& text);
 
@@ -11,4 +11,4 @@ bool is_utf8(const std::string& text);
 /// are no UTF-8 the replacement character.
 std::string printable(const std::string& text);
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -186,4 +186,4 @@ std::string html_page(const std::string& title, const std::string& body) {
            "</body>\n</html>\n";
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -1,10 +1,10 @@
-#include "printable.hpp"
+#include <coagula/report/printable.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <cctype>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 using Json = nlohmann::json;
 
@@ -31,4 +31,4 @@ std::string printable(const std::string& text) {
     return safe;
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report

@@ -10,7 +10,7 @@
 #include <limits>
 #include <map>
 
-namespace coagula::tools {
+namespace coagula::report {
 
 namespace {
 
@@ -332,4 +332,4 @@ std::vector<Picture> draw_gain(Gnuplot& gnuplot, const Measurement& table, std::
     return pictures;
 }
 
-}  // namespace coagula::tools
+}  // namespace coagula::report
