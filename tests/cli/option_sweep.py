@@ -101,7 +101,7 @@ def write_inputs(program, folder):
     (folder / "losses.toml").write_text("normal_viscosity = 1e-3\nshear_viscosity = 1e-4\n")
     rows = "".join(f"{1e-5 * 2**k},{500 - k},{50 + k}\n" for k in range(12))
     (folder / "sweep.csv").write_text("strain [1],storage modulus [Pa],loss modulus [Pa]\n" + rows)
-    (folder / "experiment.toml").write_text('[[measurement]]\nkind = "amplitude-sweep"\nfile = "sweep.csv"\n')
+    (folder / "experiment.toml").write_text('[structures]\nfiles = ["packing.h5"]\n[[measurement]]\nkind = "amplitude-sweep"\nfile = "sweep.csv"\n')
 
 
 def nulls(value, path=""):
