@@ -58,6 +58,7 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
         found.file.notes.push_back(outlier.sentence);
     }
     found.noise = diagnose::noise_of_tables(experiment.measurements, noise);
+    found.options.stated_noise = noise;
     diagnose::state_errors(experiment, found.noise);
     diagnose::state_sample_effect(found.noise, noise.stated_sample, found.options.noise);
     diagnose::reduce_waveforms(experiment, noise.stated_relative, noise.stated_phase);
