@@ -1,10 +1,11 @@
 #include <coagula/report/diagnosis_page.hpp>
 
-#include <coagula/report/diagnosis_results.hpp>
 #include "diagnosis_data_page.hpp"
 #include "diagnosis_plots.hpp"
 #include "diagnosis_tables.hpp"
 #include "html.hpp"
+
+#include <coagula/report/diagnosis_results.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,8 @@
 // The pictures of a diagnosis, as commands for gnuplot.
 #pragma once
 
-#include <coagula/report/gnuplot.hpp>
-
 #include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/report/gnuplot.hpp>
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // An experiment file and, after a line "=== table", the file "table" beside it that its measurements may name.
-#include <coagula/experiment/experiment_file.hpp>
 #include "reader_contract.hpp"
 
 #include <coagula/diagnose/check_data.hpp>
+#include <coagula/experiment/experiment_file.hpp>
 
 namespace {
 

@@ -1,5 +1,6 @@
-#include <coagula/experiment/simulation_cache.hpp>
 #include "reader_contract.hpp"
+
+#include <coagula/experiment/simulation_cache.hpp>
 
 #include <algorithm>
 

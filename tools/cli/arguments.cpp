@@ -1,9 +1,8 @@
 #include "arguments.hpp"
 
-#include <coagula/report/printable.hpp>
-
 #include <coagula/common/checks.hpp>
 #include <coagula/io/units.hpp>
+#include <coagula/report/printable.hpp>
 
 #include <boost/program_options.hpp>
 

@@ -1,5 +1,4 @@
 // coagula: generate, characterize and shear random sphere packings. Chooses the verb and turns exceptions into exit codes.
-#include <coagula/report/printable.hpp>
 #include "arguments.hpp"
 #include "interruption.hpp"
 #include "provenance.hpp"
@@ -8,6 +7,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/progress.hpp>
+#include <coagula/report/printable.hpp>
 
 #include <omp.h>
 #include <unistd.h>

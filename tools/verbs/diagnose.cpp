@@ -1,7 +1,4 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
-#include <coagula/experiment/checked_experiment.hpp>
-#include <coagula/report/diagnosis_catalogue.hpp>
-#include <coagula/report/diagnosis_results.hpp>
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose_power.hpp"
@@ -9,6 +6,9 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/waveform.hpp>
+#include <coagula/experiment/checked_experiment.hpp>
+#include <coagula/report/diagnosis_catalogue.hpp>
+#include <coagula/report/diagnosis_results.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 #include "diagnose_power.hpp"
 
-#include <coagula/experiment/experiment_file.hpp>
-#include <coagula/experiment/experiment_structures.hpp>
-#include <coagula/experiment/simulation_cache.hpp>
-#include <coagula/report/result_folder.hpp>
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
 
 #include <coagula/diagnose/power.hpp>
+#include <coagula/experiment/experiment_file.hpp>
+#include <coagula/experiment/experiment_structures.hpp>
+#include <coagula/experiment/simulation_cache.hpp>
+#include <coagula/report/result_folder.hpp>
 
 #include <cmath>
 #include <optional>

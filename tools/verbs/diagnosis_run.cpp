@@ -1,19 +1,20 @@
 #include "diagnosis_run.hpp"
 
-#include <coagula/experiment/checked_experiment.hpp>
-#include <coagula/experiment/simulation_cache.hpp>
-#include <coagula/report/diagnosis_datasets.hpp>
-#include <coagula/report/diagnosis_page.hpp>
-#include <coagula/report/diagnosis_results.hpp>
-#include <coagula/report/result_folder.hpp>
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/model.hpp>
+#include <coagula/experiment/checked_experiment.hpp>
+#include <coagula/experiment/simulation_cache.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
+#include <coagula/report/diagnosis_datasets.hpp>
+#include <coagula/report/diagnosis_page.hpp>
+#include <coagula/report/diagnosis_results.hpp>
+#include <coagula/report/result_folder.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,8 @@
 #include "potential_picture.hpp"
 
-#include <coagula/report/gnuplot.hpp>
-
 #include <coagula/common/checks.hpp>
 #include <coagula/io/atomic_file.hpp>
+#include <coagula/report/gnuplot.hpp>
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,11 +1,10 @@
 // report.html: what a diagnosis found, as one page that needs no other file.
 #pragma once
 
-#include <coagula/report/gnuplot.hpp>
-
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/noise.hpp>
 #include <coagula/io/structure_file.hpp>
+#include <coagula/report/gnuplot.hpp>
 
 #include <string>
 #include <vector>

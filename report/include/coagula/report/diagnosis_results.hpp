@@ -1,10 +1,9 @@
 // What `coagula diagnose` finds: diagnosis.json and a table.
 #pragma once
 
-#include <coagula/report/results.hpp>
-
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/report/results.hpp>
 
 #include <functional>
 #include <string>
