@@ -23,13 +23,21 @@ def sweep(rows=8, scale=1.0, wobble=0.0):
 
 
 def experiment(*measurements, before=""):
+    if "[structures]" not in before:
+        before += '[structures]\nfiles = ["packing.h5"]\n'
     return before + "".join(f"[[measurement]]\n{text}\n" for text in measurements)
 
 
 SWEEP = 'kind = "amplitude-sweep"\nfile = "sweep.csv"'
 
 
-class Check(ProgramTest):
+class Experiment(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.copy_of_packing()
+
+
+class Check(Experiment):
     def found(self, text):
         return self.succeed_json("diagnose", "--check", self.write("experiment.toml", text))
 
@@ -115,11 +123,11 @@ class Check(ProgramTest):
         self.fail_with(2, "diagnose", "--check", "experiment.toml", says="several sections fit")
 
 
-class BadInput(ProgramTest):
+class BadInput(Experiment):
     def refuse(self, text, *says, data=None):
         self.write("sweep.csv", sweep() if data is None else data)
         self.write("experiment.toml", text)
-        self.fail_with(2, "diagnose", "--check", "experiment.toml", says=says, may_say_nan=True)
+        self.refuse_experiment(says, may_say_nan=True)
 
     def refuse_data(self, data, *says):
         self.refuse(experiment(SWEEP), *says, data=data)
