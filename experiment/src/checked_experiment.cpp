@@ -1,9 +1,8 @@
-#include "measured_tables.hpp"
-
 #include <coagula/diagnose/outliers.hpp>
 #include <coagula/diagnose/stated_errors.hpp>
 #include <coagula/diagnose/waveform.hpp>
 #include <coagula/experiment/checked_experiment.hpp>
+#include <coagula/experiment/measured_tables.hpp>
 
 #include <algorithm>
 
@@ -33,13 +32,40 @@ void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tabl
     }
 }
 
-std::vector<diagnose::CheckedMeasurement> check_tables(const std::vector<diagnose::Measurement>& tables) {
+/// What a table lacks that its kind needs; nothing where it lacks nothing.
+std::string missing_column(const diagnose::Measurement& table) {
+    const diagnose::TableRule rule = diagnose::rule_of(table.kind);
+    if (!rule.axes.empty() && diagnose::axis_of(table) == nullptr) {
+        return std::string(rule.axes.front());
+    }
+    const auto absent = std::find_if(rule.required.begin(), rule.required.end(),
+                                     [&](std::string_view name) { return diagnose::find_column(table, name) == nullptr; });
+    return absent == rule.required.end() ? "" : std::string(*absent);
+}
+
+/// The line that may make up for a missing column.
+std::string remedy(const diagnose::Measurement& table, const TableFacts& facts) {
+    const std::string missing = missing_column(table);
+    if (missing.empty() || facts.not_understood.empty()) {
+        return "";
+    }
+    std::string list;
+    for (const std::string& heading : facts.not_understood) {
+        list += (list.empty() ? "" : ", ") + heading;
+    }
+    const std::string& first = facts.not_understood.front();
+    return "; not understood are the columns " + list + ": if one of them is it, add to the measurement, say, columns = { " +
+           missing + " = \"" + first.substr(1, first.size() - 2) + "\" }";
+}
+
+std::vector<diagnose::CheckedMeasurement> check_tables(const ExperimentFile& file) {
+    const std::vector<diagnose::Measurement>& tables = file.experiment.measurements;
     refuse_what_was_not_measured(tables);
     std::vector<diagnose::CheckedMeasurement> checked;
-    for (const diagnose::Measurement& table : tables) {
-        checked.push_back(diagnose::check_data(table));
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        checked.push_back(diagnose::check_data(tables[i]));
         if (!checked.back().problems.empty()) {
-            throw InputError(checked.back().problems.front());
+            throw InputError(checked.back().problems.front() + remedy(tables[i], file.facts[i]));
         }
     }
     return checked;
@@ -51,7 +77,7 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     CheckedExperiment found{.file = read_experiment(path), .options = std::move(options)};
     diagnose::Experiment& experiment = found.file.experiment;
     const diagnose::NoiseOptions& noise = found.file.noise;
-    found.tables = check_tables(experiment.measurements);
+    found.tables = check_tables(found.file);
     std::transform(found.tables.begin(), found.tables.end(), experiment.measurements.begin(),
                    [](const diagnose::CheckedMeasurement& checked) { return checked.measurement; });
     for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(experiment.measurements)) {

@@ -1,6 +1,6 @@
 #include <coagula/experiment/experiment_file.hpp>
 
-#include "measured_tables.hpp"
+#include <coagula/experiment/measured_tables.hpp>
 #include "table_selection.hpp"
 #include "toml_keys.hpp"
 
@@ -40,6 +40,9 @@ public:
         read_noise();
         read_expectation();
         read_measurements();
+        result_.taken_over = metadata_.give_to(result_.experiment);
+        result_.facts.resize(result_.experiment.measurements.size());
+        naming(path_, [&] { derive_moduli(); });
         naming(path_, [&] { diagnose::check(result_.experiment); });
         return std::move(result_);
     }
@@ -64,6 +67,7 @@ private:
     void read_noise();
     void read_expectation();
     void read_measurements();
+    void derive_moduli();
     void read_measurement(const toml::table& table, std::size_t number);
     diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const;
     ColumnRules column_rules(TomlKeys& keys) const;
@@ -71,6 +75,8 @@ private:
     std::string path_;
     toml::table root_;
     ExperimentFile result_;
+    ExportMetadata metadata_;
+    std::vector<std::size_t> raw_moduli_;  ///< measurements whose moduli are to be those of torque and raw phase
 };
 
 void ExperimentReader::read_sample() {
@@ -111,6 +117,7 @@ void ExperimentReader::read_instrument() {
     instrument.stress_constant = keys.quantity("stress_constant", "Pa/(N.m)").value_or(unset);
     instrument.strain_constant = keys.quantity("strain_constant", "1/rad").value_or(unset);
     instrument.tool_inertia = keys.quantity("tool_inertia", "kg.m2").value_or(unset);
+    instrument.instrument_inertia = keys.quantity("instrument_inertia", "kg.m2").value_or(unset);
     instrument.tool_compliance = keys.quantity("tool_compliance", "rad/(N.m)").value_or(unset);
     keys.refuse_other_keys();
 }
@@ -288,7 +295,11 @@ std::map<std::string, std::string> headings_by_quantity(TomlKeys& keys, const st
 
 ColumnRules ExperimentReader::column_rules(TomlKeys& keys) const {
     ColumnRules rules;
-    rules.headings = headings_by_quantity(keys, "columns");
+    if (keys.holds_list("columns")) {
+        rules.names = keys.texts("columns");
+    } else {
+        rules.headings = headings_by_quantity(keys, "columns");
+    }
     rules.standard_errors = headings_by_quantity(keys, "standard_errors");
     for (const auto& [name, node] : keys.entries("values")) {
         const diagnose::Quantity& quantity = known_quantity(keys, "values", name);
@@ -334,6 +345,38 @@ TableSetting read_setting(TomlKeys& keys, std::size_t number) {
     return setting;
 }
 
+/// Once the tool is known, to which exports may contribute.
+void ExperimentReader::derive_moduli() {
+    std::vector<diagnose::Measurement>& tables = result_.experiment.measurements;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const bool raw = std::find(raw_moduli_.begin(), raw_moduli_.end(), i) != raw_moduli_.end();
+        if (!tables[i].label.ends_with("(planned)")) {
+            diagnose::derive_moduli(tables[i], result_.experiment.instrument, raw);
+        }
+    }
+}
+
+/// The table, its columns named by the list `columns` where the file has no headings.
+io::PlainTable with_names(TomlKeys& keys, io::PlainTable table, const ColumnRules& rules, const std::string& label) {
+    if (table.has_headings && !rules.names.empty()) {
+        keys.fail("columns", label + " has headings: write columns = { quantity = \"heading\" }");
+    }
+    if (!table.has_headings && rules.names.empty()) {
+        throw InputError(
+            label + ": there are no headings; name its " + std::to_string(table.columns.size()) +
+            " columns in the experiment file, columns = [\"strain [%]\", \"G' [Pa]\", ...], with \"\" for one that is not "
+            "meant");
+    }
+    if (!table.has_headings) {
+        try {
+            io::name_columns(table, rules.names);
+        } catch (const InputError& error) {
+            keys.fail("columns", label + ": " + error.what());
+        }
+    }
+    return table;
+}
+
 /// Whether moduli are to be those of torque, deflection and raw phase.
 bool moduli_are_raw(TomlKeys& keys) {
     const std::string moduli = keys.text("moduli").value_or("as-given");
@@ -369,20 +412,26 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
     const TableSelection selection = read_selection(keys);
     const bool raw = moduli_are_raw(keys);
     keys.refuse_other_keys();
-    const bool several = file.tables.size() > 1;
+    const std::size_t first = result_.experiment.measurements.size();
     for (const io::PlainTable* chosen : tables) {
-        const std::string label = name + (several ? ", section " + std::to_string(chosen->section) : "") +
-                                  (chosen->point > 0 ? ", point " + std::to_string(chosen->point) : "");
-        diagnose::Measurement measurement = to_measurement(*chosen, *kind, label, rules);
+        const std::string label = label_of(file, *chosen, name);
+        const io::PlainTable named = with_names(keys, *chosen, rules, label);
+        diagnose::Measurement measurement = to_measurement(named, *kind, label, rules);
         setting.give_to(measurement);
+        measurement.run_order += chosen->number - tables.front()->number;  // of a range
         select(measurement, selection);
-        naming(path_, [&] { diagnose::derive_moduli(measurement, result_.experiment.instrument, raw); });
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +
                                     " points, but has " + std::to_string(chosen->rows()));
         }
+        if (raw) {
+            raw_moduli_.push_back(result_.experiment.measurements.size());
+        }
         result_.experiment.measurements.push_back(std::move(measurement));
+        result_.facts.resize(result_.experiment.measurements.size());
+        result_.facts.back() = {not_understood(named, rules), named.flags};
     }
+    metadata_.add(name, file, first, result_.experiment.measurements.size());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "measured_tables.hpp"
+#include <coagula/experiment/measured_tables.hpp>
 
 #include <coagula/common/checks.hpp>
 #include <coagula/io/units.hpp>
@@ -81,11 +81,18 @@ private:
         }
         std::optional<std::size_t> found;
         for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-            if (table_.columns[i].quantity == quantity && (!found || !has_numbers(table_.columns[*found])) && !is_claimed(i)) {
-                found = found && !has_numbers(table_.columns[i]) ? found : i;
+            if (table_.columns[i].quantity == quantity && !is_claimed(i) && (!found || is_meant_rather(i, *found))) {
+                found = i;
             }
         }
         return found;
+    }
+
+    /// Of two columns with one meaning: the one with numbers, and of these the more special one.
+    bool is_meant_rather(std::size_t one, std::size_t other) const {
+        const bool numbers = has_numbers(table_.columns[one]);
+        const bool others = has_numbers(table_.columns[other]);
+        return numbers != others ? numbers : table_.columns[one].rank < table_.columns[other].rank;
     }
 
     /// Whether the experiment file gives the column another meaning.
@@ -174,6 +181,20 @@ private:
 };
 
 }  // namespace
+
+std::vector<std::string> not_understood(const io::PlainTable& table, const ColumnRules& rules) {
+    std::vector<std::string> headings;
+    for (const io::PlainColumn& column : table.columns) {
+        const std::string heading = column.heading + (column.unit.empty() ? "" : " [" + column.unit + "]");
+        const auto names_it = [&](const auto& entry) { return entry.second == column.heading || entry.second == heading; };
+        const bool named = std::any_of(rules.headings.begin(), rules.headings.end(), names_it) ||
+                           std::any_of(rules.standard_errors.begin(), rules.standard_errors.end(), names_it);
+        if (column.quantity.empty() && !named && has_numbers(column)) {
+            headings.push_back("'" + heading + "'");
+        }
+    }
+    return headings;
+}
 
 bool same_values(const std::vector<double>& one, const std::vector<double>& other) {
     return std::equal(one.begin(), one.end(), other.begin(), other.end(),

@@ -9,26 +9,48 @@ namespace coagula::experiment {
 
 namespace {
 
-const io::PlainTable& chosen_section(TomlKeys& keys, const io::MeasuredFile& file) {
+constexpr std::size_t most_listed = 20;  ///< tables that a message names
+
+std::string list_of(const std::vector<const io::PlainTable*>& tables) {
+    std::string list;
+    for (std::size_t i = 0; i < std::min(tables.size(), most_listed); ++i) {
+        const io::PlainTable& table = *tables[i];
+        list += (i == 0 ? "" : "; ") + std::to_string(table.number) + ": section " + std::to_string(table.section) +
+                (table.title.empty() ? "" : " of '" + table.title + "'") +
+                (table.test.empty() ? "" : " of test '" + table.test + "'") + ", " + std::to_string(table.rows()) + " rows";
+    }
+    return list + (tables.size() > most_listed ? "; ..." : "");
+}
+
+/// The tables, waveforms aside, that the keys section, result, test and table name.
+std::vector<const io::PlainTable*> fitting_tables(TomlKeys& keys, const io::MeasuredFile& file) {
     const auto section = keys.whole("section");
     const auto result = keys.text("result");
+    const auto test = keys.text("test");
+    const std::vector<std::int64_t> range = keys.wholes("table");
+    if (range.size() > 2 || (!range.empty() && (range.front() < 1 || range.back() < range.front()))) {
+        keys.fail("table", "must be a number from 1, or [first, last]");
+    }
+    std::vector<const io::PlainTable*> all;
     std::vector<const io::PlainTable*> fitting;
-    std::string all;
     for (const io::PlainTable& table : file.tables) {
         if (table.point != 0) {
             continue;
         }
-        all += (all.empty() ? "" : ", ") + std::to_string(table.section) +
-               (table.title.empty() ? "" : " of '" + table.title + "'") + " (" + std::to_string(table.rows()) + " rows)";
-        if ((!section || table.section == *section) && (!result || table.title == *result)) {
+        all.push_back(&table);
+        const bool in_range = range.empty() || (table.number >= range.front() && table.number <= range.back());
+        if (in_range && (!section || table.section == *section) && (!result || table.title == *result) &&
+            (!test || table.test == *test)) {
             fitting.push_back(&table);
         }
     }
-    if (fitting.size() != 1) {
+    if (fitting.empty() || (fitting.size() > 1 && range.size() < 2)) {
         const std::string what = fitting.empty() ? "no section fits" : "several sections fit";
-        throw InputError(file.path + ": " + what + " the keys 'section' and 'result' of the measurement; the sections are " + all);
+        throw InputError(file.path + ": " + what +
+                         " the keys of the measurement; choose by table = number, table = [first, last], test, " +
+                         "result or section from " + list_of(fitting.empty() ? all : fitting));
     }
-    return *fitting.front();
+    return fitting;
 }
 
 void set_clock(diagnose::Measurement& table, const TableSelection& selection) {
@@ -72,25 +94,36 @@ void keep(std::vector<double>& values, const std::vector<std::size_t>& rows) {
 }  // namespace
 
 std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file, diagnose::MeasurementKind kind) {
-    const io::PlainTable& section = chosen_section(keys, file);
+    const std::vector<const io::PlainTable*> tables = fitting_tables(keys, file);
     const std::vector<std::int64_t> points = keys.wholes("points");
     if (kind != diagnose::MeasurementKind::waveform) {
         if (!points.empty()) {
             keys.fail("points", "only a waveform has points");
         }
-        return {&section};
+        return tables;
     }
     std::vector<const io::PlainTable*> waveforms;
     for (const io::PlainTable& table : file.tables) {
-        const bool here = table.point > 0 && table.section == section.section && table.title == section.title;
-        if (here && (points.empty() || std::find(points.begin(), points.end(), table.point) != points.end())) {
+        const bool here = std::any_of(tables.begin(), tables.end(), [&](const auto* each) { return each->number == table.number; });
+        if (table.point > 0 && here && (points.empty() || std::find(points.begin(), points.end(), table.point) != points.end())) {
             waveforms.push_back(&table);
         }
     }
-    if (!points.empty() && waveforms.size() != points.size()) {
+    if (!points.empty() && waveforms.size() != points.size() * tables.size()) {
         keys.fail("points", file.path + " has no waveform for some of these points");
     }
-    return waveforms.empty() ? std::vector{&section} : waveforms;
+    return waveforms.empty() ? tables : waveforms;
+}
+
+std::string label_of(const io::MeasuredFile& file, const io::PlainTable& table, const std::string& name) {
+    if (file.tables.size() == 1) {
+        return name;
+    }
+    const bool section_tells = std::none_of(file.tables.begin(), file.tables.end(), [&](const io::PlainTable& other) {
+        return other.section == table.section && other.number != table.number;
+    });
+    return name + (section_tells ? ", section " + std::to_string(table.section) : ", table " + std::to_string(table.number)) +
+           (table.point > 0 ? ", point " + std::to_string(table.point) : "");
 }
 
 TableSelection read_selection(TomlKeys& keys) {

@@ -14,8 +14,11 @@
 
 namespace coagula::experiment {
 
-/// The section of a file, or the waveforms of it, that the keys section, result and points name. Throws InputError.
+/// The tables of a file, or the waveforms of them, that the keys table, test, result, section and points name. Throws InputError.
 std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file, diagnose::MeasurementKind kind);
+
+/// Names a table in messages: "sweep.csv, section 2", or "sweep.csv, table 7" where several have this section.
+std::string label_of(const io::MeasuredFile& file, const io::PlainTable& table, const std::string& name);
 
 struct TableSelection {
     std::int64_t first = 1;  ///< row

@@ -91,6 +91,11 @@ std::vector<std::string> TomlKeys::texts(const std::string& key) {
     return list;
 }
 
+bool TomlKeys::holds_list(const std::string& key) const {
+    const toml::node* node = table_.get(key);
+    return node != nullptr && node->is_array();
+}
+
 std::vector<std::int64_t> TomlKeys::wholes(const std::string& key) {
     const toml::node* node = take(key);
     std::vector<std::int64_t> list;

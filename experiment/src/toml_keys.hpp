@@ -28,6 +28,8 @@ public:
     bool flag(const std::string& key);
     /// A list of texts, or one text.
     std::vector<std::string> texts(const std::string& key);
+    /// Whether the key is there and holds a list.
+    bool holds_list(const std::string& key) const;
     /// A list of whole numbers, or one.
     std::vector<std::int64_t> wholes(const std::string& key);
     /// A table of texts or numbers, as key and node.

@@ -43,13 +43,14 @@ std::string hint(const std::string& verb) {
     return " (see 'coagula " + verb + " --help')";
 }
 
-po::variables_map read_words(const Verb& verb, const std::vector<Option>& options, const std::vector<std::string>& words) {
+po::variables_map read_words(const Verb& verb, const std::vector<Option>& options, const std::vector<std::string>& words,
+                             bool many_inputs) {
     po::options_description description;
     for (const Option& option : options) {
         const std::string names = option.letter != 0 ? option.name + "," + option.letter : option.name;
         if (option.kind == Option::Kind::flag) {
             description.add_options()(names.c_str(), "");
-        } else if (verb.many_inputs && option.name == "input") {
+        } else if (many_inputs && option.name == "input") {
             description.add_options()(names.c_str(), po::value<std::vector<std::string>>(), "");
         } else {
             description.add_options()(names.c_str(), po::value<std::string>(), "");
@@ -57,7 +58,7 @@ po::variables_map read_words(const Verb& verb, const std::vector<Option>& option
     }
     po::positional_options_description positional;
     if (!verb.input.empty()) {
-        positional.add("input", verb.many_inputs ? -1 : 1);
+        positional.add("input", many_inputs ? -1 : 1);
     }
     namespace style = po::command_line_style;
     po::variables_map map;
@@ -205,7 +206,7 @@ Option quantity(std::string name, std::string unit, std::string meaning, std::st
             .name = std::move(name),
             .placeholder = "X",
             .meaning = std::move(meaning),
-            .unit = unit,
+            .unit = std::move(unit),
             .fallback = std::move(fallback),
             .range = range};
 }
@@ -250,7 +251,9 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : 
         command_line_ += ' ' + quoted(word);
     }
     const std::vector<Option> options = all_options(verb);
-    const po::variables_map map = read_words(verb, options, words);
+    const bool many_inputs = verb.many_inputs || (!verb.many_beside.empty() &&
+                                                  std::find(words.begin(), words.end(), "--" + verb.many_beside) != words.end());
+    const po::variables_map map = read_words(verb, options, words, many_inputs);
     if (map.count("help") > 0) {
         help_wanted_ = true;
         return;
@@ -265,7 +268,7 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : 
         if (!given && option.fallback.empty()) {
             continue;
         }
-        if (verb.many_inputs && option.name == "input") {
+        if (many_inputs && option.name == "input") {
             values_["input"] = map["input"].as<std::vector<std::string>>();
             continue;
         }

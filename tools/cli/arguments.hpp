@@ -86,6 +86,7 @@ struct Verb {
     void (*run)(const Arguments&);        ///< parse -> validate -> call -> write
     std::vector<std::string> notes = {};  ///< lines below the options in the help text
     bool many_inputs = false;             ///< whether several arguments without a name may be given
+    std::string many_beside = {};         ///< name of a flag beside which they may be, too
     std::string alone = {};               ///< name of a flag beside which no argument without a name is needed
 };
 

@@ -1,6 +1,7 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "diagnose_new.hpp"
 #include "diagnose_power.hpp"
 #include "diagnosis_run.hpp"
 
@@ -50,7 +51,7 @@ std::optional<diagnose::WaveformHarmonics> harmonics_in(const diagnose::Measurem
     return table.kind == diagnose::MeasurementKind::waveform ? diagnose::harmonics_of(table) : std::nullopt;
 }
 
-Json measurement_json(const CheckedMeasurement& checked) {
+Json measurement_json(const CheckedMeasurement& checked, const TableFacts& facts) {
     const diagnose::Measurement& table = checked.measurement;
     Json json = {{"label", table.label},      {"kind", diagnose::name_of(table.kind)},
                  {"sample", table.sample},    {"run_order", table.run_order},
@@ -66,6 +67,11 @@ Json measurement_json(const CheckedMeasurement& checked) {
     for (const diagnose::RelationResult& relation : checked.relations) {
         json["relations"].push_back({{"name", relation.name}, {"rows", relation.rows}, {"failed", relation.failed}});
     }
+    json["not_understood"] = facts.not_understood;
+    json["flags"] = Json::object();
+    for (const auto& [flag, rows] : facts.flags) {
+        json["flags"][flag] = rows;
+    }
     if (const auto harmonics = harmonics_in(table)) {
         json["harmonics"] = {{"strain", harmonics->strain},
                              {"angular_frequency", harmonics->angular_frequency},
@@ -77,6 +83,14 @@ Json measurement_json(const CheckedMeasurement& checked) {
                              {"error", harmonics->error}};
     }
     return json;
+}
+
+std::string list_of(const std::vector<std::string>& headings) {
+    std::string list;
+    for (const std::string& heading : headings) {
+        list += (list.empty() ? "" : ", ") + heading;
+    }
+    return list;
 }
 
 /// "1-3, 7".
@@ -127,6 +141,31 @@ void add_measurement_lines(Table& lines, const CheckedMeasurement& checked) {
     }
 }
 
+/// Empty cells, flags of the instrument and columns that nobody has a meaning for.
+void add_fact_lines(Table& lines, const diagnose::Measurement& table, const TableFacts& facts) {
+    for (const diagnose::Column& column : table.columns) {
+        const auto without =
+            std::count_if(column.values.begin(), column.values.end(), [](double value) { return std::isnan(value); });
+        const auto left_out = std::count_if(table.left_out.begin(), table.left_out.end(),
+                                            [&](const diagnose::LeftOutCell& cell) { return cell.column == column.name; });
+        if (without > left_out) {
+            lines.emplace_back("  empty", column.name + ": " + std::to_string(without - left_out) + " of " +
+                                              std::to_string(column.values.size()) + " cells");
+        }
+    }
+    std::string flags;
+    for (const auto& [flag, rows] : facts.flags) {
+        flags += (flags.empty() ? "" : ", ") + flag + " in " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
+    }
+    if (!flags.empty()) {
+        lines.emplace_back("  flags", flags);
+    }
+    if (!facts.not_understood.empty()) {
+        lines.emplace_back("  not used", list_of(facts.not_understood) +
+                                             ": not understood; if one is needed: columns = { quantity = \"heading\" }");
+    }
+}
+
 void add_noise_lines(Table& lines, const NoiseModel& noise) {
     const auto interval = [](const diagnose::Estimate& estimate, auto text) {
         return text(estimate.value) +
@@ -149,13 +188,26 @@ void add_noise_lines(Table& lines, const NoiseModel& noise) {
 
 void report_check(const Arguments& arguments, const CheckedExperiment& found) {
     Json json = {{"title", found.file.experiment.title},
+                 {"taken_over", Json::array()},
                  {"measurements", Json::array()},
                  {"noise", Json::array()},
                  {"notes", found.file.notes}};
     Table lines;
-    for (const CheckedMeasurement& entry : found.tables) {
-        json["measurements"].push_back(measurement_json(entry));
-        add_measurement_lines(lines, entry);
+    for (const TakenOver& value : found.file.taken_over) {
+        const bool is_number = value.text.empty();
+        json["taken_over"].push_back({{"name", value.name},
+                                      {"value", is_number ? Json(value.value) : Json(value.text)},
+                                      {"unit", value.unit},
+                                      {"source", value.source},
+                                      {"fate", value.fate}});
+        lines.emplace_back(value.name, (is_number ? with_unit(value.value, value.unit) : value.text) + ", from " + value.source +
+                                           " (" + value.fate + ")");
+    }
+    for (std::size_t i = 0; i < found.tables.size(); ++i) {
+        const TableFacts& facts = found.file.facts[i];
+        json["measurements"].push_back(measurement_json(found.tables[i], facts));
+        add_measurement_lines(lines, found.tables[i]);
+        add_fact_lines(lines, found.tables[i].measurement, facts);
     }
     for (const NoiseModel& noise : found.noise) {
         json["noise"].push_back(noise_json(noise));
@@ -184,6 +236,11 @@ void run(const Arguments& arguments) {
         flush_output();
         return;
     }
+    if (arguments.flag("new")) {
+        refuse_options(arguments, "with --new", {"check", "power", "causes", "data-sets", "diagnoses"});
+        run_new(arguments);
+        return;
+    }
     if (arguments.flag("power")) {
         refuse_options(arguments, "with --power", {"check"});
         run_power(arguments);
@@ -209,7 +266,10 @@ Verb diagnose_verb() {
         .name = "diagnose",
         .summary = "what the simulation gets wrong about measured moduli, and the cause",
         .input = "EXPERIMENT.toml",
-        .options = {flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
+        .options = {flag("new",
+                         "write a commented experiment file (-o, otherwise printed) from exports of instruments, DATA..., which "
+                         "then stand in place of EXPERIMENT.toml"),
+                    flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
                     flag("power", "before anyone measures: which causes this experiment could find, and from which strength on"),
                     flag("catalogue",
                          "the causes that are known, with their parameters and priors, as a table; needs no experiment"),
@@ -220,6 +280,7 @@ Verb diagnose_verb() {
         .notes = {"Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore "
                   "curves "
                   "are diagnosed; see docs/diagnosis.md."},
+        .many_beside = "new",
         .alone = "catalogue"};
     const std::vector<Option> own = diagnosis_options();
     verb.options.insert(verb.options.end(), own.begin(), own.end());

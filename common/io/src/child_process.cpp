@@ -30,7 +30,7 @@ enum class Outcome : char { done = 'd', bad_input = 'i', wrong_argument = 'a', f
 }
 
 [[noreturn]] void fail_damaged(const std::string& path) {
-    throw InputError(path + " is damaged: its HDF5 structure cannot be followed; restore the file from a copy or make it again");
+    throw InputError(path + " is damaged: its structure cannot be followed; restore the file from a copy or make it again");
 }
 
 /// A descriptor that is closed at the end of its life.

@@ -1,4 +1,4 @@
-// Reading of files that may be damaged, in a child process: HDF5 1.10 crashes on some of them and never comes back from others.
+// Reading of files that may be damaged, in a child process: HDF5 1.10 and FreeXL crash on some of them or never come back.
 #pragma once
 
 #include <sys/resource.h>

@@ -1,76 +1,102 @@
-#include <coagula/common/checks.hpp>
 #include <coagula/io/input_file.hpp>
 #include <coagula/io/measured_file.hpp>
 
-#include "measured_text.hpp"
-#include "text_reader.hpp"
+#include "measured_readers.hpp"
+#include "read_workbook.hpp"
+#include "text_encoding.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace coagula::io {
 
 namespace {
 
-bool is_skipped(const std::string& line) {
-    return trim(line).empty() || trim(line).starts_with('#');
+/// The first that recognises a text reads it.
+constexpr std::array readers = {&rheocompass_reader, &trios_reader,      &trios_json_reader, &rheowin_reader,
+                                &rheoplus_reader,    &units_line_reader, &csv_reader};
+
+/// Containers, by their first bytes, and what to do instead.
+struct Container {
+    std::string_view beginning;
+    std::string_view name;
+};
+constexpr std::array containers = {
+    Container{"PK\x03\x04", "an Excel workbook (.xlsx)"},
+    Container{"<?xml", "XML"},
+    Container{"\xef\xbb\xbf<?xml", "XML"},
+    Container{"%PDF", "a PDF document"},
+};
+
+void refuse_containers(const std::string& path, const std::string& bytes) {
+    for (const Container& container : containers) {
+        if (bytes.starts_with(container.beginning)) {
+            throw InputError(
+                path + " is " + std::string(container.name) +
+                ", which is not read: export the measurement as text or CSV from the program of the instrument, or save each "
+                "sheet as CSV");
+        }
+    }
+}
+
+void number_tables(std::vector<PlainTable>& tables) {
+    int number = 0;
+    for (PlainTable& table : tables) {
+        number += table.point == 0 ? 1 : 0;
+        table.number = number;
+    }
 }
 
 }  // namespace
 
 std::string_view name_of(MeasuredFormat format) {
-    switch (format) {
-        case MeasuredFormat::csv:
-            return "CSV";
-        case MeasuredFormat::rheocompass:
-            return "RheoCompass";
-        case MeasuredFormat::trios:
-            return "TRIOS";
+    if (format == MeasuredFormat::workbook) {
+        return "Excel workbook";
     }
-    return "";
-}
-
-MeasuredFile read_measured_csv(const MeasuredText& text) {
-    const auto header = std::find_if_not(text.lines.begin(), text.lines.end(), is_skipped);
-    if (header == text.lines.end()) {
-        throw InputError(text.path + " has no header");
-    }
-    const char separator = separator_in(*header);
-    const std::vector<std::string> fields = split_cells(*header, separator);
-    std::vector<HeadingWithUnit> headings(fields.size());
-    std::transform(fields.begin(), fields.end(), headings.begin(), [](const std::string& field) { return split_heading(field); });
-    std::vector<std::vector<std::string>> rows;
-    DecimalCommaVote vote;
-    for (auto line = header + 1; line != text.lines.end(); ++line) {
-        if (is_skipped(*line)) {
-            continue;
-        }
-        rows.push_back(split_cells(*line, separator));
-        if (rows.back().size() != fields.size()) {
-            text.fail(static_cast<std::size_t>(line - text.lines.begin()), "there are " + std::to_string(rows.back().size()) +
-                                                                               " fields, but the header names " +
-                                                                               std::to_string(fields.size()));
-        }
-        std::for_each(rows.back().begin(), rows.back().end(), [&](const std::string& cell) { vote.add(cell); });
-    }
-    MeasuredFile file{text.path, MeasuredFormat::csv, vote.comma_wins(), {}, {}};
-    TableBuilder table(std::move(headings), file.decimal_comma);
-    for (const std::vector<std::string>& row : rows) {
-        table.add_row(row);
-    }
-    file.tables.push_back(table.take("", 1));
-    return file;
+    const auto found = std::find_if(readers.begin(), readers.end(), [&](const auto* reader) { return reader->format == format; });
+    return found == readers.end() ? std::string_view{} : (*found)->name;
 }
 
 MeasuredFile read_measured_file(const std::string& path) {
     const std::string bytes = read_file(path);
+    refuse_containers(path, bytes);
+    if (is_workbook(bytes)) {
+        MeasuredFile file = read_workbook(path);
+        number_tables(file.tables);
+        return file;
+    }
     const MeasuredText text{path, split_lines(to_utf8(bytes))};
     if (std::any_of(text.lines.begin(), text.lines.end(), [](const std::string& line) { return line.find('\0') != line.npos; })) {
         throw InputError(path + " is not a text file");
     }
-    if (looks_like_rheocompass(text)) {
-        return read_rheocompass(text);
+    const auto reader = std::find_if(readers.begin(), readers.end(), [&](const auto* each) { return each->recognises(text); });
+    MeasuredFile file = (*reader)->read(text);
+    number_tables(file.tables);
+    return file;
+}
+
+void name_columns(PlainTable& table, const std::vector<std::string>& names) {
+    if (names.size() != table.columns.size()) {
+        throw InputError("there are " + std::to_string(table.columns.size()) + " columns, but 'columns' names " +
+                         std::to_string(names.size()));
     }
-    return looks_like_trios(text) ? read_trios(text) : read_measured_csv(text);
+    std::vector<PlainColumn> kept;
+    std::vector<std::size_t> place(names.size());
+    for (std::size_t column = 0; column < names.size(); ++column) {
+        place[column] = kept.size();
+        if (!names[column].empty()) {
+            HeadingWithUnit parts = split_heading(names[column]);
+            KnownHeading known = known_heading(parts.heading);
+            kept.push_back({std::move(parts.heading), std::move(known.quantity), std::move(parts.unit), known.rank,
+                            std::move(table.columns[column].values)});
+        }
+    }
+    std::erase_if(table.unreadable, [&](const UnreadableCell& cell) { return names[cell.column].empty(); });
+    for (UnreadableCell& cell : table.unreadable) {
+        cell.column = place[cell.column];
+    }
+    table.columns = std::move(kept);
+    table.has_headings = true;
 }
 
 }  // namespace coagula::io

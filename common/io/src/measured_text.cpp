@@ -1,158 +1,36 @@
 #include "measured_text.hpp"
 
 #include "text_reader.hpp"
-#include "utf8.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <limits>
+#include <optional>
 
 namespace coagula::io {
 
 namespace {
 
-void append_utf8(std::string& text, std::uint32_t code) {
-    const auto byte = [&](std::uint32_t bits) { text.push_back(static_cast<char>(bits)); };
-    if (code < 0x80) {
-        byte(code);
-    } else if (code < 0x800) {
-        byte(0xc0 | code >> 6);
-        byte(0x80 | (code & 0x3f));
-    } else if (code < 0x10000) {
-        byte(0xe0 | code >> 12);
-        byte(0x80 | (code >> 6 & 0x3f));
-        byte(0x80 | (code & 0x3f));
-    } else {
-        byte(0xf0 | code >> 18);
-        byte(0x80 | (code >> 12 & 0x3f));
-        byte(0x80 | (code >> 6 & 0x3f));
-        byte(0x80 | (code & 0x3f));
-    }
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+/// RheoCompass and RheoPlus write this loss tangent where they have none, and moduli that follow from it.
+constexpr double loss_tangent_limit = 20000;
+
+constexpr std::array status_headings = {"status", "statut", "etat", "état", "ステータス"};
+
+/// Flags of Anton Paar: the storage (elastic) or loss (viscous) modulus came out negative, and 0 is written in its place.
+bool tells_negative_modulus(std::string_view flag) {
+    return flag == "ME-" || flag == "MV-";
 }
 
-constexpr std::uint32_t replacement = 0xfffd;
-
-std::string from_utf16(std::string_view bytes, bool big_endian) {
-    const auto unit = [&](std::size_t i) {
-        const auto first = static_cast<unsigned char>(bytes[i]);
-        const auto second = static_cast<unsigned char>(bytes[i + 1]);
-        return static_cast<std::uint32_t>(big_endian ? first << 8 | second : second << 8 | first);
-    };
-    std::string text;
-    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
-        const std::uint32_t code = unit(i);
-        if (code < 0xd800 || code > 0xdfff) {
-            append_utf8(text, code);
-            continue;
-        }
-        const bool paired = code < 0xdc00 && i + 3 < bytes.size() && unit(i + 2) >= 0xdc00 && unit(i + 2) <= 0xdfff;
-        append_utf8(text, paired ? 0x10000 + ((code - 0xd800) << 10) + (unit(i + 2) - 0xdc00) : replacement);
-        i += paired ? 2 : 0;
-    }
-    return text;
-}
-
-/// Windows-1252 but for its 27 printable characters between 0x80 and 0x9f, of which the trade mark sign alone is of interest here.
-std::string from_windows_1252(std::string_view bytes) {
-    std::string text;
-    for (const char c : bytes) {
-        const auto code = static_cast<unsigned char>(c);
-        append_utf8(text, code == 0x99 ? 0x2122 : code >= 0x80 && code < 0xa0 ? replacement : code);
-    }
-    return text;
-}
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
-/// A number taken apart: sign, digits before and after the last separator, exponent.
-struct NumberParts {
-    std::string_view mantissa;  ///< digits, points and commas
-    std::string_view exponent;  ///< "E+05" or empty
-    bool negative = false;
-};
-
-std::optional<NumberParts> take_apart(std::string_view text) {
-    NumberParts parts;
-    if (text.starts_with('-') || text.starts_with('+')) {
-        parts.negative = text.front() == '-';
-        text.remove_prefix(1);
-    }
-    const auto end = std::min(text.find_first_of("eE"), text.size());
-    parts.mantissa = text.substr(0, end);
-    parts.exponent = text.substr(end);
-    const auto allowed = [](char c) { return is_digit(c) || c == '.' || c == ','; };
-    if (parts.mantissa.empty() || !std::all_of(parts.mantissa.begin(), parts.mantissa.end(), allowed) ||
-        std::none_of(parts.mantissa.begin(), parts.mantissa.end(), is_digit)) {
-        return std::nullopt;
-    }
-    return parts;
-}
-
-/// The digits with the groups joined and a decimal point; nothing when the groups are not of three digits.
-std::optional<std::string> plain_digits(std::string_view mantissa, char decimal, char group) {
-    const std::size_t comma = mantissa.find(decimal);
-    const std::string_view whole = mantissa.substr(0, comma);
-    const std::string_view fraction = comma == std::string_view::npos ? std::string_view{} : mantissa.substr(comma + 1);
-    if (fraction.find_first_of(".,") != std::string_view::npos) {
-        return std::nullopt;
-    }
-    std::string digits;
-    std::size_t begin = 0;
-    for (std::size_t part = 0;; ++part) {
-        const std::size_t end = whole.find(group, begin);
-        const std::string_view digits_of_group = whole.substr(begin, end == std::string_view::npos ? end : end - begin);
-        const bool grouped = part > 0 || end != std::string_view::npos;
-        const bool wrong_size = part > 0 ? digits_of_group.size() != 3 : digits_of_group.empty() || digits_of_group.size() > 3;
-        if (grouped && (wrong_size || whole.front() == '0')) {
-            return std::nullopt;
-        }
-        digits += digits_of_group;
-        if (end == std::string_view::npos) {
-            break;
-        }
-        begin = end + 1;
-    }
-    return digits + (fraction.empty() ? "" : "." + std::string(fraction));
-}
-
-/// Joins groups of digits that blanks or apostrophes part: "1 234,5", "1'234.5", also with a no-break space.
-std::string without_blanks(std::string_view text) {
-    std::string joined;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const std::size_t width = text.substr(i).starts_with("\xc2\xa0")       ? 2
-                                  : text.substr(i).starts_with("\xe2\x80\xaf") ? 3
-                                  : text[i] == ' ' || text[i] == '\''          ? 1
-                                                                               : 0;
-        const bool parts_digits = width > 0 && i > 0 && is_digit(text[i - 1]) && i + width + 2 < text.size() &&
-                                  is_digit(text[i + width]) && is_digit(text[i + width + 1]) && is_digit(text[i + width + 2]);
-        if (parts_digits) {
-            i += width - 1;
-        } else {
-            joined.push_back(text[i]);
-        }
-    }
-    return joined;
+/// TRIOS gives forces and torques of the ARES in grams, which are those of a weight.
+std::string unit_of(const std::string& quantity, const std::string& unit) {
+    const bool weight = (quantity == "normal_force" && unit == "g") || (quantity == "torque" && unit == "g.cm");
+    return weight ? "gf" + unit.substr(1) : unit;
 }
 
 }  // namespace
-
-std::string to_utf8(std::string_view bytes) {
-    if (bytes.starts_with("\xff\xfe")) {
-        return from_utf16(bytes.substr(2), false);
-    }
-    if (bytes.starts_with("\xfe\xff")) {
-        return from_utf16(bytes.substr(2), true);
-    }
-    if (bytes.starts_with("\xef\xbb\xbf")) {
-        bytes.remove_prefix(3);
-    }
-    return is_utf8(bytes) ? std::string(bytes) : from_windows_1252(bytes);
-}
 
 std::vector<std::string> split_lines(const std::string& text) {
     const char line_end = text.find('\n') == text.npos ? '\r' : '\n';  // old programs end lines by a carriage return alone
@@ -199,64 +77,34 @@ char separator_in(std::string_view line) {
     return ',';
 }
 
-void DecimalCommaVote::add(std::string_view cell) {
-    const std::string text = without_blanks(cell);
-    const auto parts = take_apart(text);
-    if (!parts) {
-        return;
-    }
-    const bool as_comma = plain_digits(parts->mantissa, ',', '.').has_value();
-    const bool as_point = plain_digits(parts->mantissa, '.', ',').has_value();
-    commas_ += as_comma && !as_point ? 1 : 0;
-    points_ += as_point && !as_comma ? 1 : 0;
+bool is_blank(const std::vector<std::string>& cells) {
+    return std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); });
 }
 
-CellNumber read_cell(std::string_view text, bool decimal_comma) {
-    const std::string joined = without_blanks(trim(text));
-    if (joined.empty()) {
-        return {};
-    }
-    const auto parts = take_apart(joined);
-    if (!parts) {
-        return {std::nullopt, "is not a number"};
-    }
-    const bool grouped = parts->mantissa.find(decimal_comma ? '.' : ',') != std::string_view::npos;
-    const auto digits = plain_digits(parts->mantissa, decimal_comma ? ',' : '.', decimal_comma ? '.' : ',');
-    if (!digits || (grouped && !parts->exponent.empty())) {
-        return {std::nullopt,
-                decimal_comma ? "has a decimal point in a file with decimal commas" : "has a comma in a file with decimal points"};
-    }
-    const std::string number = *digits + std::string(parts->exponent);
-    double value = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value)) {
-        return {std::nullopt, "is not a finite number"};
-    }
-    return {parts->negative ? -value : value, ""};
+int announced_count(std::string_view text) {
+    const CellNumber number = read_cell(text, false);
+    return number.value && *number.value >= 1 && *number.value < 1e9 ? static_cast<int>(*number.value) : 0;
 }
 
-HeadingWithUnit split_heading(std::string_view text) {
-    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-        const std::size_t begin = text.rfind(open);
-        if (begin != std::string_view::npos && begin > 0 && text.ends_with(close)) {
-            return {std::string(trim(text.substr(0, begin))), std::string(trim(text.substr(begin + 1, text.size() - begin - 2)))};
-        }
+TableBuilder::TableBuilder(const std::vector<HeadingWithUnit>& headings, bool decimal_comma) : decimal_comma_(decimal_comma) {
+    for (const HeadingWithUnit& heading : headings) {
+        const KnownHeading known = known_heading(heading.heading);
+        table_.columns.push_back({heading.heading, known.quantity, unit_of(known.quantity, heading.unit), known.rank});
+        const std::string name = lower_case(heading.heading);
+        is_status_.push_back(std::find(status_headings.begin(), status_headings.end(), name) != status_headings.end());
     }
-    return {std::string(trim(text)), ""};
-}
-
-TableBuilder::TableBuilder(std::vector<HeadingWithUnit> headings, bool decimal_comma) : decimal_comma_(decimal_comma) {
-    for (HeadingWithUnit& heading : headings) {
-        std::string quantity = quantity_of_heading(heading.heading);
-        table_.columns.push_back({std::move(heading.heading), std::move(quantity), std::move(heading.unit), {}});
-    }
+    has_number_.assign(headings.size(), false);
 }
 
 void TableBuilder::add_row(const std::vector<std::string>& cells) {
     for (std::size_t column = 0; column < table_.columns.size(); ++column) {
         const std::string text = column < cells.size() ? cells[column] : "";
+        if (is_status_[column]) {
+            add_flags(text);
+        }
         const CellNumber cell = read_cell(text, decimal_comma_);
-        table_.columns[column].values.push_back(cell.value.value_or(std::numeric_limits<double>::quiet_NaN()));
+        table_.columns[column].values.push_back(cell.value.value_or(no_value));
+        has_number_[column] = has_number_[column] || cell.value;
         if (!cell.complaint.empty()) {
             table_.unreadable.push_back({column, rows_, text, cell.complaint});
         }
@@ -264,19 +112,77 @@ void TableBuilder::add_row(const std::vector<std::string>& cells) {
     ++rows_;
 }
 
-PlainTable TableBuilder::take(std::string title, int section) {
+void TableBuilder::add_flags(const std::string& status) {
+    for (const std::string& part : split_cells(status, ',')) {
+        const std::string flag = part.substr(0, part.find('"'));  // a quote that a spreadsheet left over
+        if (!flag.empty()) {
+            ++flags_[flag];
+            if (tells_negative_modulus(flag) && (negative_moduli_.empty() || negative_moduli_.back() != rows_)) {
+                negative_moduli_.push_back(rows_);
+            }
+        }
+    }
+}
+
+std::size_t TableBuilder::column_of(std::string_view quantity) const {
+    std::size_t best = table_.columns.size();
+    for (std::size_t column = 0; column < table_.columns.size(); ++column) {
+        const bool fits = table_.columns[column].quantity == quantity && has_number_[column];
+        if (fits && (best == table_.columns.size() || table_.columns[column].rank < table_.columns[best].rank)) {
+            best = column;
+        }
+    }
+    return best;
+}
+
+void TableBuilder::take_out(std::size_t column, std::size_t row, const std::string& reason) {
+    double& value = table_.columns[column].values[row];
+    table_.unreadable.push_back({column, row, to_text(value), reason});
+    value = no_value;
+}
+
+void TableBuilder::take_out_loss_tangent_limit() {
+    const std::size_t tangent = column_of("loss_tangent");
+    const std::size_t storage = column_of("storage_modulus");
+    const std::size_t loss = column_of("loss_modulus");
+    for (std::size_t row = 0; tangent < table_.columns.size() && row < rows_; ++row) {
+        if (table_.columns[tangent].values[row] != loss_tangent_limit) {
+            continue;
+        }
+        take_out(tangent, row, "stands for no value");
+        if (storage < table_.columns.size() && loss < table_.columns.size()) {
+            const double from_limit = table_.columns[loss].values[row] / loss_tangent_limit;
+            if (std::abs(table_.columns[storage].values[row] - from_limit) <= 1e-3 * std::abs(from_limit)) {
+                take_out(storage, row, "follows from a loss tangent that stands for no value");
+            }
+        }
+    }
+}
+
+void TableBuilder::take_out_negative_moduli() {
+    for (const char* quantity : {"storage_modulus", "loss_modulus"}) {
+        const std::size_t column = column_of(quantity);
+        for (std::size_t k = 0; column < table_.columns.size() && k < negative_moduli_.size(); ++k) {
+            if (table_.columns[column].values[negative_moduli_[k]] == 0) {
+                take_out(column, negative_moduli_[k], "stands for a negative value, as the flag ME- or MV- says");
+            }
+        }
+    }
+}
+
+PlainTable TableBuilder::take(std::string title, int section, bool keep_all) {
+    take_out_loss_tangent_limit();
+    take_out_negative_moduli();
     PlainTable kept;
     kept.title = std::move(title);
     kept.section = section;
+    kept.flags.assign(flags_.begin(), flags_.end());
     std::vector<std::optional<std::size_t>> place(table_.columns.size());  // of a column among those kept
     for (std::size_t column = 0; column < table_.columns.size(); ++column) {
-        PlainColumn& from = table_.columns[column];
-        const bool numeric = std::any_of(from.values.begin(), from.values.end(), [](double value) { return !std::isnan(value); });
-        if (!numeric && from.quantity.empty()) {
-            continue;
+        if (keep_all || has_number_[column] || !table_.columns[column].quantity.empty()) {
+            place[column] = kept.columns.size();
+            kept.columns.push_back(std::move(table_.columns[column]));
         }
-        place[column] = kept.columns.size();
-        kept.columns.push_back(std::move(from));
     }
     for (UnreadableCell& cell : table_.unreadable) {
         if (place[cell.column]) {
@@ -296,6 +202,17 @@ void MissingCells::add(const MeasuredText& text, std::size_t line, std::size_t h
     if (missing_ > most_missing) {
         text.fail(line, "the rows up to here lack " + std::to_string(missing_) + " cells that the headings name; write every cell");
     }
+}
+
+bool has_decimal_comma(const MeasuredText& text, char separator) {
+    DecimalCommaVote vote;
+    for (const std::string& line : text.lines) {
+        const std::vector<std::string> cells = split_cells(line, separator);
+        for (std::size_t i = 0; cells.size() > 1 && i < cells.size(); ++i) {
+            vote.add(cells[i]);
+        }
+    }
+    return vote.comma_wins();
 }
 
 }  // namespace coagula::io

@@ -1,17 +1,17 @@
-// What the readers of measured tables share: lines in UTF-8, fields, cells with a decimal comma or point.
+// What the readers of measured tables share: lines in UTF-8, fields, tables that grow row by row.
 #pragma once
+
+#include "cell_number.hpp"
+#include "rheometer_headings.hpp"
 
 #include <coagula/io/measured_file.hpp>
 
-#include <optional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace coagula::io {
-
-/// The contents in UTF-8: from UTF-16 where a byte order mark says so, from Windows-1252 where it is not valid UTF-8.
-std::string to_utf8(std::string_view bytes);
 
 /// Lines without their ends.
 std::vector<std::string> split_lines(const std::string& text);
@@ -22,43 +22,36 @@ std::vector<std::string> split_cells(std::string_view line, char separator);
 /// Tab, semicolon or comma: the first of these that the line contains.
 char separator_in(std::string_view line);
 
-/// Whether the cells of a file have a decimal comma: by majority among the numbers that can be read in one way only.
-class DecimalCommaVote {
-public:
-    void add(std::string_view cell);
-    bool comma_wins() const { return commas_ > points_; }
+/// Whether all cells are empty.
+bool is_blank(const std::vector<std::string>& cells);
 
-private:
-    std::size_t commas_ = 0;
-    std::size_t points_ = 0;
-};
-
-struct CellNumber {
-    std::optional<double> value;
-    std::string complaint;  ///< why it cannot be read; empty for a number and for an empty cell
-};
-CellNumber read_cell(std::string_view text, bool decimal_comma);
-
-/// Heading and unit of "strain [%]" or "strain (%)"; the unit is empty when there is none.
-struct HeadingWithUnit {
-    std::string heading;
-    std::string unit;
-};
-HeadingWithUnit split_heading(std::string_view text);
+/// A count that a file announces; 0 when the text is no whole number above zero.
+int announced_count(std::string_view text);
 
 /// A table that grows row by row.
 class TableBuilder {
 public:
-    TableBuilder(std::vector<HeadingWithUnit> headings, bool decimal_comma);
+    TableBuilder(const std::vector<HeadingWithUnit>& headings, bool decimal_comma);
 
     /// One row; missing fields are empty cells.
     void add_row(const std::vector<std::string>& cells);
-    /// Drops the columns that carry no number and have no known heading.
-    PlainTable take(std::string title, int section);
+    /// Takes what stands for no value out and, unless all are to be kept, drops the columns that carry no number and have no known
+    /// heading.
+    PlainTable take(std::string title, int section, bool keep_all = false);
     std::size_t rows() const { return rows_; }
 
 private:
+    void add_flags(const std::string& status);
+    void take_out_loss_tangent_limit();
+    void take_out_negative_moduli();
+    void take_out(std::size_t column, std::size_t row, const std::string& reason);
+    std::size_t column_of(std::string_view quantity) const;
+
     PlainTable table_;
+    std::vector<bool> is_status_;               ///< per column
+    std::vector<bool> has_number_;              ///< per column
+    std::vector<std::size_t> negative_moduli_;  ///< rows flagged so
+    std::map<std::string, std::size_t> flags_;
     bool decimal_comma_;
     std::size_t rows_ = 0;
 };
@@ -82,10 +75,7 @@ private:
     std::size_t missing_ = 0;
 };
 
-bool looks_like_rheocompass(const MeasuredText& text);
-bool looks_like_trios(const MeasuredText& text);
-MeasuredFile read_rheocompass(const MeasuredText& text);
-MeasuredFile read_trios(const MeasuredText& text);
-MeasuredFile read_measured_csv(const MeasuredText& text);
+/// By all cells of the lines that have several.
+bool has_decimal_comma(const MeasuredText& text, char separator);
 
 }  // namespace coagula::io

@@ -167,6 +167,15 @@ double parse_quantity(const std::string& text, const std::string& unit) {
     return result;
 }
 
+bool is_unit_text(const std::string& text) {
+    if (text.empty() || text.size() > longest_unit || text.find('\0') != std::string::npos || !digits_are_exponents(text)) {
+        return false;
+    }
+    UnitSystem& units = unit_system();
+    const std::lock_guard lock(units.mutex);
+    return Unit(ut_parse(units.system.get(), text.c_str(), UT_UTF8), ut_free) != nullptr;
+}
+
 double unit_factor(const std::string& from, const std::string& to) {
     refuse_nul(from, to);
     const std::string what = "'" + from + "' is not a unit of the dimension of " + to;

@@ -164,6 +164,7 @@ void check_instrument(const Instrument& instrument) {
         throw InputError("instrument.stress_constant and instrument.strain_constant go together: give both or none");
     }
     check_positive(instrument.tool_inertia, "instrument.tool_inertia", "kg.m2");
+    check_positive(instrument.instrument_inertia, "instrument.instrument_inertia", "kg.m2");
     check_positive(instrument.tool_compliance, "instrument.tool_compliance", "rad/(N.m)");
     check_cone(instrument.cone_angle, "instrument.cone_angle");
     if (std::isnan(instrument.inner_radius) != std::isnan(instrument.outer_radius)) {

@@ -73,7 +73,7 @@ void check_german(const MeasuredFile& file) {
     EXPECT_EQ(column(first, "strain").values, (std::vector<double>{0.01, 0.1, 1}));
     EXPECT_EQ(column(first, "storage_modulus").values[0], 1234.5);
     EXPECT_TRUE(std::isnan(column(first, "storage_modulus").values[2]));
-    EXPECT_EQ(column(first, "torque").unit, "mN·m");
+    EXPECT_EQ(column(first, "torque").unit, "mN.m");
     EXPECT_TRUE(std::isnan(column(first, "torque").values[0]));
     EXPECT_EQ(column(first, "torque").values[2], -0.5);
     EXPECT_EQ(column(first, "complex_viscosity").values, (std::vector<double>{2878.2, 1.5e4, 1234567}));
@@ -91,7 +91,7 @@ void check_german(const MeasuredFile& file) {
     EXPECT_EQ(column(file.tables[2], "stress").values, (std::vector<double>{0.5, 1.5, -0.5}));
     EXPECT_EQ(file.tables[3].point, 2);
     EXPECT_EQ(column(file.tables[3], "stress").values, (std::vector<double>{0.6, 1.6}));
-    EXPECT_EQ(file.metadata.front(), (std::pair<std::string, std::string>("Projekt", "Paste")));
+    EXPECT_EQ(first.test, "V1");
 }
 
 TEST_F(MeasuredFiles, ReadsGermanRheoCompassInEveryEncoding) {
@@ -156,7 +156,8 @@ TEST_F(MeasuredFiles, ReadsTriosExports) {
     EXPECT_EQ(lims.tables[0].rows(), 2u);
     EXPECT_EQ(column(lims.tables[0], "stress").values, (std::vector<double>{1.5, 3}));
     EXPECT_EQ(column(lims.tables[0], "phase").unit, "°");
-    EXPECT_EQ(lims.metadata[2].first, "Diameter");
+    EXPECT_EQ(lims.metadata[2].group, "Geometry Parameters");
+    EXPECT_EQ(lims.metadata[2].key, "Diameter");
 }
 
 TEST_F(MeasuredFiles, ReadsCsvWithUnitsInTheHeader) {
@@ -266,7 +267,13 @@ TEST_F(MeasuredFiles, RefusesWhatHoldsNoTable) {
     refused("# only a comment\n", "has no header");
     refused("a,b\n1,2\n1,2,3\n", "line 3: there are 3 fields, but the header names 2");
     refused(std::string("\x89HDF\r\n\x1a\n\0\0\0\0", 12), "not a text file");
-    refused("Interval and data points:\t1\t3\n", "no line begins with 'Interval data:'");
+    refused("Interval and data points:\t1\t3\n", "a RheoCompass export begins here, but no line of headings with units follows");
+    refused("PK\x03\x04", "is an Excel workbook (.xlsx), which is not read: export the measurement as text or CSV");
+    refused("\xd0\xcf\x11\xe0\xa1\xb1", "is an old Excel workbook (.xls) that cannot be read");
+    refused("\xef\xbb\xbf<?xml version=\"1.0\"?>", "is XML, which is not read");
+    refused("{\"Results\": [", "begins as JSON but is none");
+    refused("{\"Results\": {}}", "holds no Results as TRIOS exports them");
+    refused("{\"Results\": {\"Raw\": {\"Rows\": []}}}", "no ColumnHeaders and Rows");
     refused("Interval and data points:\t1\t3\nInterval data:\tPoint No.\tTime\n\t1\t2\n", "line 2: no line with units");
     refused("[step]\nname\nfoo\tbar\n1\t2\n", "line 1: this step has no line of headings");
     EXPECT_THROW(read_measured_file(file("absent.csv")), InputError);

@@ -1,19 +1,30 @@
 // The experiment file: TOML that names a sample, an instrument and tables of measured data (docs/experiment-file.md).
 #pragma once
 
+#include <coagula/experiment/export_metadata.hpp>
+
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/noise.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coagula::experiment {
+
+/// What a table of a measurement has besides its columns.
+struct TableFacts {
+    std::vector<std::string> not_understood;                 ///< columns with numbers, as "'heading [unit]'"
+    std::vector<std::pair<std::string, std::size_t>> flags;  ///< of a status column, and in how many rows
+};
 
 struct ExperimentFile {
     diagnose::Experiment experiment;
     diagnose::NoiseOptions noise;
     double expected_storage_modulus = unset;  ///< at small strain, of planned measurements [Pa]
+    std::vector<TableFacts> facts;            ///< one per measurement
+    std::vector<TakenOver> taken_over;        ///< from the exports
     std::vector<std::string> notes;           ///< what is worth knowing but no error, such as fewer points than announced
 };
 

@@ -14,6 +14,9 @@ namespace coagula::io {
 /// rad/s for Hz). "5ms" are milliseconds, "5 m s" and "5m.s" metre seconds. Safe to call from several threads.
 double parse_quantity(const std::string& text, const std::string& unit);
 
+/// Whether UDUNITS knows the unit, of whatever dimension.
+bool is_unit_text(const std::string& text);
+
 /// How many `to` are in one `from`: unit_factor("um", "m") is 1e-6. Throws InputError as parse_quantity does, and for a scale with
 /// another zero, such as degrees Celsius.
 double unit_factor(const std::string& from, const std::string& to);

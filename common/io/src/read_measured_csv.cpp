@@ -1,0 +1,216 @@
+// CSV as spreadsheets and people write it: comma, semicolon or tab; lines that begin with # are comments. Blank lines part tables.
+// A table is
+//     <title, or lines "key, value">           may be missing
+//     <headings, perhaps with units>           may be missing: then most cells of the first row are numbers
+//     <units>                                  may be missing
+//     <cells>
+#include "measured_readers.hpp"
+
+#include "text_reader.hpp"
+
+#include <coagula/io/units.hpp>
+
+#include <algorithm>
+
+namespace coagula::io {
+
+namespace {
+
+using Cells = std::vector<std::string>;
+
+/// A line that is neither blank nor a comment.
+struct FilledLine {
+    std::size_t number;  ///< from 0
+    bool after_blank;
+    std::size_t fields;  ///< with empty ones at the end
+    Cells cells;         ///< without
+};
+
+std::size_t filled(const Cells& cells) {
+    return static_cast<std::size_t>(
+        std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
+}
+
+bool has_number(const Cells& cells) {
+    return std::any_of(cells.begin(), cells.end(), looks_like_number);
+}
+
+bool holds_numbers_only(const Cells& cells) {
+    return has_number(cells) &&
+           std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty() || looks_like_number(cell); });
+}
+
+/// At least every other cell is a number, and no other a heading: texts such as a status may stand in a row.
+bool is_row(const Cells& cells) {
+    const auto numbers = static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), looks_like_number));
+    return numbers > 0 && 2 * numbers >= filled(cells) && std::none_of(cells.begin(), cells.end(), [](const std::string& cell) {
+               return !quantity_of_heading(split_heading(cell).heading).empty();
+           });
+}
+
+/// "49 <tab> KCl/Polymer 10degC <tab> 1" above rows of another width.
+bool is_title(const Cells& cells, const FilledLine* next) {
+    return filled(cells) > 0 && !holds_numbers_only(cells) && next != nullptr && next->cells.size() != cells.size() &&
+           (filled(cells) == 1 || (has_number(cells) && holds_numbers_only(next->cells)));
+}
+
+bool are_units(const Cells& cells) {
+    return filled(cells) > 0 && !has_number(cells) && std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
+               return cell.empty() || (quantity_of_heading(cell).empty() && is_unit_text(normal_unit(cell)));
+           });
+}
+
+bool is_skipped(const std::string& line) {
+    return trim(line).empty() || trim(line).starts_with('#');
+}
+
+/// Tab, semicolon or comma: the first of these that stands in most lines, for a title may have a comma, too.
+char separator_of(const MeasuredText& text) {
+    for (const char separator : {'\t', ';', ','}) {
+        std::size_t lines = 0;
+        std::size_t with_it = 0;
+        for (const std::string& line : text.lines) {
+            lines += is_skipped(line) ? 0 : 1;
+            with_it += !is_skipped(line) && line.find(separator) != line.npos ? 1 : 0;
+        }
+        if (with_it > 0 && 2 * with_it >= lines) {
+            return separator;
+        }
+    }
+    return ',';
+}
+
+class CsvTables {
+public:
+    explicit CsvTables(const MeasuredText& text) : text_(text) { file_.path = text.path; }
+
+    MeasuredFile run() {
+        collect_lines();
+        while (at_ < lines_.size()) {
+            read_table();
+        }
+        return std::move(file_);
+    }
+
+private:
+    void collect_lines();
+    void read_table();
+    void read_above(std::string& title);
+    std::vector<HeadingWithUnit> read_headings(bool& given);
+    bool begins_table(const FilledLine& line, std::size_t width) const;
+    const FilledLine* next() const { return at_ + 1 < lines_.size() ? &lines_[at_ + 1] : nullptr; }
+
+    const MeasuredText& text_;
+    MeasuredFile file_;
+    MissingCells missing_;
+    std::vector<FilledLine> lines_;
+    std::size_t at_ = 0;
+};
+
+void CsvTables::collect_lines() {
+    const char separator = separator_of(text_);
+    file_.decimal_comma = has_decimal_comma(text_, separator);
+    bool after_blank = true;
+    for (std::size_t number = 0; number < text_.lines.size(); ++number) {
+        const std::string& line = text_.lines[number];
+        Cells cells = is_skipped(line) ? Cells{} : split_cells(line, separator);
+        if (is_blank(cells)) {
+            after_blank = after_blank || !trim(line).starts_with('#');
+            continue;
+        }
+        const std::size_t fields = cells.size();
+        while (cells.back().empty()) {
+            cells.pop_back();
+        }
+        lines_.push_back({number, after_blank, fields, std::move(cells)});
+        after_blank = false;
+    }
+    if (lines_.empty()) {
+        throw InputError(text_.path + " has no header");
+    }
+}
+
+/// Titles and lines "key, value" above the headings.
+void CsvTables::read_above(std::string& title) {
+    while (next() != nullptr) {
+        const Cells& cells = lines_[at_].cells;
+        const bool key_and_value = cells.size() == 2 && next()->cells.size() > 2 && !has_number(cells);
+        if (key_and_value) {
+            file_.metadata.push_back({"", cells[0], cells[1]});
+        } else if (is_title(cells, next())) {
+            title.clear();
+            for (const std::string& cell : cells) {
+                title += looks_like_number(cell) || cell.empty() ? "" : (title.empty() ? "" : " ") + cell;
+            }
+        } else {
+            return;
+        }
+        ++at_;
+    }
+}
+
+/// Headings and units, or "column 1", ... where the first row is one of numbers.
+std::vector<HeadingWithUnit> CsvTables::read_headings(bool& given) {
+    const Cells& cells = lines_[at_].cells;
+    std::vector<HeadingWithUnit> headings;
+    given = !is_row(cells);
+    if (!given) {
+        std::size_t width = cells.size();
+        for (std::size_t row = at_; row < lines_.size() && !begins_table(lines_[row], width); ++row) {
+            width = std::max(width, lines_[row].cells.size());
+        }
+        for (std::size_t column = 1; column <= width; ++column) {
+            headings.push_back({"column " + std::to_string(column), ""});
+        }
+        return headings;
+    }
+    const bool units_below = next() != nullptr && next()->cells.size() <= cells.size() && are_units(next()->cells);
+    for (std::size_t column = 0; column < cells.size(); ++column) {
+        headings.push_back(units_below ? HeadingWithUnit{cells[column], ""} : split_heading(cells[column]));
+        if (units_below && column < next()->cells.size()) {
+            headings.back().unit = normal_unit(next()->cells[column]);
+        }
+    }
+    at_ += units_below ? 2 : 1;
+    return headings;
+}
+
+/// After a blank line: a title, or headings of a further table.
+bool CsvTables::begins_table(const FilledLine& line, std::size_t width) const {
+    return line.after_blank && ((line.cells.size() != width && !holds_numbers_only(line.cells)) || !has_number(line.cells));
+}
+
+void CsvTables::read_table() {
+    std::string title;
+    read_above(title);
+    bool given = true;
+    const std::vector<HeadingWithUnit> headings = read_headings(given);
+    TableBuilder table(headings, file_.decimal_comma);
+    const std::size_t first_row = at_;
+    for (; at_ < lines_.size() && (at_ == first_row || !begins_table(lines_[at_], headings.size())); ++at_) {
+        const FilledLine& line = lines_[at_];
+        missing_.add(text_, line.number, headings.size(), line.cells.size());
+        if (given && (line.fields < headings.size() || line.cells.size() > headings.size())) {
+            text_.fail(line.number, "there are " + std::to_string(line.fields) + " fields, but the header names " +
+                                        std::to_string(headings.size()));
+        }
+        table.add_row(line.cells);
+    }
+    file_.tables.push_back(table.take(title, static_cast<int>(file_.tables.size()) + 1, !given));
+    file_.tables.back().has_headings = given;
+    file_.tables.back().first_line = first_row < lines_.size() ? lines_[first_row].number + 1 : 0;
+}
+
+bool recognise(const MeasuredText&) {
+    return true;
+}
+
+MeasuredFile read(const MeasuredText& text) {
+    return CsvTables(text).run();
+}
+
+}  // namespace
+
+const MeasuredReader csv_reader{MeasuredFormat::csv, "CSV", recognise, read};
+
+}  // namespace coagula::io

@@ -1,0 +1,6 @@
+// Anton Paar RheoPlus.
+#include "measured_contract.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return coagula::fuzz::read_by(coagula::io::rheoplus_reader, data, size);
+}
