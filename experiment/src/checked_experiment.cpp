@@ -90,7 +90,11 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     diagnose::reduce_waveforms(experiment, noise.stated_relative, noise.stated_phase);
     naming(path, [&] {
         found.structures = check_structures(experiment);
-        diagnose::check(experiment, found.options);
+        if (experiment.structure_sizes.empty()) {
+            found.file.notes.push_back("the experiment names no structures yet, which a diagnosis needs");
+        } else {
+            diagnose::check(experiment, found.options);
+        }
     });
     return found;
 }

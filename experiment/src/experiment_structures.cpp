@@ -71,8 +71,6 @@ ExperimentStructures check_structures(diagnose::Experiment& experiment) {
         const std::size_t count = experiment.recipe->seeds.size();
         experiment.structure_sizes.assign(count, static_cast<std::size_t>(experiment.recipe->particles));
         experiment.structure_volume_fractions.assign(count, experiment.sample.volume_fraction);
-    } else {
-        throw InputError("[structures] gives no structures: it needs 'files', or 'generator' with 'seeds'");
     }
     return found;
 }
@@ -81,6 +79,9 @@ void make_structures(diagnose::Experiment& experiment, ExperimentStructures& str
     structures.stages.measure_pores = measure_pores;
     if (!structures.packings.empty()) {
         return;
+    }
+    if (experiment.structure_sizes.empty()) {
+        throw InputError("[structures] gives no structures: it needs 'files', or 'generator' with 'seeds'");
     }
     const auto make = [recipe = *experiment.recipe, sample = experiment.sample, progress](std::size_t k,
                                                                                           const diagnose::StructureChange& change) {

@@ -23,21 +23,13 @@ def sweep(rows=8, scale=1.0, wobble=0.0):
 
 
 def experiment(*measurements, before=""):
-    if "[structures]" not in before:
-        before += '[structures]\nfiles = ["packing.h5"]\n'
     return before + "".join(f"[[measurement]]\n{text}\n" for text in measurements)
 
 
 SWEEP = 'kind = "amplitude-sweep"\nfile = "sweep.csv"'
 
 
-class Experiment(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.copy_of_packing()
-
-
-class Check(Experiment):
+class Check(ProgramTest):
     def found(self, text):
         return self.succeed_json("diagnose", "--check", self.write("experiment.toml", text))
 
@@ -123,7 +115,7 @@ class Check(Experiment):
         self.fail_with(2, "diagnose", "--check", "experiment.toml", says="several sections fit")
 
 
-class BadInput(Experiment):
+class BadInput(ProgramTest):
     def refuse(self, text, *says, data=None):
         self.write("sweep.csv", sweep() if data is None else data)
         self.write("experiment.toml", text)

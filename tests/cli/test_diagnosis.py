@@ -140,7 +140,8 @@ class Diagnosis(ProgramTest):
         self.write("experiment.toml", EXPERIMENT.replace('["packing.h5"]', '["packing.h5", "copy.h5"]'))
         self.refuse_experiment("copy.h5: the same particles as in")
         self.write("experiment.toml", EXPERIMENT.replace('[structures]\nfiles = ["packing.h5"]\n', ""))
-        self.refuse_experiment("experiment.toml: [structures] gives no structures")
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="experiment.toml: [structures] gives no structures")
+        self.assertIn("names no structures yet", self.succeed("diagnose", "--check", "experiment.toml"))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "sweep.csv", says="no folder")
 
 

@@ -21,7 +21,8 @@ struct CheckedExperiment {
 };
 
 /// Reads an experiment and refuses all that a diagnosis would refuse before it simulates. Throws InputError with a sentence that
-/// names the file, the key, the table or the structure and the rule.
+/// names the file, the key, the table or the structure and the rule. That no structures are named yet is a note; make_structures
+/// refuses it.
 CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisOptions options = {});
 
 }  // namespace coagula::experiment

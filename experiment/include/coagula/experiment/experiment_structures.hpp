@@ -17,11 +17,12 @@ struct ExperimentStructures {
     diagnose::OtherStages stages;     ///< what the simulator asks of the generators and of characterize
 };
 
-/// Reads the files or checks the recipe, and notes sizes and volume fractions in the experiment. Throws InputError when there are
-/// none, one has no periodic cell or is a copy of another, or the recipe can make none.
+/// Reads the files or checks the recipe, and notes sizes and volume fractions in the experiment. Throws InputError when one
+/// has no periodic cell or is a copy of another, or the recipe can make none. There may be none yet.
 ExperimentStructures check_structures(diagnose::Experiment& experiment);
 
-/// Makes those of a recipe that has been checked. Throws InputError when nothing coagulates.
+/// Makes those of a recipe that has been checked. Throws InputError when there are no structures, or
+/// nothing coagulates.
 void make_structures(diagnose::Experiment& experiment, ExperimentStructures& structures, const Progress& progress);
 
 /// Each in one sentence: where it is from, its particles and hash.
