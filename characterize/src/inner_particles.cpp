@@ -1,4 +1,5 @@
 #include <coagula/characterize/inner_particles.hpp>
+#include <coagula/characterize/pore_sizes.hpp>
 
 #include "power_diagram.hpp"
 
@@ -12,6 +13,12 @@ std::vector<bool> inner_particles(const Packing& packing) {
         inner = inner_sites(open_diagram(packing, packing.radii, inner));
     }
     return {inner.begin(), inner.end()};
+}
+
+FreeSurface free_surface(const Packing& packing) {
+    FreeSurface surface{inner_particles(packing), measure_pores(packing, {.radii = 4}).volume};
+    surface.outer.flip();
+    return surface;
 }
 
 }  // namespace coagula::characterize

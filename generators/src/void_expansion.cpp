@@ -35,23 +35,6 @@ constexpr double highest_target = 6;       // of the coordination: a rigid packi
 using Laws = dem::Interactions<RepulsiveSpring, BondSpring>;
 const Laws laws{RepulsiveSpring(1.0), BondSpring(1.0)};
 
-void check(const VoidExpansionOptions& options) {
-    require(options.particles >= 3,
-            "the number of particles is " + std::to_string(options.particles) + ", but the void expansion needs at least 3");
-    require(options.voids >= 1, "the number of voids is " + std::to_string(options.voids) +
-                                    ", but the void expansion needs at least 1: without voids there is nothing to expand");
-    require(options.particles + options.voids <= 100000000, "the void expansion can hold at most 100 million particles and voids");
-    require_between(options.volume_fraction, 0, 0.64, "the volume fraction");
-    require_between(options.target_coordination, 0, highest_target, "the target coordination");
-    require_between(options.contact_tolerance, 0, 0.1, "the contact tolerance");
-    require(options.radii.size() == options.particles, "the void expansion has " + std::to_string(options.particles) +
-                                                           " particles, but " + std::to_string(options.radii.size()) +
-                                                           " radii were given");
-    for (Index particle = 0; particle < options.particles; ++particle) {
-        require_positive(options.radii[particle], "the radius of particle " + std::to_string(particle), "m");
-    }
-}
-
 /// Contacts among the structure particles, which come first in the system.
 struct StructureContacts {
     double coordination = 0;
@@ -277,6 +260,23 @@ private:
 };
 
 }  // namespace
+
+void check(const VoidExpansionOptions& options) {
+    require(options.particles >= 3,
+            "the number of particles is " + std::to_string(options.particles) + ", but the void expansion needs at least 3");
+    require(options.voids >= 1, "the number of voids is " + std::to_string(options.voids) +
+                                    ", but the void expansion needs at least 1: without voids there is nothing to expand");
+    require(options.particles + options.voids <= 100000000, "the void expansion can hold at most 100 million particles and voids");
+    require_between(options.volume_fraction, 0, 0.64, "the volume fraction");
+    require_between(options.target_coordination, 0, highest_target, "the target coordination");
+    require_between(options.contact_tolerance, 0, 0.1, "the contact tolerance");
+    require(options.radii.size() == options.particles, "the void expansion has " + std::to_string(options.particles) +
+                                                           " particles, but " + std::to_string(options.radii.size()) +
+                                                           " radii were given");
+    for (Index particle = 0; particle < options.particles; ++particle) {
+        require_positive(options.radii[particle], "the radius of particle " + std::to_string(particle), "m");
+    }
+}
 
 VoidExpansion expand_voids(const VoidExpansionOptions& options, const Progress& progress) {
     check(options);

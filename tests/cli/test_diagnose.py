@@ -119,7 +119,7 @@ class BadInput(ProgramTest):
     def refuse(self, text, *says, data=None):
         self.write("sweep.csv", sweep() if data is None else data)
         self.write("experiment.toml", text)
-        self.fail_with(2, "diagnose", "--check", "experiment.toml", says=says, may_say_nan=True)
+        self.refuse_experiment(says, may_say_nan=True)
 
     def refuse_data(self, data, *says):
         self.refuse(experiment(SWEEP), *says, data=data)

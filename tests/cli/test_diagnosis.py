@@ -130,17 +130,18 @@ class Diagnosis(ProgramTest):
         self.assertIn(note, (self.folder / "results" / "report.html").read_text())
 
     def test_refusals(self):
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="sweep.csv")
+        self.refuse_experiment("sweep.csv")
         self.smooth_sweep()
         self.fail_with(2, "diagnose", "experiment.toml", says="--output")
         self.smooth_sweep(1600)
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="experiment.toml: the experiment has 3200 numbers, more than 3000")
+        self.refuse_experiment("experiment.toml: the experiment has 3200 numbers, more than 3000")
         self.smooth_sweep()
         (self.folder / "copy.h5").write_bytes((self.folder / "packing.h5").read_bytes())
         self.write("experiment.toml", EXPERIMENT.replace('["packing.h5"]', '["packing.h5", "copy.h5"]'))
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="copy.h5: the same particles as in")
+        self.refuse_experiment("copy.h5: the same particles as in")
         self.write("experiment.toml", EXPERIMENT.replace('[structures]\nfiles = ["packing.h5"]\n', ""))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="experiment.toml: [structures] gives no structures")
+        self.assertIn("names no structures yet", self.succeed("diagnose", "--check", "experiment.toml"))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "sweep.csv", says="no folder")
 
 

@@ -32,7 +32,7 @@ class Tables(ProgramTest):
 
     def refuse(self, text, *says):
         self.write("experiment.toml", text)
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says=says)
+        self.refuse_experiment(says)
 
 
 class StructureSeries(Tables):
@@ -446,7 +446,7 @@ class Waveforms(Tables):
         self.write("wave3.csv", "\n".join(short) + "\n")
         self.refuse(text, "wave3.csv", "the waveform has no harmonics", "nine tenths of a period")
         self.write("experiment.toml", text.replace(', sample = "A"', "").replace('"waveform"', '"harmonics"'))
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says=["wave0.csv", "third_harmonic_storage"])
+        self.refuse_experiment(["wave0.csv", "third_harmonic_storage"])
 
 
 if __name__ == "__main__":

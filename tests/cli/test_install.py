@@ -27,13 +27,14 @@ class Install(ProgramTest):
     def test_consumer(self):
         self.call(CMAKE, "--install", BUILD, "--prefix", self.folder / "prefix")
         self.assertIn("coagula", self.call(self.folder / "prefix/bin/coagula", "--version"))
-        for component in ("common", "io", "generators", "mechanics", "diagnose", ""):
+        for component in ("common", "io", "generators", "mechanics", "diagnose", "experiment", ""):
             self.configure(component)
-        self.configure("characterize")
+        self.configure("characterize;report")
         self.call(CMAKE, "--build", "consumer")
         coordination, void_fraction = map(float, self.call(self.folder / "consumer/consumer").split())
         self.assertEqual(coordination, 6)
         self.assertAlmostEqual(void_fraction, 1 - math.pi / 6, delta=1e-5)
+        self.assertIn("| contact-loss |", self.call(self.folder / "consumer/causes"))
 
     def test_one_component_alone(self):
         prefix = self.folder / "prefix"

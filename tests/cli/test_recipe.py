@@ -67,17 +67,16 @@ class Recipe(ProgramTest):
 
     def test_refusals(self):
         self.write("pores.csv", "pore_radius [um],exclusion_probability\n" + "".join(f"{0.02 * k},{1 / (1 + k)}\n" for k in range(12)))
-        words = ("diagnose", "experiment.toml", "-o", "results")
         self.experiment('generator = "brownian"', "pore-curve", "pores")
-        self.fail_with(2, *words, says="structures.surface_potential")
+        self.refuse_experiment("structures.surface_potential")
         self.experiment('generator = "brownian"\nsurface_potential = "60 mV"', "pore-curve", "pores")
-        self.fail_with(2, *words, says=("barrier", "--surface-potential 0.06"))
+        self.refuse_experiment(("barrier", "--surface-potential 0.06"))
         self.copy_of_packing()
-        self.write("files.toml", '[sample]\nparticle_radius = "0.25 um"\n[structures]\nfiles = ["packing.h5"]\n' +
+        self.write("experiment.toml", '[sample]\nparticle_radius = "0.25 um"\n[structures]\nfiles = ["packing.h5"]\n' +
                    TABLE.format(kind="pore-curve", name="pores"))
-        self.fail_with(2, "diagnose", "files.toml", "-o", "results", says="no cause")
+        self.refuse_experiment("no cause")
         self.experiment('generator = "vem"\ntarget_coordination = 7', "pore-curve", "pores")
-        self.fail_with(2, *words, says="target-coordination")
+        self.refuse_experiment("target-coordination")
 
 
 if __name__ == "__main__":

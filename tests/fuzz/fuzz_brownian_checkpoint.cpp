@@ -1,6 +1,6 @@
 // The checkpoint of a Brownian run; see checkpoint_edits.hpp and hdf5_edits.hpp for what the input is.
-#include "verbs/brownian_checkpoint.hpp"
 #include "checkpoint_edits.hpp"
+#include "verbs/brownian_checkpoint.hpp"
 
 namespace {
 

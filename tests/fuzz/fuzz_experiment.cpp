@@ -1,8 +1,8 @@
 // An experiment file and, after a line "=== table", the file "table" beside it that its measurements may name.
-#include "experiment_file.hpp"
 #include "reader_contract.hpp"
 
 #include <coagula/diagnose/check_data.hpp>
+#include <coagula/experiment/experiment_file.hpp>
 
 namespace {
 
@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string path = folder.write("experiment.toml", input.substr(0, end));
     folder.write("table", input.substr(std::min(end + separator.size(), input.size())));
     fuzz::expect_value_or_sentence("", [&] {
-        const tools::ExperimentFile file = tools::read_experiment(path);
+        const experiment::ExperimentFile file = experiment::read_experiment(path);
         for (const diagnose::Measurement& measurement : file.experiment.measurements) {
             check_measurement(measurement);
         }

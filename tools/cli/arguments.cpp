@@ -1,9 +1,8 @@
 #include "arguments.hpp"
 
-#include "printable.hpp"
-
 #include <coagula/common/checks.hpp>
 #include <coagula/io/units.hpp>
+#include <coagula/report/printable.hpp>
 
 #include <boost/program_options.hpp>
 
@@ -246,7 +245,7 @@ Option output(std::string meaning) {
 Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : verb_(verb.name) {
     command_line_ = "coagula " + verb.name;
     for (const std::string& word : words) {
-        if (!is_utf8(word)) {
+        if (!report::is_utf8(word)) {
             throw InputError("'" + word + "' is not UTF-8 text, which every option and every name of a file must be");
         }
         command_line_ += ' ' + quoted(word);

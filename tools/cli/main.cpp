@@ -1,13 +1,13 @@
 // coagula: generate, characterize and shear random sphere packings. Chooses the verb and turns exceptions into exit codes.
 #include "arguments.hpp"
 #include "interruption.hpp"
-#include "printable.hpp"
 #include "provenance.hpp"
 #include "report.hpp"
 #include "verbs.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/progress.hpp>
+#include <coagula/report/printable.hpp>
 
 #include <omp.h>
 #include <unistd.h>
@@ -107,7 +107,7 @@ void limit_spinning(char** argv) {
 }
 
 int complain(const std::string& sentence, int code) {
-    std::cerr << "coagula: " << printable(sentence) << std::endl;
+    std::cerr << "coagula: " << report::printable(sentence) << std::endl;
     return code;
 }
 

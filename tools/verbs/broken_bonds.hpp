@@ -1,7 +1,7 @@
 // What the methods that break bonds say about why.
 #pragma once
 
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/common/general_contact.hpp>
 

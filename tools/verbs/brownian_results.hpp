@@ -1,7 +1,7 @@
 // What a Brownian run leaves in the file and prints.
 #pragma once
 
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/generators/brownian_dynamics.hpp>
 

@@ -1,12 +1,12 @@
 // coagula calibrate: shear modulus against the stiffness of the particles, and the stiffness that matches measured moduli.
-#include "free_surface.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "report.hpp"
-#include "rheometer_run.hpp"
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "rheometer_run.hpp"
 
+#include <coagula/characterize/inner_particles.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/table.hpp>
@@ -83,7 +83,9 @@ Moduli measured_moduli(const Arguments& arguments) {
 StiffnessSeries measure(const Packing& packing, double bond_tolerance, mechanics::StiffnessSeriesOptions options,
                         const Progress& progress) {
     if (!packing.cell.is_periodic()) {
-        hold_surface(packing, options.linear);
+        const characterize::FreeSurface surface = characterize::free_surface(packing);
+        options.linear.held = surface.outer;
+        options.linear.volume = surface.inner_volume;
     }
     return mechanics::measure_stiffness_series(packing, find_contacts(packing, bond_tolerance), options, progress);
 }

@@ -1,7 +1,7 @@
 // What `coagula characterize` finds, and the data sets it becomes.
 #pragma once
 
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/characterize/coordination.hpp>
 #include <coagula/characterize/heterogeneity.hpp>

@@ -1,23 +1,20 @@
 // coagula diagnose: reads an experiment file, checks the data and, without --check, diagnoses them.
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
 #include "diagnose_new.hpp"
 #include "diagnose_power.hpp"
-#include "diagnosis_catalogue.hpp"
-#include "diagnosis_results.hpp"
 #include "diagnosis_run.hpp"
-#include "experiment_file.hpp"
-#include "measured_tables.hpp"
-#include "report.hpp"
 
 #include <coagula/common/checks.hpp>
-#include <coagula/diagnose/check_data.hpp>
-#include <coagula/diagnose/noise.hpp>
-#include <coagula/diagnose/outliers.hpp>
 #include <coagula/diagnose/waveform.hpp>
+#include <coagula/experiment/checked_experiment.hpp>
+#include <coagula/report/diagnosis_catalogue.hpp>
+#include <coagula/report/diagnosis_results.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -28,6 +25,8 @@ namespace {
 
 using diagnose::CheckedMeasurement;
 using diagnose::NoiseModel;
+using namespace experiment;
+using namespace coagula::report;
 
 Json number_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -187,62 +186,37 @@ void add_noise_lines(Table& lines, const NoiseModel& noise) {
     }
 }
 
-bool same_numbers(const diagnose::Measurement& one, const diagnose::Measurement& other) {
-    const auto alike = [](const diagnose::Column& a, const diagnose::Column& b) {
-        return a.name == b.name && same_values(a.values, b.values);
-    };
-    return one.kind == other.kind &&
-           std::equal(one.columns.begin(), one.columns.end(), other.columns.begin(), other.columns.end(), alike);
-}
-
-/// Plans, and copies: replicates are never the same to the last digit.
-void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tables) {
-    for (auto table = tables.begin(); table != tables.end(); ++table) {
-        if (table->label.ends_with("(planned)")) {
-            throw InputError(table->label + ": a plan has no measured moduli; it is for --power");
-        }
-        const auto copy = std::find_if(tables.begin(), table, [&](const auto& other) { return same_numbers(*table, other); });
-        if (copy != table && table->kind != diagnose::MeasurementKind::waveform) {
-            throw InputError(table->label + ", sample '" + table->sample + "': the same numbers as in " + copy->label +
-                             ", sample '" + copy->sample + "'; give each measurement once");
-        }
+void report_check(const Arguments& arguments, const CheckedExperiment& found) {
+    Json json = {{"title", found.file.experiment.title},
+                 {"taken_over", Json::array()},
+                 {"measurements", Json::array()},
+                 {"noise", Json::array()},
+                 {"notes", found.file.notes}};
+    Table lines;
+    for (const TakenOver& value : found.file.taken_over) {
+        const bool is_number = value.text.empty();
+        json["taken_over"].push_back({{"name", value.name},
+                                      {"value", is_number ? Json(value.value) : Json(value.text)},
+                                      {"unit", value.unit},
+                                      {"source", value.source},
+                                      {"fate", value.fate}});
+        lines.emplace_back(value.name, (is_number ? with_unit(value.value, value.unit) : value.text) + ", from " + value.source +
+                                           " (" + value.fate + ")");
     }
-}
-
-/// What a table lacks that its kind needs; nothing where it lacks nothing.
-std::string missing_column(const diagnose::Measurement& table) {
-    const diagnose::TableRule rule = diagnose::rule_of(table.kind);
-    if (!rule.axes.empty() && diagnose::axis_of(table) == nullptr) {
-        return std::string(rule.axes.front());
+    for (std::size_t i = 0; i < found.tables.size(); ++i) {
+        const TableFacts& facts = found.file.facts[i];
+        json["measurements"].push_back(measurement_json(found.tables[i], facts));
+        add_measurement_lines(lines, found.tables[i]);
+        add_fact_lines(lines, found.tables[i].measurement, facts);
     }
-    const auto absent = std::find_if(rule.required.begin(), rule.required.end(),
-                                     [&](std::string_view name) { return diagnose::find_column(table, name) == nullptr; });
-    return absent == rule.required.end() ? "" : std::string(*absent);
-}
-
-/// The line that may make up for a missing column.
-std::string remedy(const diagnose::Measurement& table, const TableFacts& facts) {
-    const std::string missing = missing_column(table);
-    if (missing.empty() || facts.not_understood.empty()) {
-        return "";
+    for (const NoiseModel& noise : found.noise) {
+        json["noise"].push_back(noise_json(noise));
+        add_noise_lines(lines, noise);
     }
-    const std::string& first = facts.not_understood.front();
-    return "; not understood are the columns " + list_of(facts.not_understood) +
-           ": if one of them is it, add to the measurement, say, " + "columns = { " + missing + " = \"" +
-           first.substr(1, first.size() - 2) + "\" }";
-}
-
-std::vector<CheckedMeasurement> check_all(const ExperimentFile& file) {
-    const std::vector<diagnose::Measurement>& measurements = file.experiment.measurements;
-    refuse_what_was_not_measured(measurements);
-    std::vector<CheckedMeasurement> checked;
-    for (std::size_t i = 0; i < measurements.size(); ++i) {
-        checked.push_back(diagnose::check_data(measurements[i]));
-        if (!checked.back().problems.empty()) {
-            throw InputError(checked.back().problems.front() + remedy(measurements[i], file.facts[i]));
-        }
+    for (const std::string& note : found.file.notes) {
+        lines.emplace_back("note", note);
     }
-    return checked;
+    report(arguments, json, lines);
 }
 
 /// Options that this way of working would not heed.
@@ -256,7 +230,10 @@ void refuse_options(const Arguments& arguments, const std::string& mode, const s
 
 void run(const Arguments& arguments) {
     if (arguments.flag("catalogue")) {
-        print_catalogue(arguments);
+        if (!arguments.flag("quiet")) {
+            std::cout << (arguments.flag("json") ? catalogue_json().dump(2) + "\n" : catalogue_table());
+        }
+        flush_output();
         return;
     }
     if (arguments.flag("new")) {
@@ -275,50 +252,11 @@ void run(const Arguments& arguments) {
     } else if (!arguments.has("output")) {
         throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
     }
-    ExperimentFile file = read_experiment(arguments.input());
-    const std::vector<CheckedMeasurement> checked = check_all(file);
-    std::vector<diagnose::Measurement> tables;
-    for (const CheckedMeasurement& entry : checked) {
-        tables.push_back(entry.measurement);
-    }
-    for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(tables)) {
-        file.notes.push_back(outlier.sentence);
-    }
-    const std::vector<NoiseModel> noises = diagnose::noise_of_tables(tables, file.noise);
     if (!arguments.flag("check")) {
-        file.experiment.measurements = std::move(tables);
-        run_diagnosis(arguments, std::move(file), noises);
+        run_diagnosis(arguments);
         return;
     }
-    Json json = {{"title", file.experiment.title},
-                 {"taken_over", Json::array()},
-                 {"measurements", Json::array()},
-                 {"noise", Json::array()},
-                 {"notes", file.notes}};
-    Table lines;
-    for (const TakenOver& value : file.taken_over) {
-        const bool is_number = value.text.empty();
-        json["taken_over"].push_back({{"name", value.name},
-                                      {"value", is_number ? Json(value.value) : Json(value.text)},
-                                      {"unit", value.unit},
-                                      {"source", value.source},
-                                      {"fate", value.fate}});
-        lines.emplace_back(value.name, (is_number ? with_unit(value.value, value.unit) : value.text) + ", from " + value.source +
-                                           " (" + value.fate + ")");
-    }
-    for (std::size_t i = 0; i < checked.size(); ++i) {
-        json["measurements"].push_back(measurement_json(checked[i], file.facts[i]));
-        add_measurement_lines(lines, checked[i]);
-        add_fact_lines(lines, checked[i].measurement, file.facts[i]);
-    }
-    for (const NoiseModel& noise : noises) {
-        json["noise"].push_back(noise_json(noise));
-        add_noise_lines(lines, noise);
-    }
-    for (const std::string& note : file.notes) {
-        lines.emplace_back("note", note);
-    }
-    report(arguments, json, lines);
+    report_check(arguments, check_experiment(arguments.input()));
 }
 
 }  // namespace

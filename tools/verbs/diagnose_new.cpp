@@ -1,8 +1,8 @@
 #include "diagnose_new.hpp"
 
-#include "measured_tables.hpp"
+#include <coagula/experiment/measured_tables.hpp>
+#include "cli/report.hpp"
 #include "new_experiment.hpp"
-#include "report.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/io/atomic_file.hpp>
@@ -12,6 +12,9 @@
 #include <iostream>
 
 namespace coagula::tools {
+
+using namespace experiment;
+using namespace coagula::report;
 
 namespace {
 

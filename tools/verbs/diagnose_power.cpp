@@ -1,14 +1,14 @@
 #include "diagnose_power.hpp"
 
-#include "experiment_file.hpp"
-#include "experiment_structures.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "report.hpp"
-#include "result_folder.hpp"
-#include "simulation_cache.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/diagnose/power.hpp>
+#include <coagula/experiment/experiment_file.hpp>
+#include <coagula/experiment/experiment_structures.hpp>
+#include <coagula/experiment/simulation_cache.hpp>
+#include <coagula/report/result_folder.hpp>
 
 #include <cmath>
 #include <optional>
@@ -17,11 +17,13 @@ namespace coagula::tools {
 
 namespace {
 
+using coagula::report::ResultFolder;
 using diagnose::CausePower;
 using diagnose::NamingRuns;
 using diagnose::Power;
 using diagnose::Share;
 using diagnose::Threshold;
+using namespace experiment;
 
 Json to_json(const Share& share) {
     return {{"count", share.count}, {"of", share.of}, {"low", share.low}, {"high", share.high}};
@@ -171,7 +173,11 @@ void run_power(const Arguments& arguments) {
     options.diagnosis.level = arguments.quantity("level");
     options.diagnosis.bootstrap = static_cast<int>(std::min<std::int64_t>(arguments.count("bootstrap"), 199));
     options.diagnosis.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    ExperimentStructures structures = naming(arguments.input(), [&] { return structures_of(file.experiment, progress); });
+    ExperimentStructures structures = naming(arguments.input(), [&] {
+        ExperimentStructures found = check_structures(file.experiment);
+        make_structures(file.experiment, found, progress);
+        return found;
+    });
     diagnose::SimulationCache cache = folder ? read_cache(folder->path() / "simulations.txt") : diagnose::SimulationCache{};
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
                                   file.experiment.structure_groups);

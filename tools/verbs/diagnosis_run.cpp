@@ -1,21 +1,20 @@
 #include "diagnosis_run.hpp"
 
-#include "diagnosis_datasets.hpp"
-#include "diagnosis_page.hpp"
-#include "diagnosis_results.hpp"
-#include "experiment_structures.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "result_folder.hpp"
-#include "simulation_cache.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/model.hpp>
-#include <coagula/diagnose/stated_errors.hpp>
-#include <coagula/diagnose/waveform.hpp>
+#include <coagula/experiment/checked_experiment.hpp>
+#include <coagula/experiment/simulation_cache.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
+#include <coagula/report/diagnosis_datasets.hpp>
+#include <coagula/report/diagnosis_page.hpp>
+#include <coagula/report/diagnosis_results.hpp>
+#include <coagula/report/result_folder.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +27,8 @@ namespace coagula::tools {
 namespace {
 
 using diagnose::Experiment;
+using namespace experiment;
+using namespace coagula::report;
 namespace fs = std::filesystem;
 
 /// What a model of the contact cannot have of a cause.
@@ -90,6 +91,18 @@ std::vector<std::string> notes_on(const Experiment& experiment, double radius, s
     return notes;
 }
 
+diagnose::DiagnosisOptions options_of(const Arguments& arguments) {
+    diagnose::DiagnosisOptions options;
+    options.level = arguments.quantity("level");
+    options.bootstrap = static_cast<int>(arguments.count("bootstrap"));
+    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
+    if (arguments.has("causes")) {
+        options.causes = split(arguments.text("causes"));
+        diagnose::require_causes(options.causes);
+    }
+    return options;
+}
+
 }  // namespace
 
 std::vector<Option> diagnosis_options() {
@@ -99,33 +112,24 @@ std::vector<Option> diagnosis_options() {
             count("seed", "of the random numbers", "1", at_least(0)), flag("force", "replace an existing diagnosis")};
 }
 
-void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise) {
+void run_diagnosis(const Arguments& arguments) {
     const Progress progress = make_progress(arguments.flag("quiet"));
     ResultFolder folder(arguments.text("output"), "diagnosis.json", {"report.html", "diagnosis.h5", "extended_model.toml"},
                         arguments.flag("force"));
     const Stopwatch clock;
-    diagnose::DiagnosisOptions options;
-    options.level = arguments.quantity("level");
-    options.bootstrap = static_cast<int>(arguments.count("bootstrap"));
-    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    if (arguments.has("causes")) {
-        options.causes = split(arguments.text("causes"));
-        diagnose::require_causes(options.causes);
-    }
-    options.stated_noise = file.noise;
-    diagnose::state_errors(file.experiment, noise);
-    diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
-    diagnose::reduce_waveforms(file.experiment, file.noise.stated_relative, file.noise.stated_phase);
-    ExperimentStructures structures = naming(arguments.input(), [&] { return structures_of(file.experiment, progress); });
+    CheckedExperiment checked = check_experiment(arguments.input(), options_of(arguments));
+    Experiment& experiment = checked.file.experiment;
+    ExperimentStructures& structures = checked.structures;
+    naming(arguments.input(), [&] { make_structures(experiment, structures, progress); });
 
     diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
     const double radius = mean_radius(structures.packings.front());
-    const std::vector<std::string> sentences = structure_sentences(file.experiment, structures);
+    const std::vector<std::string> sentences = structure_sentences(experiment, structures);
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
-                                  file.experiment.structure_groups);
+                                  experiment.structure_groups);
     simulator.use(std::move(structures.stages));
     const diagnose::Diagnosis diagnosis =
-        naming(arguments.input(), [&] { return diagnose::diagnose(file.experiment, simulator, options, progress); });
+        naming(arguments.input(), [&] { return diagnose::diagnose(experiment, simulator, checked.options, progress); });
 
     const std::string contact = model_text(diagnosis, radius);
     const std::string model = contact.empty() ? "" : (folder.path() / "extended_model.toml").string();
@@ -134,8 +138,10 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     } else {
         folder.write("extended_model.toml", contact);
     }
-    const DiagnosisRecord record{file.experiment, diagnosis,     noise, describe_call(arguments, nullptr, clock),
-                                 sentences,       options.level, model, notes_on(file.experiment, radius, file.notes)};
+    const DiagnosisRecord record{experiment,    diagnosis,
+                                 checked.noise, describe_call(arguments, nullptr, clock),
+                                 sentences,     checked.options.level,
+                                 model,         notes_on(experiment, radius, checked.file.notes)};
     Gnuplot gnuplot;
     folder.write("report.html", diagnosis_page(record, gnuplot));
     std::vector<std::string> notes = record.notes;
@@ -144,7 +150,7 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
     }
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
     folder.write("simulations.txt", cache_text(cache));
-    Json json = to_json(diagnosis, noise, model);
+    Json json = report::to_json(diagnosis, checked.noise, model);
     json["notes"] = notes;
     json["report"] = (folder.path() / "report.html").string();
     json["seconds"] = clock.seconds();

@@ -2,9 +2,6 @@
 #pragma once
 
 #include "cli/arguments.hpp"
-#include "experiment_file.hpp"
-
-#include <coagula/diagnose/noise.hpp>
 
 #include <vector>
 
@@ -13,7 +10,7 @@ namespace coagula::tools {
 /// Options beside --check.
 std::vector<Option> diagnosis_options();
 
-/// Diagnoses an experiment whose tables have passed the checks and writes diagnosis.json and extended_model.toml into --output.
-void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::vector<diagnose::NoiseModel>& noise);
+/// Diagnoses an experiment and writes diagnosis.json, report.html and what belongs to them into --output.
+void run_diagnosis(const Arguments& arguments);
 
 }  // namespace coagula::tools

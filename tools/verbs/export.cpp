@@ -1,6 +1,6 @@
 // coagula export: coordinates (and bonds) as text for other programs.
 #include "cli/output_file.hpp"
-#include "report.hpp"
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
 
 #include <coagula/io/structure_file.hpp>

@@ -1,7 +1,7 @@
 // What `coagula shear --frequency` finds as data sets and a table.
 #pragma once
 
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/mechanics/frequency.hpp>
 

@@ -3,16 +3,15 @@
 #include "brownian_results.hpp"
 #include "cli/checkpoint_file.hpp"
 #include "cli/checkpoint_lock.hpp"
-#include "generate.hpp"
 #include "cli/output_file.hpp"
-#include "potential_options.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "report.hpp"
-#include "size_distribution_text.hpp"
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "potential_options.hpp"
+#include "size_distribution_text.hpp"
 
-#include <coagula/generators/brownian_dynamics.hpp>
+#include <coagula/generators/coagulation.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <filesystem>
@@ -55,36 +54,17 @@ BrownianOptions brownian_options(const Arguments& arguments) {
 }
 
 /// Random positions, brought to equilibrium at a high surface potential.
-Packing stabilised_suspension(const Arguments& arguments, const BrownianOptions& run, const Progress& progress) {
+Packing suspension_of(const Arguments& arguments, const BrownianOptions& run, const Progress& progress) {
     if (!arguments.has("volume-fraction")) {
         throw InputError("coagula generate brownian needs --volume-fraction, or --start");
     }
-    SuspensionOptions options;
-    options.volume_fraction = arguments.quantity("volume-fraction");
-    options.seed = run.seed;
-    options.radii = draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
-                               arguments.count("particles"), options.seed);
-    const Packing placed = place_suspension(options, progress);
-    BrownianOptions equilibration = run;
-    equilibration.time_step = unset;
-    equilibration.integrator = Integrator::stabilised;
-    equilibration.stop_coordination = unset;
-    equilibration.stop_plateau = PlateauOf::nothing;
-    equilibration.resistance = {};
-    equilibration.sedimentation = {};
-    equilibration.sample_interval = unset;
-    equilibration.snapshot_times.clear();
-    equilibration.noise = RandomPurpose::equilibration;
-    const PairPotential potential = make_potential(arguments, mean_radius(placed), arguments.quantity("equilibration-potential"));
-    // A quarter of the diffusion time: the degree of heterogeneity has long been constant then.
-    const double diffusion_time =
-        choose_time_step(potential, mean_radius(placed), mean_radius(placed), equilibration).diffusion_time;
-    equilibration.stop_time = arguments.optional_quantity("equilibration-time").value_or(0.25 * diffusion_time);
-    const Progress renamed([&progress](std::string_view, double fraction, std::string_view remark) {
-        progress.update("equilibration", fraction, remark);
-        return true;
-    });
-    return simulate_brownian(placed, potential, equilibration, renamed).packing;
+    const Eigen::VectorXd radii =
+        draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
+                   arguments.count("particles"), run.seed);
+    return stabilised_suspension(
+        {arguments.quantity("volume-fraction"), radii, run.seed},
+        [&](double radius) { return make_potential(arguments, radius, arguments.quantity("equilibration-potential")); }, run,
+        arguments.optional_quantity("equilibration-time").value_or(unset), progress);
 }
 
 /// What must be the same for a run to go on.
@@ -156,7 +136,7 @@ void run(const Arguments& arguments) {
         if (!std::isnan(radius)) {
             choose_time_step(make_potential(arguments, radius), radius, radius, options);
         }
-        start = stabilised_suspension(arguments, options, progress);
+        start = suspension_of(arguments, options, progress);
     }
     const PairPotential potential = make_potential(arguments, mean_radius(*start));
     const BrownianRun made = run_or_resume(arguments, *start, potential, options, progress);
@@ -186,32 +166,7 @@ void run(const Arguments& arguments) {
     report(arguments, json, table);
 }
 
-/// As long as 15 mV take to a coordination of 5.4 (docs/brownian.md), in R^2/D; their barrier is 6 kT high.
-constexpr double longest_coagulation = 4;
-constexpr double highest_barrier = 8;     // kT
-constexpr double sample_interval = 5e-4;  // R^2/D, as of a run that ends by its coordination alone
-
 }  // namespace
-
-Packing coagulated_packing(const Arguments& arguments, const Progress& progress) {
-    BrownianOptions options = brownian_options(arguments);
-    const double radius = arguments.quantity("radius");
-    const PairPotential potential = make_potential(arguments, radius);
-    const double barrier = potential.barrier_height(radius) / (boltzmann_constant * options.temperature);
-    if (barrier > highest_barrier) {
-        throw InputError("nothing coagulates against a barrier of " + to_text(barrier) + " kT");
-    }
-    const double diffusion_time = choose_time_step(potential, radius, radius, options).diffusion_time;
-    options.stop_time = longest_coagulation * diffusion_time;
-    options.sample_interval = sample_interval * diffusion_time;
-    const Packing start = stabilised_suspension(arguments, options, progress);
-    BrownianRun made = simulate_brownian(start, potential, options, progress);
-    if (made.ended_by != "coordination") {
-        throw InputError("within " + to_text(longest_coagulation) + " R^2/D the coordination comes to " +
-                         to_text(made.coordination) + " only, against a barrier of " + to_text(barrier) + " kT");
-    }
-    return std::move(made.packing);
-}
 
 Verb generate_brownian_verb() {
     std::vector<Option> options = {

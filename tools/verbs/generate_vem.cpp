@@ -1,11 +1,10 @@
 // coagula generate vem: a packing of chosen heterogeneity by the void expansion method.
-#include "generate.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "report.hpp"
-#include "size_distribution_text.hpp"
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "size_distribution_text.hpp"
 
 #include <coagula/generators/void_expansion.hpp>
 #include <coagula/io/structure_file.hpp>
@@ -88,10 +87,6 @@ void run(const Arguments& arguments) {
 }
 
 }  // namespace
-
-Packing expanded_packing(const Arguments& arguments, const Progress& progress) {
-    return generators::expand_voids(expansion_options(arguments), progress).packing;
-}
 
 Verb generate_vem_verb() {
     return {

@@ -2,7 +2,7 @@
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
-#include "report.hpp"
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
 
 #include <coagula/io/structure_file.hpp>

@@ -1,5 +1,5 @@
 // coagula info: what is in a file.
-#include "report.hpp"
+#include "cli/report.hpp"
 #include "cli/verbs.hpp"
 
 #include <coagula/common/contact_network.hpp>

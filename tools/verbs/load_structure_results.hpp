@@ -1,7 +1,7 @@
 // What carries the load, as data sets, particle fields and lines of the table of `coagula shear`.
 #pragma once
 
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/mechanics/load_structure.hpp>
 

@@ -1,7 +1,7 @@
 // What every method of `coagula shear` says about the bonded network itself.
 #pragma once
 
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/common/contact_model.hpp>
 #include <coagula/common/contact_network.hpp>

@@ -4,6 +4,7 @@
 #include "potential_picture.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/generators/coagulation.hpp>
 #include <coagula/io/table.hpp>
 
 #include <cmath>
@@ -14,10 +15,6 @@ namespace coagula::tools {
 namespace {
 
 using namespace generators;
-
-// The contact when no option says otherwise, in units of kB T and the radius: stiff enough that no bond breaks by accident.
-constexpr double contact_stiffness = 4e5;
-constexpr double equilibrium_gap = 0.004;
 
 double thermal_energy(const Arguments& arguments) {
     return boltzmann_constant * arguments.quantity("temperature");
@@ -103,10 +100,10 @@ PairPotential make_potential(const Arguments& arguments, double radius, std::opt
     if (arguments.has("yukawa-energy")) {
         laws.emplace_back(Yukawa(arguments.quantity("yukawa-energy"), arguments.quantity("yukawa-length"), radii));
     }
-    const double stiffness = arguments.has("contact-stiffness") ? arguments.quantity("contact-stiffness")
-                                                                : contact_stiffness * thermal_energy(arguments) / (radius * radius);
-    const double gap = arguments.has("equilibrium-gap") ? arguments.quantity("equilibrium-gap") : equilibrium_gap * radius;
-    return {std::move(laws), {stiffness, gap}};
+    const ElasticContact firm = firm_contact(radius, arguments.quantity("temperature"));
+    return {std::move(laws),
+            {arguments.optional_quantity("contact-stiffness").value_or(firm.stiffness),
+             arguments.optional_quantity("equilibrium-gap").value_or(firm.equilibrium_gap)}};
 }
 
 void report_potential(const Arguments& arguments, const PairPotential& potential, double radius) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/arguments.hpp"
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/generators/pair_potential.hpp>
 

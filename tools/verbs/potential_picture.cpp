@@ -1,9 +1,8 @@
 #include "potential_picture.hpp"
 
-#include "gnuplot.hpp"
-
 #include <coagula/common/checks.hpp>
 #include <coagula/io/atomic_file.hpp>
+#include <coagula/report/gnuplot.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -29,7 +28,7 @@ void draw_potential(const std::string& path, const PotentialCurve& curve, bool o
     for (std::size_t row = 0; row < curve.gap.size(); ++row) {
         commands += to_text(1e9 * curve.gap[row]) + ' ' + to_text(curve.energy[row]) + '\n';
     }
-    const GnuplotOutput output = run_gnuplot(commands + "e\nunset output\n");
+    const report::GnuplotOutput output = report::run_gnuplot(commands + "e\nunset output\n");
     if (!output.problem.empty()) {
         throw std::runtime_error("the picture " + path + " is not drawn: " + output.problem);
     }

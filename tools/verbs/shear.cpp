@@ -1,18 +1,18 @@
 // coagula shear: elastic response of the bonded packing, or its response to harmonic strain.
-#include "free_surface.hpp"
-#include "frequency_list.hpp"
-#include "frequency_results.hpp"
-#include "load_structure_results.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
+#include "cli/report.hpp"
+#include "cli/verbs.hpp"
+#include "frequency_list.hpp"
+#include "frequency_results.hpp"
+#include "load_structure_results.hpp"
 #include "quasistatic_run.hpp"
-#include "report.hpp"
 #include "rheometer_run.hpp"
 #include "shear_findings.hpp"
 #include "shear_results.hpp"
-#include "cli/verbs.hpp"
 
+#include <coagula/characterize/inner_particles.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
@@ -127,7 +127,9 @@ Findings linear_response(const Arguments& arguments, const Packing& before, cons
     mechanics::LinearOptions options = linear_options(arguments, model);
     options.bond_tangents = mechanics::bond_tangents(packing, bonds, model);
     if (!before.cell.is_periodic()) {
-        hold_surface(before, options);
+        const characterize::FreeSurface surface = characterize::free_surface(before);
+        options.held = surface.outer;
+        options.volume = surface.inner_volume;
     }
     const mechanics::LinearResponse response = mechanics::solve_linear(packing, bonds, options, progress);
     Findings found{.group = "/mechanics/linear",

@@ -1,7 +1,7 @@
 // What one method of `coagula shear` finds.
 #pragma once
 
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/io/structure_file.hpp>
 

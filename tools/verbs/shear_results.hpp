@@ -1,7 +1,7 @@
 // What `coagula shear --method linear` finds as data sets, particle fields and a table.
 #pragma once
 
-#include "report.hpp"
+#include "cli/report.hpp"
 
 #include <coagula/mechanics/linear.hpp>
 #include <coagula/mechanics/relaxation.hpp>

@@ -22,8 +22,8 @@ struct Relation {
     std::function<double(const Cells&)> ratio;
     /// Largest |ln ratio|.
     std::function<double(const Cells&)> tolerance;
-    /// Where it fails, the redundant column alone is doubted: a torque that also turns the tool says nothing against moduli that were
-    /// corrected for its inertia.
+    /// Where it fails, the redundant column alone is doubted: a torque that also turns the tool says nothing against moduli that
+    /// were corrected for its inertia.
     bool of_raw_torque = false;
 
     Cells cells(std::size_t row) const;

@@ -214,6 +214,11 @@ const char* name_of(Verdict verdict) {
     return names.at(static_cast<std::size_t>(verdict));
 }
 
+void check(const Experiment& experiment, const DiagnosisOptions& options) {
+    possible_causes(experiment, options.causes);
+    check_structure_series(experiment, data_set_of(experiment, options.noise).observations);
+}
+
 Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options, const Progress& progress) {
     const std::vector<const Mechanism*> possible = possible_causes(experiment, options.causes);
     DataSet data = data_set_of(experiment, options.noise);

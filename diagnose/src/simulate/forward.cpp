@@ -35,26 +35,30 @@ std::vector<ActingMechanism> acting_on_material(const Model& model) {
 
 }  // namespace
 
-Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
-    : experiment_(experiment),
-      observations_(observations),
-      simulator_(simulator),
-      largest_strains_before_(largest_strains_before()) {
-    for (const Observation& observation : observations_) {
-        const Measurement& table = experiment_.measurements[observation.measurement];
+void check_structure_series(const Experiment& experiment, const std::vector<Observation>& observations) {
+    for (const Observation& observation : observations) {
+        const Measurement& table = experiment.measurements[observation.measurement];
         if (table.kind != MeasurementKind::structure_series) {
             continue;
         }
-        if (experiment_.structure_groups.empty()) {
+        if (experiment.structure_groups.empty()) {
             throw InputError(table.label +
                              ": a structure series needs structures.groups, which says what rows a structure stands for");
         }
-        const auto& groups = experiment_.structure_groups;
+        const auto& groups = experiment.structure_groups;
         if (std::find(groups.begin(), groups.end(), observation.structures) == groups.end()) {
             throw InputError(table.label + ": no structure stands for row " + std::to_string(observation.row + 1) + ", structure " +
                              std::to_string(observation.structures));
         }
     }
+}
+
+Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
+    : experiment_(experiment),
+      observations_(observations),
+      simulator_(simulator),
+      largest_strains_before_(largest_strains_before()) {
+    check_structure_series(experiment_, observations_);
 }
 
 /// Under plates or a cone, by a tool.

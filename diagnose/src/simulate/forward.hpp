@@ -22,6 +22,9 @@ namespace coagula::diagnose {
 /// Bonds as weak as the weaker of the two causes makes them.
 Settings with_weakest_bonds(Settings settings);
 
+/// Throws InputError unless structures stand for every row of a structure series.
+void check_structure_series(const Experiment& experiment, const std::vector<Observation>& observations);
+
 /// Predicts observations. Not for several threads at once.
 class Forward {
 public:

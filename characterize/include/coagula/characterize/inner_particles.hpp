@@ -12,4 +12,12 @@ namespace coagula::characterize {
 /// for none of a small open one.
 std::vector<bool> inner_particles(const Packing& packing);
 
+/// How an open packing is strained: by the particles at its free surface, with the stress averaged over the cells of the others.
+struct FreeSurface {
+    std::vector<bool> outer;  ///< N flags: not among the inner particles
+    double inner_volume;      ///< of the cells of the inner particles [m^3]
+};
+
+FreeSurface free_surface(const Packing& packing);
+
 }  // namespace coagula::characterize

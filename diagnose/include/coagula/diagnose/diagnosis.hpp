@@ -163,8 +163,11 @@ struct Diagnosis {
     std::vector<SampleEffect> extended_effects;  ///< the same for the best cause
 };
 
-/// Diagnoses an experiment whose tables have passed check_data.
-/// Throws InputError when there are fewer than five usable numbers: too little to say anything.
+/// What `diagnose` refuses before it simulates: throws InputError when there are fewer than five usable numbers, too little to say
+/// anything, or too many, when no cause can show, or when rows of a structure series have no structures.
+void check(const Experiment& experiment, const DiagnosisOptions& options);
+
+/// Diagnoses an experiment whose tables have passed check_data. Throws as `check` does.
 Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options = {},
                    const Progress& progress = {});
 

@@ -36,10 +36,13 @@ struct VoidExpansion {
     Index steps = 0;              ///< explicit time steps in all
 };
 
+/// Throws std::invalid_argument for impossible options.
+void check(const VoidExpansionOptions& options);
+
 /// Runs the method: particles and voids are placed at random, overlaps of the particles removed, and the voids grown in small
 /// steps; close to the target, after each step, a copy without voids is bonded and relaxed, and the first that reaches the target
 /// is the result. Void radii are relative to the mean radius. The result depends on the options alone, not on the number of
-/// threads. Throws std::invalid_argument for impossible options and InputError when the target coordination cannot be reached: too
+/// threads. Throws as `check` does, and InputError when the target coordination cannot be reached: too
 /// high for so many voids, or lower than that of the packing without voids, since growing voids only add contacts.
 VoidExpansion expand_voids(const VoidExpansionOptions& options, const Progress& progress = {});
 

@@ -1,0 +1,28 @@
+// An experiment after every check that needs no simulation.
+#pragma once
+
+#include <coagula/diagnose/check_data.hpp>
+#include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/diagnose/noise.hpp>
+#include <coagula/experiment/experiment_file.hpp>
+#include <coagula/experiment/experiment_structures.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::experiment {
+
+struct CheckedExperiment {
+    ExperimentFile file;  ///< ready to be diagnosed: errors stated, waveforms reduced to harmonics
+    std::vector<diagnose::CheckedMeasurement> tables = {};  ///< as measured, before outliers were left out
+    std::vector<diagnose::NoiseModel> noise = {};           ///< of the tables
+    diagnose::DiagnosisOptions options = {};                ///< with the noise of the experiment
+    ExperimentStructures structures = {};
+};
+
+/// Reads an experiment and refuses all that a diagnosis would refuse before it simulates. Throws InputError with a sentence that
+/// names the file, the key, the table or the structure and the rule. That no structures are named yet is a note; make_structures
+/// refuses it.
+CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisOptions options = {});
+
+}  // namespace coagula::experiment

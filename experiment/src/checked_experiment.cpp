@@ -1,0 +1,102 @@
+#include <coagula/diagnose/outliers.hpp>
+#include <coagula/diagnose/stated_errors.hpp>
+#include <coagula/diagnose/waveform.hpp>
+#include <coagula/experiment/checked_experiment.hpp>
+#include <coagula/experiment/measured_tables.hpp>
+
+#include <algorithm>
+
+namespace coagula::experiment {
+
+namespace {
+
+bool same_numbers(const diagnose::Measurement& one, const diagnose::Measurement& other) {
+    const auto alike = [](const diagnose::Column& a, const diagnose::Column& b) {
+        return a.name == b.name && same_values(a.values, b.values);
+    };
+    return one.kind == other.kind &&
+           std::equal(one.columns.begin(), one.columns.end(), other.columns.begin(), other.columns.end(), alike);
+}
+
+/// Plans, and copies: replicates are never the same to the last digit.
+void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tables) {
+    for (auto table = tables.begin(); table != tables.end(); ++table) {
+        if (table->label.ends_with("(planned)")) {
+            throw InputError(table->label + ": a plan has no measured moduli; it is for --power");
+        }
+        const auto copy = std::find_if(tables.begin(), table, [&](const auto& other) { return same_numbers(*table, other); });
+        if (copy != table && table->kind != diagnose::MeasurementKind::waveform) {
+            throw InputError(table->label + ", sample '" + table->sample + "': the same numbers as in " + copy->label +
+                             ", sample '" + copy->sample + "'; give each measurement once");
+        }
+    }
+}
+
+/// What a table lacks that its kind needs; nothing where it lacks nothing.
+std::string missing_column(const diagnose::Measurement& table) {
+    const diagnose::TableRule rule = diagnose::rule_of(table.kind);
+    if (!rule.axes.empty() && diagnose::axis_of(table) == nullptr) {
+        return std::string(rule.axes.front());
+    }
+    const auto absent = std::find_if(rule.required.begin(), rule.required.end(),
+                                     [&](std::string_view name) { return diagnose::find_column(table, name) == nullptr; });
+    return absent == rule.required.end() ? "" : std::string(*absent);
+}
+
+/// The line that may make up for a missing column.
+std::string remedy(const diagnose::Measurement& table, const TableFacts& facts) {
+    const std::string missing = missing_column(table);
+    if (missing.empty() || facts.not_understood.empty()) {
+        return "";
+    }
+    std::string list;
+    for (const std::string& heading : facts.not_understood) {
+        list += (list.empty() ? "" : ", ") + heading;
+    }
+    const std::string& first = facts.not_understood.front();
+    return "; not understood are the columns " + list + ": if one of them is it, add to the measurement, say, columns = { " +
+           missing + " = \"" + first.substr(1, first.size() - 2) + "\" }";
+}
+
+std::vector<diagnose::CheckedMeasurement> check_tables(const ExperimentFile& file) {
+    const std::vector<diagnose::Measurement>& tables = file.experiment.measurements;
+    refuse_what_was_not_measured(tables);
+    std::vector<diagnose::CheckedMeasurement> checked;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        checked.push_back(diagnose::check_data(tables[i]));
+        if (!checked.back().problems.empty()) {
+            throw InputError(checked.back().problems.front() + remedy(tables[i], file.facts[i]));
+        }
+    }
+    return checked;
+}
+
+}  // namespace
+
+CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisOptions options) {
+    CheckedExperiment found{.file = read_experiment(path), .options = std::move(options)};
+    diagnose::Experiment& experiment = found.file.experiment;
+    const diagnose::NoiseOptions& noise = found.file.noise;
+    found.tables = check_tables(found.file);
+    std::transform(found.tables.begin(), found.tables.end(), experiment.measurements.begin(),
+                   [](const diagnose::CheckedMeasurement& checked) { return checked.measurement; });
+    for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(experiment.measurements)) {
+        found.file.notes.push_back(outlier.sentence);
+    }
+    found.noise = diagnose::noise_of_tables(experiment.measurements, noise);
+    found.options.stated_noise = noise;
+    diagnose::state_errors(experiment, found.noise);
+    diagnose::state_sample_effect(found.noise, noise.stated_sample, found.options.noise);
+    diagnose::reduce_waveforms(experiment, noise.stated_relative, noise.stated_phase);
+    naming(path, [&] {
+        found.structures = check_structures(experiment);
+        if (experiment.structure_sizes.empty()) {
+            found.file.notes.push_back("the experiment names no structures yet, which a diagnosis needs");
+        } else {
+            diagnose::check(experiment, found.options);
+        }
+    });
+    return found;
+}
+
+}  // namespace coagula::experiment

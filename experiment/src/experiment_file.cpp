@@ -1,0 +1,443 @@
+#include <coagula/experiment/experiment_file.hpp>
+
+#include <coagula/experiment/measured_tables.hpp>
+#include "table_selection.hpp"
+#include "toml_keys.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/tool_constants.hpp>
+#include <coagula/io/measured_file.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+
+namespace coagula::experiment {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double largest_radius = 0.1;  // of particles [m]; more is a unit forgotten
+
+/// Reads an experiment file part by part.
+class ExperimentReader {
+public:
+    explicit ExperimentReader(const std::string& path) : path_(path), root_(parse_toml(path)) {}
+
+    ExperimentFile run() {
+        TomlKeys keys(root_, path_);
+        result_.experiment.title = keys.text("title").value_or("");
+        for (const char* table : {"sample", "instrument", "structures", "noise", "expected", "measurement"}) {
+            keys.ignore(table);
+        }
+        keys.refuse_other_keys();
+        read_sample();
+        read_instrument();
+        read_structures();
+        read_noise();
+        read_expectation();
+        read_measurements();
+        result_.taken_over = metadata_.give_to(result_.experiment);
+        result_.facts.resize(result_.experiment.measurements.size());
+        naming(path_, [&] { derive_moduli(); });
+        naming(path_, [&] { diagnose::check(result_.experiment); });
+        return std::move(result_);
+    }
+
+private:
+    /// The table of this name, empty where there is none.
+    const toml::table& part(const std::string& name) const {
+        static const toml::table none;
+        const toml::node* node = root_.get(name);
+        if (node != nullptr && !node->is_table()) {
+            throw InputError(path_ + ", key '" + name + "': must be a table, [" + name + "]");
+        }
+        return node == nullptr ? none : *node->as_table();
+    }
+
+    std::string where(const std::string& name) const { return path_ + ", [" + name + "]"; }
+    std::string resolved(const std::string& file) const { return (fs::path(path_).parent_path() / file).string(); }
+
+    void read_sample();
+    void read_instrument();
+    void read_structures();
+    void read_noise();
+    void read_expectation();
+    void read_measurements();
+    void derive_moduli();
+    void read_measurement(const toml::table& table, std::size_t number);
+    diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const;
+    ColumnRules column_rules(TomlKeys& keys) const;
+
+    std::string path_;
+    toml::table root_;
+    ExperimentFile result_;
+    ExportMetadata metadata_;
+    std::vector<std::size_t> raw_moduli_;  ///< measurements whose moduli are to be those of torque and raw phase
+};
+
+void ExperimentReader::read_sample() {
+    TomlKeys keys(part("sample"), where("sample"));
+    diagnose::Sample& sample = result_.experiment.sample;
+    sample.name = keys.text("name").value_or("");
+    sample.particle_radius = keys.quantity("particle_radius", "m").value_or(unset);
+    if (sample.particle_radius > largest_radius) {
+        keys.fail("particle_radius", "is " + to_text(sample.particle_radius) + " m, but may be " + to_text(largest_radius) +
+                                         " m at most: give it with its unit, such as \"0.25 um\"");
+    }
+    sample.density = keys.quantity("density", "kg/m3").value_or(unset);
+    sample.volume_fraction = keys.quantity("volume_fraction", "1").value_or(unset);
+    sample.solvent_viscosity = keys.quantity("solvent_viscosity", "Pa.s").value_or(unset);
+    sample.temperature = keys.quantity("temperature", "K").value_or(unset);
+    sample.normal_stiffness = keys.quantity("normal_stiffness", "N/m").value_or(unset);
+    sample.normal_stiffness_error = keys.quantity("normal_stiffness_error", "1").value_or(unset);
+    sample.sheared_before = keys.flag("sheared_before");
+    keys.refuse_other_keys();
+}
+
+void ExperimentReader::read_instrument() {
+    TomlKeys keys(part("instrument"), where("instrument"));
+    diagnose::Instrument& instrument = result_.experiment.instrument;
+    if (const auto name = keys.text("geometry")) {
+        instrument.geometry = diagnose::geometry(*name);
+        if (!instrument.geometry) {
+            keys.fail("geometry", "'" + *name + "' is none of plate-plate, cone-plate, concentric-cylinders");
+        }
+    }
+    instrument.plate_radius = keys.quantity("plate_radius", "m").value_or(unset);
+    instrument.gap = keys.quantity("gap", "m").value_or(unset);
+    instrument.cone_angle = keys.quantity("cone_angle", "rad").value_or(unset);
+    instrument.inner_radius = keys.quantity("inner_radius", "m").value_or(unset);
+    instrument.outer_radius = keys.quantity("outer_radius", "m").value_or(unset);
+    instrument.bob_length = keys.quantity("bob_length", "m").value_or(unset);
+    instrument.end_correction = keys.quantity("end_correction", "1").value_or(1);
+    instrument.stress_constant = keys.quantity("stress_constant", "Pa/(N.m)").value_or(unset);
+    instrument.strain_constant = keys.quantity("strain_constant", "1/rad").value_or(unset);
+    instrument.tool_inertia = keys.quantity("tool_inertia", "kg.m2").value_or(unset);
+    instrument.instrument_inertia = keys.quantity("instrument_inertia", "kg.m2").value_or(unset);
+    instrument.tool_compliance = keys.quantity("tool_compliance", "rad/(N.m)").value_or(unset);
+    keys.refuse_other_keys();
+}
+
+int small_count(TomlKeys& keys, const std::string& key, std::int64_t low) {
+    const std::int64_t value = keys.whole(key).value_or(low);
+    constexpr std::int64_t high = std::numeric_limits<int>::max();
+    if (value < low || value > high) {
+        keys.fail(key, "is " + std::to_string(value) + ", but must be a whole number " +
+                           (value < low ? ">= " + std::to_string(low) : "<= " + std::to_string(high)));
+    }
+    return static_cast<int>(value);
+}
+
+void ExperimentReader::read_structures() {
+    TomlKeys keys(part("structures"), where("structures"));
+    for (const std::string& file : keys.texts("files")) {
+        const std::string path = resolved(file);
+        if (!fs::is_regular_file(path)) {
+            keys.fail("files", path + (fs::exists(path) ? " is no file" : " does not exist"));
+        }
+        result_.experiment.structures.push_back(path);
+    }
+    for (const std::int64_t group : keys.wholes("groups")) {
+        if (group < 1) {
+            keys.fail("groups", "must be 1 or more");
+        }
+        result_.experiment.structure_groups.push_back(static_cast<std::size_t>(group));
+    }
+    if (const auto generator = keys.text("generator")) {
+        if (*generator != "vem" && *generator != "brownian") {
+            keys.fail("generator", "'" + *generator + "' is neither vem nor brownian");
+        }
+        diagnose::StructureRecipe recipe{*generator, small_count(keys, "particles", 1), 0, unset, unset, {}};
+        recipe.voids = *generator == "vem" ? small_count(keys, "voids", 0) : 0;
+        if (*generator == "brownian") {
+            recipe.surface_potential = keys.quantity("surface_potential", "V").value_or(unset);
+        }
+        recipe.target_coordination = keys.quantity("target_coordination", "1").value_or(unset);
+        for (const std::int64_t seed : keys.wholes("seeds")) {
+            if (seed < 0) {
+                keys.fail("seeds", "must not be negative");
+            }
+            if (std::find(recipe.seeds.begin(), recipe.seeds.end(), static_cast<std::size_t>(seed)) != recipe.seeds.end()) {
+                keys.fail("seeds", "holds " + std::to_string(seed) + " twice, which would be one structure, not two");
+            }
+            recipe.seeds.push_back(static_cast<std::size_t>(seed));
+        }
+        result_.experiment.recipe = recipe;
+    }
+    keys.refuse_other_keys();
+}
+
+void ExperimentReader::read_noise() {
+    TomlKeys keys(part("noise"), where("noise"));
+    const auto positive = [&](const std::string& key, double& target) {
+        if (const auto value = keys.quantity(key, "1")) {
+            if (!(*value > 0 && *value < 1)) {
+                keys.fail(key, "must lie between 0 and 1");
+            }
+            target = *value;
+        }
+    };
+    positive("stated_relative", result_.noise.stated_relative);
+    positive("stated_sample", result_.noise.stated_sample);
+    if (const auto value = keys.quantity("stated_floor", "Pa")) {
+        if (!(*value >= 0)) {
+            keys.fail("stated_floor", "must be >= 0 Pa");
+        }
+        result_.noise.stated_floor = *value;
+    }
+    if (const auto value = keys.quantity("stated_phase", "rad")) {
+        if (!(*value > 0 && *value < 1)) {
+            keys.fail("stated_phase", "must lie between 0 and 1 rad");
+        }
+        result_.noise.stated_phase = *value;
+    }
+    if (const auto value = keys.quantity("stated_correlation", "1")) {
+        if (!(*value >= 0 && *value < 1)) {
+            keys.fail("stated_correlation", "must be 0 or more and below 1");
+        }
+        result_.noise.stated_correlation = *value;
+    }
+    keys.refuse_other_keys();
+}
+
+void ExperimentReader::read_expectation() {
+    TomlKeys keys(part("expected"), where("expected"));
+    if (const auto value = keys.quantity("storage_modulus", "Pa")) {
+        if (!(*value > 0)) {
+            keys.fail("storage_modulus", "must be > 0 Pa");
+        }
+        result_.expected_storage_modulus = *value;
+    }
+    keys.refuse_other_keys();
+}
+
+/// An end of a planned axis; an angular frequency may be given in cycles.
+double planned_end(TomlKeys& keys, const toml::node& node, const std::string& key, const std::string& unit) {
+    const bool in_cycles = unit == "rad/s" && node.is_string() && node.ref<std::string>().ends_with("Hz");
+    return in_cycles ? 2 * std::numbers::pi * keys.quantity_of(node, key, "Hz") : keys.quantity_of(node, key, unit);
+}
+
+/// A table that nobody has measured yet: its axis from an end to the other, and what is constant.
+diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const {
+    const diagnose::TableRule rule = diagnose::rule_of(kind);
+    if (rule.axes.empty()) {
+        keys.fail("planned", std::string(diagnose::name_of(kind)) + " has no axis that could be planned");
+    }
+    if (kind == diagnose::MeasurementKind::waveform) {
+        keys.fail("planned", "waveforms are planned as a table of kind harmonics, with the strains of their oscillations");
+    }
+    const diagnose::Quantity& axis = *diagnose::find_quantity(rule.axes.front());
+    double from = unset;
+    double to = unset;
+    double points = unset;
+    for (const auto& [name, node] : keys.entries("planned")) {
+        if (name == "from" || name == "to") {
+            (name == "from" ? from : to) = planned_end(keys, *node, "planned." + name, std::string(axis.unit));
+        } else if (name == "points") {
+            points = keys.quantity_of(*node, "planned.points", "1");
+        } else {
+            keys.fail("planned", "'" + name + "' is none of from, to, points");
+        }
+    }
+    if (!(from > 0 && to > 0 && from != to)) {
+        keys.fail("planned", "needs 'from' and 'to', two values of " + std::string(axis.name) + " > 0");
+    }
+    if (!(points >= static_cast<double>(rule.fewest_rows) && points <= 10000 && points == std::floor(points))) {
+        keys.fail("planned", "needs 'points', a whole number from " + std::to_string(rule.fewest_rows) + " to 10000");
+    }
+    diagnose::Measurement table;
+    table.kind = kind;
+    table.label = "measurement " + std::to_string(number) + " (planned)";
+    const auto rows = static_cast<std::size_t>(points);
+    diagnose::Column column{std::string(axis.name), std::string(axis.unit), std::vector<double>(rows)};
+    for (std::size_t row = 0; row < rows; ++row) {
+        const double way = static_cast<double>(row) / (points - 1);
+        column.values[row] = axis.name == "time" || axis.name == "gap" ? from + (to - from) * way : from * std::pow(to / from, way);
+    }
+    table.columns.push_back(std::move(column));
+    for (const auto& [name, value] : column_rules(keys).constants) {
+        table.columns.push_back({name, std::string(diagnose::find_quantity(name)->unit), std::vector<double>(rows, value)});
+    }
+    return table;
+}
+
+void ExperimentReader::read_measurements() {
+    const toml::node* list = root_.get("measurement");
+    if (list == nullptr || !list->is_array_of_tables()) {
+        throw InputError(path_ + ": there is no measurement; each needs a table [[measurement]]");
+    }
+    std::size_t number = 0;
+    for (const toml::node& table : *list->as_array()) {
+        read_measurement(*table.as_table(), ++number);
+    }
+}
+
+const diagnose::Quantity& known_quantity(TomlKeys& keys, const std::string& key, const std::string& name) {
+    const diagnose::Quantity* quantity = diagnose::find_quantity(name);
+    if (quantity == nullptr) {
+        keys.fail(key, "'" + name + "' is no quantity (see docs/experiment-file.md)");
+    }
+    return *quantity;
+}
+
+/// Quantity names on the left.
+std::map<std::string, std::string> headings_by_quantity(TomlKeys& keys, const std::string& key) {
+    std::map<std::string, std::string> headings;
+    for (const auto& [name, node] : keys.entries(key)) {
+        headings[std::string(known_quantity(keys, key, name).name)] = keys.text_of(*node, key);
+    }
+    return headings;
+}
+
+ColumnRules ExperimentReader::column_rules(TomlKeys& keys) const {
+    ColumnRules rules;
+    if (keys.holds_list("columns")) {
+        rules.names = keys.texts("columns");
+    } else {
+        rules.headings = headings_by_quantity(keys, "columns");
+    }
+    rules.standard_errors = headings_by_quantity(keys, "standard_errors");
+    for (const auto& [name, node] : keys.entries("values")) {
+        const diagnose::Quantity& quantity = known_quantity(keys, "values", name);
+        const double value = keys.quantity_of(*node, "values." + name, std::string(quantity.unit));
+        if (value < quantity.low || value > quantity.high || (quantity.low_excluded && value == quantity.low)) {
+            keys.fail("values." + name, "is " + to_text(value) + " " + std::string(quantity.unit) + ", but must be " +
+                                            (quantity.low_excluded ? "> " : ">= ") + to_text(quantity.low));
+        }
+        rules.constants[name] = value;
+    }
+    return rules;
+}
+
+/// What all tables of one [[measurement]] share.
+struct TableSetting {
+    std::string sample;
+    int run_order;
+    bool rough_plates;
+    double cone_angle;
+    double fluid_viscosity;
+    int oscillations;
+
+    void give_to(diagnose::Measurement& measurement) const {
+        measurement.sample = sample;
+        measurement.run_order = run_order;
+        measurement.rough_plates = rough_plates;
+        measurement.cone_angle = cone_angle;
+        measurement.fluid_viscosity = fluid_viscosity;
+        measurement.oscillations = oscillations;
+    }
+};
+
+TableSetting read_setting(TomlKeys& keys, std::size_t number) {
+    TableSetting setting{.sample = keys.text("sample").value_or("measurement " + std::to_string(number)),
+                         .run_order = small_count(keys, "run_order", 0),
+                         .rough_plates = keys.flag("rough_plates"),
+                         .cone_angle = keys.quantity("cone_angle", "rad").value_or(unset),
+                         .fluid_viscosity = keys.quantity("fluid_viscosity", "Pa.s").value_or(unset),
+                         .oscillations = small_count(keys, "oscillations", 1)};
+    if (setting.fluid_viscosity <= 0) {
+        keys.fail("fluid_viscosity", "must be > 0 Pa.s");
+    }
+    return setting;
+}
+
+/// Once the tool is known, to which exports may contribute.
+void ExperimentReader::derive_moduli() {
+    std::vector<diagnose::Measurement>& tables = result_.experiment.measurements;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const bool raw = std::find(raw_moduli_.begin(), raw_moduli_.end(), i) != raw_moduli_.end();
+        if (!tables[i].label.ends_with("(planned)")) {
+            diagnose::derive_moduli(tables[i], result_.experiment.instrument, raw);
+        }
+    }
+}
+
+/// The table, its columns named by the list `columns` where the file has no headings.
+io::PlainTable with_names(TomlKeys& keys, io::PlainTable table, const ColumnRules& rules, const std::string& label) {
+    if (table.has_headings && !rules.names.empty()) {
+        keys.fail("columns", label + " has headings: write columns = { quantity = \"heading\" }");
+    }
+    if (!table.has_headings && rules.names.empty()) {
+        throw InputError(
+            label + ": there are no headings; name its " + std::to_string(table.columns.size()) +
+            " columns in the experiment file, columns = [\"strain [%]\", \"G' [Pa]\", ...], with \"\" for one that is not "
+            "meant");
+    }
+    if (!table.has_headings) {
+        try {
+            io::name_columns(table, rules.names);
+        } catch (const InputError& error) {
+            keys.fail("columns", label + ": " + error.what());
+        }
+    }
+    return table;
+}
+
+/// Whether moduli are to be those of torque, deflection and raw phase.
+bool moduli_are_raw(TomlKeys& keys) {
+    const std::string moduli = keys.text("moduli").value_or("as-given");
+    if (moduli != "raw" && moduli != "as-given") {
+        keys.fail("moduli", "'" + moduli + "' is neither raw nor as-given");
+    }
+    return moduli == "raw";
+}
+
+void ExperimentReader::read_measurement(const toml::table& table, std::size_t number) {
+    TomlKeys keys(table, path_ + ", measurement " + std::to_string(number));
+    const std::string kind_name = keys.required_text("kind");
+    const auto kind = diagnose::measurement_kind(kind_name);
+    if (!kind) {
+        std::string names;
+        for (const diagnose::MeasurementKind known : diagnose::all_measurement_kinds()) {
+            names += (names.empty() ? "" : ", ") + std::string(diagnose::name_of(known));
+        }
+        keys.fail("kind", "'" + kind_name + "' is none of " + names);
+    }
+    const TableSetting setting = read_setting(keys, number);
+    if (table.contains("planned")) {
+        diagnose::Measurement measurement = planned_table(keys, *kind, number);
+        keys.refuse_other_keys();
+        setting.give_to(measurement);
+        result_.experiment.measurements.push_back(std::move(measurement));
+        return;
+    }
+    const std::string name = keys.required_text("file");
+    const io::MeasuredFile file = io::read_measured_file(resolved(name));
+    const std::vector<const io::PlainTable*> tables = chosen_tables(keys, file, *kind);
+    const ColumnRules rules = column_rules(keys);
+    const TableSelection selection = read_selection(keys);
+    const bool raw = moduli_are_raw(keys);
+    keys.refuse_other_keys();
+    const std::size_t first = result_.experiment.measurements.size();
+    for (const io::PlainTable* chosen : tables) {
+        const std::string label = label_of(file, *chosen, name);
+        const io::PlainTable named = with_names(keys, *chosen, rules, label);
+        diagnose::Measurement measurement = to_measurement(named, *kind, label, rules);
+        setting.give_to(measurement);
+        measurement.run_order += chosen->number - tables.front()->number;  // of a range
+        select(measurement, selection);
+        if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
+            result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +
+                                    " points, but has " + std::to_string(chosen->rows()));
+        }
+        if (raw) {
+            raw_moduli_.push_back(result_.experiment.measurements.size());
+        }
+        result_.experiment.measurements.push_back(std::move(measurement));
+        result_.facts.resize(result_.experiment.measurements.size());
+        result_.facts.back() = {not_understood(named, rules), named.flags};
+    }
+    metadata_.add(name, file, first, result_.experiment.measurements.size());
+}
+
+}  // namespace
+
+ExperimentFile read_experiment(const std::string& path) {
+    return ExperimentReader(path).run();
+}
+
+}  // namespace coagula::experiment

@@ -1,0 +1,31 @@
+// report.html: what a diagnosis found, as one page that needs no other file.
+#pragma once
+
+#include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/diagnose/noise.hpp>
+#include <coagula/io/structure_file.hpp>
+#include <coagula/report/gnuplot.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::report {
+
+/// All that the page and the HDF5 file are made from.
+struct DiagnosisRecord {
+    const diagnose::Experiment& experiment;
+    const diagnose::Diagnosis& diagnosis;
+    const std::vector<diagnose::NoiseModel>& noise;
+    io::Provenance provenance;
+    std::vector<std::string> structures;  ///< one sentence each
+    double level;                         ///< of the test
+    std::string model;                    ///< path of the extended model; empty: none
+    std::vector<std::string> notes;       ///< what a reader should know about the data and structures
+};
+
+/// What was found, in a sentence or two.
+std::string verdict_sentence(const diagnose::Diagnosis& found);
+
+std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot);
+
+}  // namespace coagula::report

@@ -1,0 +1,34 @@
+// What `coagula diagnose` finds: diagnosis.json and a table.
+#pragma once
+
+#include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/diagnose/noise.hpp>
+#include <coagula/report/results.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace coagula::report {
+
+/// What replicates or statements say about the errors of some tables.
+Json noise_json(const diagnose::NoiseModel& noise);
+
+/// The object of diagnosis.json. @param noise of the tables. @param model path of the extended model; empty: there is none.
+Json to_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>& noise, const std::string& model);
+
+Table table_of(const diagnose::Diagnosis& diagnosis);
+
+/// The cause that the extended model has; null when there is none (nothing detected).
+const diagnose::Cause* extended_cause(const diagnose::Diagnosis& diagnosis);
+
+/// How the log predictive density on held-out rows changes: "+12.3 (90 % interval 8.1 to 17)". There must be such rows.
+std::string change_of_density(const diagnose::Gain& gain, const std::function<std::string(double)>& print);
+
+/// "ageing, wall-slip".
+std::string list_of(const std::vector<std::string>& names);
+
+/// No data set drawn from the base model has a misfit as large, so that p is at most what is stated.
+bool is_least_p(const diagnose::Diagnosis& diagnosis);
+
+}  // namespace coagula::report

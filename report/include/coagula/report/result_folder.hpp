@@ -1,0 +1,46 @@
+// A folder of results that belong together: they appear at once, after all of them have been written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace coagula::report {
+
+/// Files are first written into the hidden folder .new inside the target, whatever fails meanwhile leaves the target as it was;
+/// `publish` then renames them into place. The key file goes first and comes last, so that where it stands, all files are of one
+/// run. From the first file on the target is locked: another run waits, then removes what a killed one left.
+class ResultFolder {
+public:
+    /// Throws InputError when `folder` is a file, or one of the files is a folder, or is there already and `force` is not given.
+    /// Nothing is made yet.
+    /// @param others what else will be written, but for what may be there already.
+    ResultFolder(std::filesystem::path folder, std::string key_file, const std::vector<std::string>& others, bool force);
+    ResultFolder(const ResultFolder&) = delete;
+    ResultFolder& operator=(const ResultFolder&) = delete;
+    ~ResultFolder();
+
+    const std::filesystem::path& path() const { return folder_; }
+    /// Where to write a file of this name until it is published.
+    std::filesystem::path stage(const std::string& name);
+    void write(const std::string& name, const std::string& text);
+    /// What an earlier run left under this name is removed on publishing.
+    void withdraw(const std::string& name) { withdrawn_.push_back(name); }
+    void publish();
+
+private:
+    void refuse_existing() const;
+    void begin();
+
+    std::filesystem::path folder_;
+    std::string key_file_;
+    std::vector<std::string> others_;
+    bool force_;
+    std::filesystem::path staging_;
+    int lock_ = -1;      ///< descriptor of the folder
+    bool made_ = false;  ///< the folder itself, by this run
+    std::vector<std::string> names_;
+    std::vector<std::string> withdrawn_;
+};
+
+}  // namespace coagula::report

@@ -1,0 +1,40 @@
+// Results as data sets of a file, as a JSON object and as a short table for people.
+#pragma once
+
+#include <coagula/common/cell.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coagula::report {
+
+using Json = nlohmann::ordered_json;
+using Results = std::vector<io::Dataset>;
+
+/// The values of one data set: a number, a text, or (nested) arrays; what is not a finite number becomes null.
+Json to_json(const io::Dataset& dataset);
+
+/// Data sets below `group` as nested objects: "/characterization/doh/a" is {"doh": {"a": ...}}.
+Json to_json(const Results& results, const std::string& group);
+
+/// To be asked before anything is written: throws std::runtime_error for a number that is not finite, unless the description of its
+/// data set says what "NaN" means there.
+void check_finite(const Results& results);
+
+/// The same of results that are printed only. What may be missing is null in `json` already.
+void check_finite(const Json& json);
+
+/// A physical value for people: five digits, SI prefix for metres, pascals and newtons, "1.4123 MPa".
+std::string with_unit(double value, const std::string& unit);
+
+/// "10.9 x 10.9 x 10.9 um, periodic".
+std::string describe(const Cell& cell);
+
+/// Label and text of each line.
+using Table = std::vector<std::pair<std::string, std::string>>;
+
+}  // namespace coagula::report

@@ -1,0 +1,309 @@
+#include <coagula/report/diagnosis_page.hpp>
+
+#include "diagnosis_data_page.hpp"
+#include "diagnosis_plots.hpp"
+#include "diagnosis_tables.hpp"
+#include "html.hpp"
+
+#include <coagula/report/diagnosis_results.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coagula::report {
+
+namespace {
+
+using diagnose::Cause;
+using diagnose::Diagnosis;
+using diagnose::Verdict;
+
+constexpr double shown_from = 0.001;  ///< smallest probability of a cause with a line of its own
+
+std::string print_number(double value) {
+    return printed(value);
+}
+
+std::string chance_text(const Diagnosis& found) {
+    return (is_least_p(found) ? "p ≤ " : "p = ") + print_number(found.p_value);
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        text += (k == 0 ? "" : k + 1 == names.size() ? " or " : ", ") + names[k];
+    }
+    return text;
+}
+
+std::string figure(const std::string& svg, const std::string& caption) {
+    return svg.empty() ? std::string{} : "<figure>\n" + svg + "\n<figcaption>" + caption + "</figcaption>\n</figure>\n";
+}
+
+std::string header(const DiagnosisRecord& record) {
+    const Diagnosis& found = record.diagnosis;
+    const std::string title = record.experiment.title.empty() ? "Diagnosis of measured moduli" : record.experiment.title;
+    std::string html = "<header>\n<h1>" + escaped(title) + "</h1>\n";
+    const std::string sample = record.experiment.sample.name;
+    html += paragraph((sample.empty() ? "" : escaped(sample) + " · ") + "diagnosis by coagula · " + record.provenance.time, "soft");
+    html += std::string("<div class=\"verdict ") + diagnose::name_of(found.verdict) + "\"><p>" + escaped(verdict_sentence(found)) +
+            "</p></div>\n<dl class=\"facts\">\n";
+    const auto fact = [&](const std::string& name, const std::string& value) {
+        html += "<div><dt>" + name + "</dt><dd>" + value + "</dd></div>\n";
+    };
+    fact("verdict", diagnose::name_of(found.verdict));
+    fact("p-value of the base model", chance_text(found));
+    fact("measured numbers", std::to_string(found.observations));
+    if (found.detected && found.gain.held_out > 0) {
+        fact("error on held-out rows", percent(found.gain.rmse_base) + " → " + percent(found.gain.rmse_extended));
+    }
+    return html + "</dl>\n</header>\n";
+}
+
+std::string detection(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+    const Diagnosis& found = record.diagnosis;
+    std::string html = heading("Where the base model fails");
+    html += paragraph(
+        "The base model – linear normal and shear springs, bonds without moments, no loss – has one free parameter, the "
+        "stiffness of the particles.");
+    if (found.failures.empty()) {
+        html += paragraph(found.detected ? "It fails as a whole, without a smooth departure along one axis that would stand out."
+                                         : "It does not fail: no misfit is larger than chance makes it.");
+    } else {
+        html += "<ul class=\"findings\">\n";
+        for (const diagnose::Failure& failure : found.failures) {
+            html += "<li>" + escaped(failure.sentence) + ". <span class=\"soft\">Bayes factor " +
+                    (failure.log_bayes_factor > std::log(1e6) ? "above 10⁶" : printed(std::exp(failure.log_bayes_factor))) +
+                    ".</span></li>\n";
+        }
+        html += "</ul>\n";
+    }
+    const std::string what =
+        found.statistics.empty()
+            ? ""
+            : found.statistics.front().measure +
+                  (found.statistics.front().axis == "none"
+                       ? ""
+                       : " of " + symbol_of(found.statistics.front().observable) + " along " + found.statistics.front().axis);
+    return html + figure(draw_detection(gnuplot, found), "The largest of " + std::to_string(found.statistics.size()) +
+                                                             " standardised misfit statistics (here: " + readable(what) +
+                                                             ") beside that of " + std::to_string(found.bootstrap.size()) +
+                                                             " data sets drawn from the fitted base model: " + chance_text(found) +
+                                                             "; the test decides at " + percent(record.level) + ".");
+}
+
+/// Numbers that a logarithmic axis cannot show.
+std::string not_shown(const Diagnosis& found, std::size_t table) {
+    std::size_t measured = 0;
+    bool base = false;
+    for (const diagnose::PredictedRow& row : found.rows) {
+        measured += row.measurement == table && row.observable.ends_with("_modulus") && row.measured <= 0 ? 1 : 0;
+        base = base || (row.measurement == table && row.observable == "loss_modulus" && row.base <= 0);
+    }
+    return (base ? " The base model has no loss: its G'' = 0 is not on a logarithmic axis." : "") +
+           (measured > 0 ? " " + std::to_string(measured) + (measured == 1 ? " modulus" : " moduli") +
+                               " not above zero cannot be shown on a logarithmic axis."
+                         : std::string{});
+}
+
+std::string data_and_models(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+    const Diagnosis& found = record.diagnosis;
+    const Cause* cause = extended_cause(found);
+    std::string html = heading("Measured data against the models");
+    for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
+        const diagnose::Measurement& table = record.experiment.measurements[k];
+        const auto rows =
+            std::count_if(found.rows.begin(), found.rows.end(), [&](const auto& row) { return row.measurement == k; });
+        html += "<h3>" + escaped(table.label) + " <span class=\"soft\">· " + escaped(conditions_of(table)) + "</span></h3>\n";
+        if (rows == 0) {
+            html += paragraph("Tables of this kind are read and checked, but do not take part in the diagnosis.", "soft");
+            continue;
+        }
+        const auto effect = std::find_if(found.base_effects.begin(), found.base_effects.end(),
+                                         [&](const auto& one) { return one.sample == table.sample; });
+        const std::string extended = cause == nullptr ? "" : cause->name;
+        html += image_table(found, k, extended);
+        for (const Picture& picture : draw_table(gnuplot, table, k, found, extended)) {
+            html += figure(picture.svg,
+                           picture.meaning + "; open: held out for the gain; bars: one standard deviation. Dashed: base model" +
+                               (extended.empty() ? std::string{} : "; solid: with " + escaped(extended)) +
+                               (effect == found.base_effects.end() || effect->effect == 0
+                                    ? "."
+                                    : ". Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +
+                                          " by the fit of the base model.") +
+                               " Right: what remains, the effect of the sample taken out; grey: two standard deviations." +
+                               (picture.moduli ? not_shown(found, k) : std::string{}));
+        }
+    }
+    return html;
+}
+
+std::string causes(const Diagnosis& found) {
+    std::string html = heading("Causes");
+    html += paragraph(
+        "Probability of each cause, given the data, over its physical range. " +
+        (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
+        " The test of the base model, applied to the best cause, gives p = " + print_number(found.extended_p_value) + "." +
+        (found.remainder.detected ? " Something is left over: " + escaped(found.remainder.where) + "." : std::string{}) +
+        (found.level_alone ? " A departure of the level alone says as much: what is taken for known of structure, particles or "
+                             "instrument may be wrong as well."
+                           : std::string{}));
+    std::vector<std::vector<std::string>> rows;
+    std::size_t improbable = 0;
+    for (const Cause& cause : found.causes) {
+        if (cause.posterior < shown_from && rows.size() >= 3) {
+            ++improbable;
+            continue;
+        }
+        const auto& set = found.credible_set;
+        const bool inside = std::find(set.begin(), set.end(), cause.name) != set.end();
+        rows.push_back({"<span class=\"name\">" + escaped(cause.name) + "</span>",
+                        std::string("<div class=\"") + (inside ? "inside" : "outside") +
+                            "\"><div class=\"bar\"><span style=\"width:" +
+                            replaced(printed(100 * std::max(cause.posterior, 0.002)), "−", "-") + "%\"></span></div></div>",
+                        "<span class=\"number\">" + percent(cause.posterior) + "</span>", escaped(cause.words)});
+    }
+    html += html_table({"cause", "", "probability", "what it changes"}, rows, "bars");
+    return html + (improbable == 0 ? std::string{} : paragraph(std::to_string(improbable) + " more below 0.1 % each.", "soft"));
+}
+
+std::string parameters(const Diagnosis& found) {
+    std::string html = heading("Parameters");
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&](const Cause& cause) {
+        for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
+            rows.push_back({"<span class=\"name\">" + escaped(cause.name) + "</span>", readable(parameter.name),
+                            "<span class=\"number\">" + printed(parameter.value, parameter.unit) + "</span>",
+                            printed(parameter.low, parameter.unit) + " to " + printed(parameter.high, parameter.unit) +
+                                (parameter.at_end ? " <b>(the end of its range)</b>" : "")});
+        }
+    };
+    add(found.base);
+    const Cause* drawn = extended_cause(found);
+    for (const Cause& cause : found.causes) {
+        const auto& set = found.credible_set;
+        const bool inside = std::find(set.begin(), set.end(), cause.name) != set.end();
+        if ((inside || &cause == drawn) && cause.name != found.base.name) {
+            add(cause);
+        }
+    }
+    return rows.empty() ? "" : html + html_table({"model", "parameter", "most probable", "90 % interval"}, rows);
+}
+
+std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+    const diagnose::Gain& gain = record.diagnosis.gain;
+    std::string html = heading("Gain on data held out");
+    if (gain.held_out == 0) {
+        return html + paragraph("There are too few rows to hold some out.");
+    }
+    html += paragraph(std::to_string(gain.held_out) + " numbers were held out" + (gain.chosen.size() > 1 ? " in turn" : "") +
+                      "; the cause was chosen and fitted on the rest (" + escaped(list_of(gain.chosen)) +
+                      "). Their prediction misses by " + percent(gain.rmse_base) + " of |G*| (rms) with the base model, by " +
+                      percent(gain.rmse_flexible) + " with a smooth correction of it, and by <b>" + percent(gain.rmse_extended) +
+                      "</b> with that cause: a factor of " + printed(gain.rmse_ratio) + ". The log predictive density changes by " +
+                      change_of_density(gain, print_number) + ".");
+    for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
+        const diagnose::Measurement& table = record.experiment.measurements[k];
+        for (const Picture& picture : draw_gain(gnuplot, table, k, record.diagnosis)) {
+            html += figure(picture.svg,
+                           escaped(table.label) + ", rows held out: error of the prediction by models that have not seen them.");
+        }
+    }
+    return html;
+}
+
+std::string proposals(const Diagnosis& found) {
+    if (found.proposals.empty()) {
+        return {};
+    }
+    std::vector<std::vector<std::string>> rows;
+    for (const diagnose::Proposal& proposal : found.proposals) {
+        rows.push_back({escaped(proposal.what), "<span class=\"number\">" + percent(proposal.resolution) + "</span>",
+                        "<span class=\"number\">" + printed(proposal.information) + " bit</span>"});
+    }
+    return heading("What to measure next") +
+           paragraph("Measurements that would tell the causes of the 95 % set apart, the most informative first.") +
+           html_table({"measurement", "decides with probability", "expected information"}, rows);
+}
+
+std::string made(const DiagnosisRecord& record) {
+    std::string html = heading("How this was made") + "<dl class=\"made\">\n";
+    const auto line = [&](const std::string& name, const std::string& value) {
+        html += "<dt>" + name + "</dt><dd>" + value + "</dd>\n";
+    };
+    line("command", "<code>" + escaped(record.provenance.command_line) + "</code>");
+    line("version", "coagula " + escaped(record.provenance.version));
+    line("seed", std::to_string(record.provenance.seed));
+    line("time", record.provenance.time + ", " + printed(record.provenance.seconds) + " s");
+    for (const std::string& structure : record.structures) {
+        line("structure", escaped(structure));
+    }
+    line("numbers", "<code>diagnosis.json</code>, and everything behind them in <code>diagnosis.h5</code>" +
+                        (record.model.empty() ? std::string{}
+                                              : "; the contact of the best cause for <code>coagula shear --model</code> in "
+                                                "<code>extended_model.toml</code>"));
+    return html + "</dl>\n";
+}
+
+std::string next_sentence(const diagnose::Proposal& proposal) {
+    constexpr double hardly = 0.1;
+    return proposal.resolution >= hardly
+               ? " To decide, measure " + proposal.what + "."
+               : " No single measurement that was tried here is likely to decide; most is told by " + proposal.what + ".";
+}
+
+std::string gained(const diagnose::Gain& gain) {
+    return gain.held_out == 0 ? std::string{}
+                              : " On rows that no model has seen its error is " + printed(100 * gain.rmse_extended) +
+                                    " % instead of " + printed(100 * gain.rmse_base) +
+                                    " %; the log predictive density changes by " + change_of_density(gain, print_number) + ".";
+}
+
+}  // namespace
+
+std::string verdict_sentence(const Diagnosis& found) {
+    const std::string chance = " (" + chance_text(found) + ")";
+    if (found.verdict == Verdict::no_discrepancy) {
+        return "The base model explains the data: these " + std::to_string(found.observations) +
+               " moduli show nothing that it gets wrong" + chance + ".";
+    }
+    const std::string fails = "The base model fails" + chance;
+    if (found.verdict == Verdict::none_of_catalogue) {
+        const Cause* best = extended_cause(found);
+        return fails + (best == &found.causes.front() ? ", and so does the best that the catalogue has, " + best->name +
+                                                            " (p = " + print_number(found.extended_p_value) + ")."
+                                                      : ", and no cause of the catalogue explains how.");
+    }
+    const std::string next = found.proposals.empty() ? "" : next_sentence(found.proposals.front());
+    if (found.verdict == Verdict::tied) {
+        return fails + "; these data cannot tell whether the cause is " + joined(found.credible_set) + "." + next;
+    }
+    const Cause& cause = found.causes.front();
+    return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + printed(100 * cause.posterior) +
+           " %)." + (found.remainder.detected ? " It leaves something over: " + found.remainder.where + "." : std::string{}) +
+           gained(found.gain);
+}
+
+std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+    const Diagnosis& found = record.diagnosis;
+    std::string body = data_and_models(record, gnuplot) + detection(record, gnuplot);
+    if (found.detected) {
+        body += causes(found);
+    }
+    body += parameters(found);
+    if (found.detected) {
+        body += gain(record, gnuplot) + proposals(found);
+    }
+    body += noise_section(record.noise) + left_out_section(record.experiment) + made(record);
+    std::string head = header(record);
+    for (const std::string& note : record.notes) {
+        head += paragraph("Note: " + escaped(note) + ".", "soft");
+    }
+    if (!gnuplot.problem().empty()) {
+        const std::string& problem = gnuplot.problem();
+        head += "<p class=\"missing\">" + escaped("T" + problem.substr(1)) + ".</p>\n";
+    }
+    return html_page((record.experiment.title.empty() ? "Diagnosis" : record.experiment.title) + " – coagula", head + body);
+}
+
+}  // namespace coagula::report

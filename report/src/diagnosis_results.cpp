@@ -1,0 +1,224 @@
+#include <coagula/report/diagnosis_results.hpp>
+
+#include <cmath>
+
+namespace coagula::report {
+
+namespace {
+
+using diagnose::Cause;
+using diagnose::Diagnosis;
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json parameters_json(const Cause& cause) {
+    Json json = Json::object();
+    for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
+        json[parameter.name] = {{"value", number(parameter.value)},
+                                {"low", number(parameter.low)},
+                                {"high", number(parameter.high)},
+                                {"unit", parameter.unit}};
+        if (parameter.at_end) {
+            json[parameter.name]["at_end_of_range"] = true;
+        }
+    }
+    return json;
+}
+
+Json cause_json(const Cause& cause) {
+    return {{"name", cause.name},
+            {"posterior", cause.posterior},
+            {"log_evidence", number(cause.log_evidence)},
+            {"leaves_remainder", cause.leaves_remainder},
+            {"words", cause.words},
+            {"parameters", parameters_json(cause)}};
+}
+
+/// Of an axis, that of its column.
+std::string unit_of(const std::string& axis) {
+    const diagnose::Quantity* quantity = diagnose::find_quantity(axis);
+    return quantity != nullptr ? std::string(quantity->unit) : axis == "normal_stiffness" ? "N/m" : "1";
+}
+
+/// What the prediction of each sample is multiplied with, less 1.
+Json effects_json(const std::vector<diagnose::SampleEffect>& effects) {
+    Json json = Json::object();
+    for (const diagnose::SampleEffect& effect : effects) {
+        json[effect.sample] = effect.effect;
+    }
+    return json;
+}
+
+Json row_json(const diagnose::PredictedRow& row) {
+    return {{"measurement", row.measurement + 1},
+            {"row", row.row + 1},
+            {"observable", row.observable},
+            {"measured", row.measured},
+            {"standard_deviation", row.standard_deviation},
+            {"base", row.base},
+            {"extended", row.extended},
+            {"held_out", row.held_out}};
+}
+
+std::string describe(const Cause& cause) {
+    std::string text = "probability " + with_unit(cause.posterior, "1");
+    for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
+        text += "; " + parameter.name + " " + with_unit(parameter.value, parameter.unit) + " (" +
+                with_unit(parameter.low, parameter.unit) + " to " + with_unit(parameter.high, parameter.unit) + ")" +
+                (parameter.at_end ? ", the end of its range" : "");
+    }
+    return text;
+}
+
+Json estimate_json(const diagnose::Estimate& estimate, const std::string& unit) {
+    return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}, {"unit", unit}};
+}
+
+std::string describe(const diagnose::Gain& gain) {
+    if (gain.held_out == 0) {
+        return "none: too few rows to hold some out";
+    }
+    const auto percent = [](double part) { return with_unit(100 * part, "1") + " %"; };
+    return "error " + percent(gain.rmse_base) + " by the base model, " + percent(gain.rmse_extended) +
+           " by the cause that the rest asks for (" + percent(gain.rmse_flexible) +
+           " by a smooth correction); log predictive density " +
+           change_of_density(gain, [](double value) { return with_unit(value, "1"); });
+}
+
+}  // namespace
+
+std::string change_of_density(const diagnose::Gain& gain, const std::function<std::string(double)>& print) {
+    const std::string change = (gain.elpd_difference < 0 ? "" : "+") + print(gain.elpd_difference);
+    return std::isnan(gain.elpd_low) ? change + " (too few rows for an interval)"
+                                     : change + " (90 % interval " + print(gain.elpd_low) + " to " + print(gain.elpd_high) + ")";
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
+bool is_least_p(const Diagnosis& diagnosis) {
+    return diagnosis.p_value * static_cast<double>(diagnosis.bootstrap.size() + 1) < 1.5;
+}
+
+const Cause* extended_cause(const Diagnosis& diagnosis) {
+    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(), [&](const Cause& cause) {
+        return !cause.parameters.empty() && cause.name != diagnosis.base.name;
+    });
+    return diagnosis.detected && best != diagnosis.causes.end() ? &*best : nullptr;
+}
+
+Json noise_json(const diagnose::NoiseModel& noise) {
+    Json json = {{"kind", diagnose::name_of(noise.kind)},
+                 {"observable", noise.observable},
+                 {"tables", noise.tables},
+                 {"samples", noise.samples},
+                 {"values", noise.values},
+                 {"rows_estimated", noise.rows_estimated},
+                 {"sample_estimated", noise.sample_estimated},
+                 {"floor", estimate_json(noise.floor, noise.unit)},
+                 {"floor_of_stress", noise.floor_of_stress},
+                 {"relative", estimate_json(noise.relative, "1")},
+                 {"sample", estimate_json(noise.sample, "1")},
+                 {"autocorrelation", noise.autocorrelation},
+                 {"excess_kurtosis", noise.excess_kurtosis},
+                 {"sample_effects", effects_json(noise.sample_effects)},
+                 {"statement", noise.statement}};
+    return json;
+}
+
+Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>& noise, const std::string& model) {
+    Json json = {{"detected", diagnosis.detected},
+                 {"p_value", diagnosis.p_value},
+                 {"verdict", diagnose::name_of(diagnosis.verdict)},
+                 {"observations", diagnosis.observations},
+                 {"base", cause_json(diagnosis.base)},
+                 {"causes", Json::array()},
+                 {"credible_set", diagnosis.credible_set},
+                 {"where", Json::array()},
+                 {"rows", Json::array()}};
+    for (const Cause& cause : diagnosis.causes) {
+        json["causes"].push_back(cause_json(cause));
+    }
+    for (const diagnose::Failure& failure : diagnosis.failures) {
+        json["where"].push_back({{"observable", failure.observable},
+                                 {"axis", failure.axis},
+                                 {"bayes_factor", number(std::exp(failure.log_bayes_factor))},
+                                 {"log_bayes_factor", number(failure.log_bayes_factor)},
+                                 {"from", number(failure.from)},
+                                 {"unit", unit_of(failure.axis)},
+                                 {"sentence", failure.sentence}});
+    }
+    for (const diagnose::PredictedRow& row : diagnosis.rows) {
+        json["rows"].push_back(row_json(row));
+    }
+    if (diagnosis.detected) {
+        const diagnose::Gain& gain = diagnosis.gain;
+        json["extended_p_value"] = diagnosis.extended_p_value;
+        json["level_alone"] = diagnosis.level_alone;
+        json["remainder"] = {{"detected", diagnosis.remainder.detected},
+                             {"p_value", diagnosis.remainder.p_value},
+                             {"where", diagnosis.remainder.where}};
+        json["gain"] = {{"held_out", gain.held_out},
+                        {"chosen", gain.chosen},
+                        {"rmse_base", number(gain.rmse_base)},
+                        {"rmse_extended", number(gain.rmse_extended)},
+                        {"rmse_flexible", number(gain.rmse_flexible)},
+                        {"rmse_ratio", number(gain.rmse_ratio)},
+                        {"elpd_difference", number(gain.elpd_difference)},
+                        {"elpd_ci90", {number(gain.elpd_low), number(gain.elpd_high)}}};
+    }
+    json["noise"] = {{"sample", diagnosis.noise.sample}, {"tables", Json::array()}};
+    for (const diagnose::NoiseModel& one : noise) {
+        json["noise"]["tables"].push_back(noise_json(one));
+    }
+    json["sample_effects"] = {{"base", effects_json(diagnosis.base_effects)},
+                              {"extended", effects_json(diagnosis.extended_effects)}};
+    json["proposed_measurements"] = Json::array();
+    for (const diagnose::Proposal& proposal : diagnosis.proposals) {
+        json["proposed_measurements"].push_back(
+            {{"what", proposal.what}, {"information", proposal.information}, {"predicted_resolution", proposal.resolution}});
+    }
+    if (!diagnosis.proposals.empty()) {
+        json["proposed_measurement"] = json["proposed_measurements"].front();
+    }
+    json["extended_model"] = model.empty() ? Json(nullptr) : Json(model);
+    return json;
+}
+
+Table table_of(const Diagnosis& diagnosis) {
+    Table lines{{"measured numbers", std::to_string(diagnosis.observations)},
+                {"verdict", std::string(diagnose::name_of(diagnosis.verdict)) +
+                                (is_least_p(diagnosis) ? "   (p-value of the base model <= " : "   (p-value of the base model ") +
+                                with_unit(diagnosis.p_value, "1") + ")"}};
+    if (!diagnosis.detected) {
+        return lines;
+    }
+    for (const diagnose::Failure& failure : diagnosis.failures) {
+        lines.emplace_back("where", failure.sentence);
+    }
+    lines.emplace_back("95 % set of causes", list_of(diagnosis.credible_set));
+    for (const Cause& cause : diagnosis.causes) {
+        if (cause.posterior > 0.01) {
+            lines.emplace_back("  " + cause.name, describe(cause));
+        }
+    }
+    if (diagnosis.remainder.detected) {
+        lines.emplace_back("left over",
+                           diagnosis.remainder.where + "   (p-value " + with_unit(diagnosis.remainder.p_value, "1") + ")");
+    }
+    lines.emplace_back("gain on held-out data", describe(diagnosis.gain));
+    if (!diagnosis.proposals.empty()) {
+        const diagnose::Proposal& first = diagnosis.proposals.front();
+        lines.emplace_back("measure next", first.what + "   (decides with probability " + with_unit(first.resolution, "1") + ")");
+    }
+    return lines;
+}
+
+}  // namespace coagula::report

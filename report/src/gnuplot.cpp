@@ -1,0 +1,136 @@
+#include <coagula/report/gnuplot.hpp>
+
+#include "html.hpp"
+
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace coagula::report {
+
+namespace {
+
+/// A file without a name, in memory: what gnuplot reads and writes, so that neither side waits for the other.
+class MemoryFile {
+public:
+    MemoryFile() : descriptor_(memfd_create("coagula", MFD_CLOEXEC)) {
+        if (descriptor_ < 0) {
+            throw std::runtime_error(std::string("no memory for a picture: ") + std::strerror(errno));
+        }
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile() { close(descriptor_); }
+
+    int descriptor() const { return descriptor_; }
+
+    void fill(const std::string& text) const {
+        for (std::size_t done = 0; done < text.size();) {
+            const ssize_t count = write(descriptor_, text.data() + done, text.size() - done);
+            if (count < 0) {
+                throw std::runtime_error(std::string("no memory for a picture: ") + std::strerror(errno));
+            }
+            done += static_cast<std::size_t>(count);
+        }
+        lseek(descriptor_, 0, SEEK_SET);
+    }
+
+    std::string text() const {
+        lseek(descriptor_, 0, SEEK_SET);
+        std::string all;
+        std::array<char, 65536> buffer{};
+        for (ssize_t count = 0; (count = read(descriptor_, buffer.data(), buffer.size())) > 0;) {
+            all.append(buffer.data(), static_cast<std::size_t>(count));
+        }
+        return all;
+    }
+
+private:
+    int descriptor_;
+};
+
+/// @return the exit status, or -1 when gnuplot could not be started.
+int spawn_gnuplot(const MemoryFile& commands, const MemoryFile& picture, const MemoryFile& complaints) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, commands.descriptor(), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, picture.descriptor(), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, complaints.descriptor(), STDERR_FILENO);
+    std::array<std::string, 3> words{"gnuplot", "--default-settings", "-"};
+    std::array<char*, 4> arguments{words[0].data(), words[1].data(), words[2].data(), nullptr};
+    pid_t child = 0;
+    const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    int status = 0;
+    if (failed != 0 || waitpid(child, &status, 0) != child) {
+        return -1;
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+/// The text without what stands in elements of this name: gnuplot names every curve, and a browser shows that under the mouse.
+std::string without(std::string text, const std::string& element) {
+    for (std::size_t begin = 0; (begin = text.find("<" + element + ">", begin)) != std::string::npos;) {
+        const std::size_t end = text.find("</" + element + ">", begin);
+        text.erase(begin, end == std::string::npos ? end : end + element.size() + 3 - begin);
+    }
+    return text;
+}
+
+/// The element alone, with its ids marked by the number of the picture, because all pictures stand in one document.
+std::string as_element(std::string svg, int number, const std::string& title) {
+    const std::size_t begin = svg.find("<svg");
+    const std::size_t end = svg.rfind("</svg>");
+    if (begin == std::string::npos || end == std::string::npos) {
+        return {};
+    }
+    svg = without(without(svg.substr(begin, end + 6 - begin), "title"), "desc");
+    const std::string mark = "p" + std::to_string(number) + "-";
+    for (const std::string place : {"id=\"", "id='", "href=\"#", "href='#", "url(#"}) {
+        svg = replaced(std::move(svg), place, place + mark);
+    }
+    svg.insert(svg.find('>') + 1, "\n<title>" + escaped(title) + "</title>");
+    return svg;
+}
+
+}  // namespace
+
+GnuplotOutput run_gnuplot(const std::string& commands) {
+    const MemoryFile script;
+    const MemoryFile picture;
+    const MemoryFile complaints;
+    script.fill(commands);
+    const int status = spawn_gnuplot(script, picture, complaints);
+    GnuplotOutput output;
+    if (status < 0 || status == 127) {
+        output.problem = "gnuplot is not installed (Debian: apt-get install gnuplot-nox)";
+    } else if (output.picture = status == 0 ? picture.text() : ""; output.picture.empty()) {
+        const std::string said = complaints.text();
+        output.problem = "gnuplot failed: " + said.substr(0, said.find('\n', 1));
+    }
+    return output;
+}
+
+std::string Gnuplot::draw(const std::string& commands, int width, int height, const std::string& title) {
+    if (!problem_.empty()) {
+        return {};
+    }
+    const GnuplotOutput output =
+        run_gnuplot("set encoding utf8\nset terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
+                    " dynamic enhanced font \"sans-serif,13\" linewidth 1.2\n" + commands + "\nunset output\n");
+    if (!output.problem.empty()) {
+        problem_ = "the plots are missing because " + output.problem;
+        return {};
+    }
+    const std::string svg = as_element(output.picture, ++drawn_, title);
+    problem_ = svg.empty() ? "the plots are missing because gnuplot did not draw an SVG" : "";
+    return svg;
+}
+
+}  // namespace coagula::report

@@ -1,0 +1,34 @@
+#include <coagula/report/printable.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cctype>
+
+namespace coagula::report {
+
+using Json = nlohmann::json;
+
+bool is_utf8(const std::string& text) {
+    try {
+        Json(text).dump();
+    } catch (const Json::type_error&) {
+        return false;
+    }
+    return true;
+}
+
+std::string printable(const std::string& text) {
+    const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    auto safe = Json::parse(quoted).get<std::string>();
+    for (std::size_t place = 0; place < safe.size(); ++place) {
+        const auto byte = static_cast<unsigned char>(safe[place]);
+        if (std::iscntrl(byte) != 0) {
+            safe[place] = ' ';
+        } else if (byte == 0xc2 && static_cast<unsigned char>(safe[place + 1]) < 0xa0) {
+            safe.replace(place, 2, " ");  // U+0080 to U+009F
+        }
+    }
+    return safe;
+}
+
+}  // namespace coagula::report

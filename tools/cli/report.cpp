@@ -1,0 +1,53 @@
+#include "report.hpp"
+
+#include <coagula/report/printable.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <stdexcept>
+
+namespace coagula::tools {
+
+namespace {
+
+/// Objects are indented, arrays stay on one line.
+void print(std::ostream& stream, const Json& json, const std::string& indent) {
+    if (!json.is_object() || json.empty()) {
+        stream << json.dump();
+        return;
+    }
+    const char* separator = "{\n";
+    for (const auto& [key, value] : json.items()) {
+        stream << separator << indent << "  " << Json(key).dump() << ": ";
+        print(stream, value, indent + "  ");
+        separator = ",\n";
+    }
+    stream << '\n' << indent << '}';
+}
+
+}  // namespace
+
+void flush_output() {
+    std::cout.flush();
+    if (!std::cout) {
+        throw std::runtime_error("standard output cannot be written");
+    }
+}
+
+void report(const Arguments& arguments, const Json& json, const Table& table) {
+    if (arguments.flag("json")) {
+        print(std::cout, json, "");
+        std::cout << '\n';
+    } else if (!arguments.flag("quiet")) {
+        std::size_t width = 0;
+        for (const auto& [label, text] : table) {
+            width = std::max(width, label.size());
+        }
+        for (const auto& [label, text] : table) {
+            std::cout << label << std::string(width + 3 - label.size(), ' ') << report::printable(text) << '\n';
+        }
+    }
+    flush_output();
+}
+
+}  // namespace coagula::tools
