@@ -70,7 +70,7 @@ private:
     void derive_moduli();
     void read_measurement(const toml::table& table, std::size_t number);
     diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const;
-    ColumnRules column_rules(TomlKeys& keys) const;
+    static ColumnRules column_rules(TomlKeys& keys);
 
     std::string path_;
     toml::table root_;
@@ -293,7 +293,7 @@ std::map<std::string, std::string> headings_by_quantity(TomlKeys& keys, const st
     return headings;
 }
 
-ColumnRules ExperimentReader::column_rules(TomlKeys& keys) const {
+ColumnRules ExperimentReader::column_rules(TomlKeys& keys) {
     ColumnRules rules;
     if (keys.holds_list("columns")) {
         rules.names = keys.texts("columns");

@@ -227,15 +227,17 @@ std::string remedy(const diagnose::Measurement& table, const TableFacts& facts) 
         return "";
     }
     const std::string& first = facts.not_understood.front();
-    return "; not understood are the columns " + list_of(facts.not_understood) +
-           ": if one of them is it, add to the measurement, say, " + "columns = { " + missing + " = \"" +
-           first.substr(1, first.size() - 2) + "\" }";
+    std::string text = "; not understood are the columns " + list_of(facts.not_understood);
+    text += ": if one of them is it, add to the measurement, say, columns = { " + missing + " = \"";
+    text += first.substr(1, first.size() - 2) + "\" }";
+    return text;
 }
 
 std::vector<CheckedMeasurement> check_all(const ExperimentFile& file) {
     const std::vector<diagnose::Measurement>& measurements = file.experiment.measurements;
     refuse_what_was_not_measured(measurements);
     std::vector<CheckedMeasurement> checked;
+    checked.reserve(measurements.size());
     for (std::size_t i = 0; i < measurements.size(); ++i) {
         checked.push_back(diagnose::check_data(measurements[i]));
         if (!checked.back().problems.empty()) {
