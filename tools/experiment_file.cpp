@@ -69,7 +69,7 @@ private:
     void read_measurements();
     void derive_moduli();
     void read_measurement(const toml::table& table, std::size_t number);
-    diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const;
+    static diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number);
     static ColumnRules column_rules(TomlKeys& keys);
 
     std::string path_;
@@ -222,7 +222,7 @@ double planned_end(TomlKeys& keys, const toml::node& node, const std::string& ke
 }
 
 /// A table that nobody has measured yet: its axis from an end to the other, and what is constant.
-diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const {
+diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) {
     const diagnose::TableRule rule = diagnose::rule_of(kind);
     if (rule.axes.empty()) {
         keys.fail("planned", std::string(diagnose::name_of(kind)) + " has no axis that could be planned");

@@ -251,7 +251,7 @@ std::vector<CheckedMeasurement> check_all(const ExperimentFile& file) {
 void refuse_options(const Arguments& arguments, const std::string& mode, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         if (arguments.has(name)) {
-            throw InputError("--" + name + " has no meaning " + mode);
+            throw InputError(std::string("--").append(name).append(" has no meaning ").append(mode));
         }
     }
 }
@@ -280,6 +280,7 @@ void run(const Arguments& arguments) {
     ExperimentFile file = read_experiment(arguments.input());
     const std::vector<CheckedMeasurement> checked = check_all(file);
     std::vector<diagnose::Measurement> tables;
+    tables.reserve(checked.size());
     for (const CheckedMeasurement& entry : checked) {
         tables.push_back(entry.measurement);
     }

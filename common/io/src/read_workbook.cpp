@@ -27,7 +27,7 @@ std::string plain_cell(std::string_view text) {
 
 std::string text_of(double number) {
     std::array<char, 32> digits{};
-    const auto* const end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
     return {digits.data(), end};
 }
 

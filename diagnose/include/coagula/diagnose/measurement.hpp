@@ -120,18 +120,18 @@ std::optional<Geometry> geometry(std::string_view name);
 /// The rheometer; unset (NaN) where nobody said.
 struct Instrument {
     std::optional<Geometry> geometry;
-    double plate_radius = unset;     ///< m; of the cone or plate
-    double gap = unset;              ///< m
-    double cone_angle = unset;       ///< rad
-    double inner_radius = unset;     ///< m; concentric cylinders
-    double outer_radius = unset;     ///< m
-    double bob_length = unset;       ///< m; of the inner cylinder
-    double end_correction = 1;       ///< on the torque of the inner cylinder: 1.1 of one after DIN 53019
-    double stress_constant = unset;  ///< stress over torque where it is stated [Pa/(N.m)]
-    double strain_constant = unset;  ///< strain over deflection where it is stated [1/rad]
-    double tool_inertia = unset;     ///< kg.m2
+    double plate_radius = unset;        ///< m; of the cone or plate
+    double gap = unset;                 ///< m
+    double cone_angle = unset;          ///< rad
+    double inner_radius = unset;        ///< m; concentric cylinders
+    double outer_radius = unset;        ///< m
+    double bob_length = unset;          ///< m; of the inner cylinder
+    double end_correction = 1;          ///< on the torque of the inner cylinder: 1.1 of one after DIN 53019
+    double stress_constant = unset;     ///< stress over torque where it is stated [Pa/(N.m)]
+    double strain_constant = unset;     ///< strain over deflection where it is stated [1/rad]
+    double tool_inertia = unset;        ///< kg.m2
     double instrument_inertia = unset;  ///< of the shaft that turns with the tool [kg.m2]
-    double tool_compliance = unset;  ///< rad/(N.m)
+    double tool_compliance = unset;     ///< rad/(N.m)
 };
 
 /// How to make structures of the sample where none are given as files.
