@@ -38,7 +38,7 @@ double volume_inside_ball(double a, double b, double c, double rho) {
         return 0;
     }
     const double volume = volume_of_positive(std::abs(a), std::abs(b), std::abs(c), rho);
-    return (std::signbit(a) ^ std::signbit(b) ^ std::signbit(c)) ? -volume : volume;
+    return ((std::signbit(a) != std::signbit(b)) != std::signbit(c)) ? -volume : volume;
 }
 
 }  // namespace coagula::characterize

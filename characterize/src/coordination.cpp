@@ -27,7 +27,7 @@ Eigen::VectorXi prune(const ContactNetwork& contacts, const Eigen::VectorXi& cou
             const Index contact = groups.contact[static_cast<std::size_t>(entry)];
             const Index first = contacts.ends(0, contact);
             const Index other = first == static_cast<Index>(particle) ? contacts.ends(1, contact) : first;
-            if (!broken[static_cast<std::size_t>(contact)] && left[other] >= 0 && --left[other] == 1) {
+            if (broken[static_cast<std::size_t>(contact)] == 0 && left[other] >= 0 && --left[other] == 1) {
                 pending.push_back(other);
             }
             broken[static_cast<std::size_t>(contact)] = 1;

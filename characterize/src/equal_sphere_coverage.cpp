@@ -22,7 +22,7 @@ public:
 
     /// Adds the orthoschemes of the counted sites around one edge. The two sites of a side see mirror images.
     void add(const EdgeGeometry& edge, const std::array<int, 3>& counted) {
-        std::array<double, 3> weight;
+        std::array<double, 3> weight{};
         for (std::size_t k = 0; k < 3; ++k) {
             const EdgeSide& side = edge.sides[k];
             const int sites = counted[static_cast<std::size_t>(side.first)] + counted[static_cast<std::size_t>(side.second)];
@@ -79,7 +79,7 @@ private:
         const double first_distance = edge.sides[0].first_distance;
         const double squared_d1 = first_distance * first_distance + edge.sides[0].foot_distance * edge.sides[0].foot_distance;
         const double d1 = std::sqrt(squared_d1);
-        std::array<Index, 2> last;
+        std::array<Index, 2> last{};
         for (std::size_t which = 0; which < 2; ++which) {
             last[which] = grid_.first_above(std::sqrt(squared_d1 + edge.height[which] * edge.height[which]));
         }
@@ -113,9 +113,9 @@ private:
 void add_edges(const PowerDiagram& diagram, std::size_t begin, std::size_t end, RadialSums& sums) {
     for (std::size_t k = begin; k < end; ++k) {
         const DiagramEdge& edge = diagram.edges[k];
-        std::array<int, 3> counted;
+        std::array<int, 3> counted{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            counted[corner] = diagram.counted[static_cast<std::size_t>(edge.around[corner])];
+            counted[corner] = diagram.counted[static_cast<std::size_t>(edge.around[corner])] != 0 ? 1 : 0;
         }
         sums.add(measure_edge(diagram, edge), counted);
     }

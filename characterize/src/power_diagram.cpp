@@ -134,7 +134,7 @@ double conflict_radius(const EdgeGeometry& geometry, std::size_t which, double l
 double required_margin(const PowerDiagram& diagram, const Eigen::Array3d& lengths) {
     for (const auto& triangle : diagram.hull) {
         for (const int site : triangle) {
-            if (diagram.counted[static_cast<std::size_t>(site)]) {
+            if (diagram.counted[static_cast<std::size_t>(site)] != 0) {
                 return std::numeric_limits<double>::infinity();
             }
         }
@@ -228,7 +228,7 @@ namespace {
 /// The three sites around an edge, relative to the first, with the foot of the edge in their plane.
 struct Triangle {
     std::array<Eigen::Vector3d, 3> corner;
-    std::array<double, 3> radius;
+    std::array<double, 3> radius{};
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit vector; zero if the triangle is flat
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();    ///< the point in the plane with equal power for the three sites
 
@@ -342,8 +342,9 @@ PowerDiagram open_diagram(const Packing& packing, const Eigen::VectorXd& radii, 
 
 std::vector<char> inner_sites(const PowerDiagram& diagram) {
     const auto sites = static_cast<std::size_t>(diagram.positions.cols());
+    std::vector<char> inner(sites, 0);
     if (diagram.edges.empty()) {
-        return std::vector<char>(sites, 0);
+        return inner;
     }
     const ConvexHull hull(diagram);
     const double largest_radius = diagram.radii.maxCoeff();
@@ -352,11 +353,11 @@ std::vector<char> inner_sites(const PowerDiagram& diagram) {
     for (std::size_t edge = 0; edge < diagram.edges.size(); ++edge) {
         const EdgeGeometry geometry = measure_edge(diagram, diagram.edges[edge]);
         for (std::size_t which = 0; which < 2; ++which) {
-            inside[edge][which] = geometry.is_flat(which) ||
-                                  hull.contains_ball(geometry.end[which], conflict_radius(geometry, which, largest_radius));
+            const bool contained = geometry.is_flat(which) ||
+                                   hull.contains_ball(geometry.end[which], conflict_radius(geometry, which, largest_radius));
+            inside[edge][which] = contained ? 1 : 0;
         }
     }
-    std::vector<char> inner(sites, 0);
     for (const DiagramEdge& edge : diagram.edges) {  // swallowed sites have no cell and stay outside the count
         for (const int site : edge.around) {
             inner[static_cast<std::size_t>(site)] = 1;
@@ -369,7 +370,7 @@ std::vector<char> inner_sites(const PowerDiagram& diagram) {
     }
     for (std::size_t edge = 0; edge < diagram.edges.size(); ++edge) {
         for (std::size_t which = 0; which < 2; ++which) {
-            if (!inside[edge][which]) {
+            if (inside[edge][which] == 0) {
                 for (const int site : diagram.edges[edge].around) {
                     inner[static_cast<std::size_t>(site)] = 0;
                 }

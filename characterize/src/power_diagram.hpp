@@ -28,7 +28,7 @@ struct PowerDiagram {
 
 /// The triangle between two sites around an edge and the foot of the edge, seen from either site.
 struct EdgeSide {
-    int first, second;           ///< positions in DiagramEdge::around
+    int first = 0, second = 0;   ///< positions in DiagramEdge::around
     double first_distance = 0;   ///< a: from the first site to the plane between the two (signed)
     double second_distance = 0;  ///< a: from the second site to it
     double foot_distance = 0;    ///< b: from the line of the sites to the line of the edge (signed)
@@ -37,10 +37,10 @@ struct EdgeSide {
 /// Right tetrahedra around one edge: six sites' views times two ends.
 struct EdgeGeometry {
     std::array<EdgeSide, 3> sides;
-    std::array<double, 2> height;        ///< c: from the plane of the three sites to the ends of the edge (signed); 0 if flat
+    std::array<double, 2> height{};      ///< c: from the plane of the three sites to the ends of the edge (signed); 0 if flat
     std::array<Eigen::Vector3d, 2> end;  ///< the ends (vertices of the diagram)
     std::array<double, 2>
-        relative_volume;    ///< 6 x volume of the tetrahedra / longest edge^3; 0 if so flat that its end is undefined
+        relative_volume{};  ///< 6 x volume of the tetrahedra / longest edge^3; 0 if so flat that its end is undefined
     double foot_power = 0;  ///< power of the point of the edge's line in the plane of the three sites
 
     /// A flat tetrahedron adds no volume, wherever its end is taken to be.

@@ -13,7 +13,7 @@ Eigen::Array2d cover_edge(const PowerDiagram& diagram, const DiagramEdge& edge) 
     Eigen::Array2d sum = Eigen::Array2d::Zero();
     const auto add = [&](int corner, double a, double b) {
         const int site = edge.around[static_cast<std::size_t>(corner)];
-        if (diagram.counted[static_cast<std::size_t>(site)]) {
+        if (diagram.counted[static_cast<std::size_t>(site)] != 0) {
             for (const double c : geometry.height) {
                 sum += Eigen::Array2d(volume_inside_ball(a, b, c, diagram.radii[site]), a * b * c / 6);
             }

@@ -24,7 +24,7 @@ CellList::CellList(const Cell& cell, const Eigen::Matrix3Xd& positions, double c
         wrapped[particle] = cell.wrap(positions.col(static_cast<Index>(particle)));
         // A wrapped point may round up to the upper face of the cell; it belongs to the last box.
         const Eigen::Array3i box = box_of(wrapped[particle]).min(boxes_ - 1);
-        slot[particle] = static_cast<std::size_t>((box[2] * boxes_[1] + box[1]) * boxes_[0] + box[0]);
+        slot[particle] = slot_of(box);
         ++start_[slot[particle] + 1];
     }
     for (std::size_t box = 1; box < start_.size(); ++box) {

@@ -167,14 +167,14 @@ NormalResponse GeneralContact::normal(double overlap, double effective_radius, b
     return response;
 }
 
-void GeneralContact::follow_stiffness(ContactMemory& memory, double now) const {
+void GeneralContact::follow_stiffness(ContactMemory& memory, double now) {
     if (now > memory.shear_stiffness) {
         memory.shear *= memory.shear_stiffness / now;
     }
     memory.shear_stiffness = now;
 }
 
-void GeneralContact::limit_shear(ContactMemory& memory, double limit) const {
+void GeneralContact::limit_shear(ContactMemory& memory, double limit) {
     const double trial = memory.shear_stiffness * memory.shear.norm();
     if (trial > limit) {
         memory.shear *= limit / trial;
@@ -322,7 +322,7 @@ double GeneralContact::reage(ContactMemory& memory, double before, double first_
     return energy_before - energy(memory, first_radius, second_radius);
 }
 
-bool GeneralContact::touches(const ContactMemory& memory, double first_radius, double second_radius) const {
+bool GeneralContact::touches(const ContactMemory& memory, double first_radius, double second_radius) {
     return memory.bonded || memory.branch.norm() < std::max(memory.rest_length, first_radius + second_radius);
 }
 

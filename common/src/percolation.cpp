@@ -48,7 +48,7 @@ public:
     Image join(std::size_t first, std::size_t second, const Image& image) {
         const Place a = find(first);
         const Place b = find(second);
-        const Image step = a.image + image - b.image;
+        Image step = a.image + image - b.image;
         if (a.root == b.root) {
             return step;
         }

@@ -100,7 +100,7 @@ inline __attribute__((always_inline)) Turn turn(double x) {
     cosine = cosine * square + 1.0 / 24;
     cosine = 1 - 0.5 * square + square * square * cosine;
     // Odd quarter turns exchange cosine and sine; the cosine is negative after 1 and 2 of them, the sine after 2 and 3.
-    const std::uint64_t quarter = std::bit_cast<std::uint64_t>(rounded);
+    const auto quarter = std::bit_cast<std::uint64_t>(rounded);
     const std::uint64_t exchange =
         (std::bit_cast<std::uint64_t>(cosine) ^ std::bit_cast<std::uint64_t>(sine)) & (0 - (quarter & 1U));
     const std::uint64_t cosine_sign = ((quarter + 1) & 2U) << 62U;

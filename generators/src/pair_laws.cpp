@@ -108,6 +108,8 @@ double Yukawa::force(double gap) const {
     return energy(gap) * (inverse_length_ + 1 / (contact_distance_ + gap));
 }
 
+constexpr double least_step = 1e-15;  ///< between gaps of a table [m]: slopes and curvatures stay finite
+
 TabulatedLaw::TabulatedLaw(std::vector<double> gaps, std::vector<double> energies)
     : gaps_(std::move(gaps)), energies_(std::move(energies)) {
     require(gaps_.size() == energies_.size() && gaps_.size() >= 4,
@@ -116,8 +118,9 @@ TabulatedLaw::TabulatedLaw(std::vector<double> gaps, std::vector<double> energie
     for (std::size_t row = 0; row < gaps_.size(); ++row) {
         require(std::isfinite(gaps_[row]) && std::isfinite(energies_[row]),
                 "row " + std::to_string(row + 1) + " of the tabulated law holds what is no finite number");
-        require(row == 0 || gaps_[row] > gaps_[row - 1],
-                "row " + std::to_string(row + 1) + " of the tabulated law has a gap that is not larger than the one before it");
+        require(row == 0 || gaps_[row] - gaps_[row - 1] >= least_step,
+                "row " + std::to_string(row + 1) + " of the tabulated law has a gap that is not at least " + to_text(least_step) +
+                    " m larger than the one before it");
     }
     const double last = energies_.back();
     for (double& energy : energies_) {

@@ -55,6 +55,8 @@ CALLS = {
     "diagnose": ("diagnosis", ["diagnose", "experiment.toml", "-o", "diagnosis", "--bootstrap", "99", "--causes", "contact-loss",
                                "--force"]),
 }
+PICTURE = ["generate", "brownian", "--potential-curve", "--radius", "0.25um", "--surface-potential", "15mV", "--picture", "curve.svg", "--force"]
+CALLS["generate brownian --picture"] = ("curve.svg", PICTURE)
 KEY_FILE = "diagnosis.json"  # where it stands, all files of the folder are of one run
 # Runs with checkpoints: the call and its result.
 RESUMED = {

@@ -183,6 +183,10 @@ class Generation(ProgramTest):
         self.refuse("", size_distribution="normal:-0.1")
         self.write("sizes.csv", "radius [um],fraction\n0.2,1\n0.3,\n")
         self.refuse("sizes.csv, line 3", size_distribution="sizes.csv")
+        self.write("sizes.csv", "radius [um],fraction\n0.2,1\n0.3,-1\n")
+        self.refuse("sizes.csv, line 3: fraction is -1, but must be", size_distribution="sizes.csv")
+        self.write("sizes.csv", "radius,fraction\n0.2,1\n")
+        self.refuse("write radius [m]", size_distribution="sizes.csv")
         self.write("sizes.csv", "size,fraction\n0.2,1\n")
         self.refuse("sizes.csv", size_distribution="sizes.csv")
 

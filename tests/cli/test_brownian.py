@@ -216,6 +216,12 @@ class Refusals(ProgramTest):
                 more = []
             with self.subTest(says=says):
                 self.fail_with(2, *words, *more, "-o", "b.h5", says=says)
+        for rows, says in (("1,0\n2,0\n", "at least four gaps"),
+                           ("1,0\n2,0\n5,0\n4,0\n", "row 4 of the tabulated law"),
+                           ("1,0\n2,1e200\n5,0\n9,0\n", "line 3: energy is 1e+200 J, but must be"),
+                           ("1,0\n2\n5,0\n9,0\n", "line 3")):
+            self.write("table.csv", "gap [nm],energy [J]\n" + rows)
+            self.fail_with(2, *SUSPENSION, "--stop-time", "1ms", "--potential-table", "table.csv", "-o", "b.h5", says=["table.csv", says])
         self.fail_with(2, *SUSPENSION, "--stop-time", "1ms", "-o", "b.h5", says="--surface-potential")
         self.fail_with(2, *SUSPENSION, "--surface-potential", "0", "-o", "b.h5", says="--stop-time")
         self.fail_with(2, *RUN, says="--output")

@@ -7,6 +7,7 @@ try:
     from kill_campaign import CALLS, RESUMED, Campaign
 except ImportError:
     Campaign = None
+from option_sweep import verbs_of
 from support import PROGRAM
 
 
@@ -16,8 +17,12 @@ class Kills(unittest.TestCase):
         self.campaign = Campaign(PROGRAM)
         self.addCleanup(self.campaign.close)
 
+    def test_no_verb_that_writes_is_left_out(self):
+        killed = {name for name in verbs_of(PROGRAM) for call in (*CALLS, *RESUMED) if call.startswith(name)}
+        self.assertEqual(set(verbs_of(PROGRAM)) - killed, {"info"})
+
     def test_every_moment_of_a_write(self):
-        for name in ("characterize", "shear", "export", "fit power-law", "diagnose"):
+        for name in ("characterize", "shear", "export", "fit power-law", "diagnose", "generate brownian --picture"):
             with self.subTest(verb=name):
                 self.assertIn(name, CALLS)
                 self.campaign.kill_everywhere(name)

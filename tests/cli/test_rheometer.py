@@ -1,5 +1,6 @@
 """The explicit rheometer: keys, agreement with the linear method, checkpoints of killed runs, what is refused."""
 
+import math
 import subprocess
 import time
 import unittest
@@ -69,6 +70,18 @@ class Rheometer(ProgramTest):
         damaged = bytearray((self.folder / "state.h5").read_bytes())
         (self.folder / "state.h5").write_bytes(damaged[:len(damaged) // 2])
         self.fail_with(2, *call, "--force", says="state.h5")
+
+    def test_a_floppy_network_has_no_rate_error(self):
+        """Three particles in a row and two: no stress at rest, over which an error could be taken."""
+        self.write("rows.csv", "x [um],y [um],z [um]\n1,1,1\n1.5,1,1\n2,1,1\n3.5,3,3\n3.5,3.5,3\n")
+        self.succeed("import", "rows.csv", "--radius", "0.25um", "--box", "5um", "-o", "rows.h5")
+        call = ["shear", "rows.h5", *QUICK, "--oscillations", "1", "--orientation", "zx,xy", "-o", "out.h5"]
+        found = self.succeed_json(*call)
+        self.assertEqual((found["contacts"], found["storage_modulus"]["zx"]), (3, 0))
+        self.assertEqual((found["rate_error"], found["rest_modulus"]), ([None, None], [None, None]))
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assertTrue(all(math.isnan(value) for value in file["mechanics/dem/rate_error"]))
+        self.assertIn("error of the stress not known", self.succeed(*call, "--force"))
 
     def test_refusals(self):
         def refused(*words, says):

@@ -213,7 +213,7 @@ Option quantity(std::string name, std::string unit, std::string meaning, std::st
             .name = std::move(name),
             .placeholder = "X",
             .meaning = std::move(meaning),
-            .unit = unit,
+            .unit = std::move(unit),
             .fallback = std::move(fallback),
             .range = range};
 }

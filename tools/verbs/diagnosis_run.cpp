@@ -112,6 +112,7 @@ void run_diagnosis(const Arguments& arguments, ExperimentFile file, const std::v
         options.causes = split(arguments.text("causes"));
         diagnose::require_causes(options.causes);
     }
+    options.stated_noise = file.noise;
     diagnose::state_errors(file.experiment, noise);
     diagnose::state_sample_effect(noise, file.noise.stated_sample, options.noise);
     diagnose::reduce_waveforms(file.experiment, file.noise.stated_relative, file.noise.stated_phase);

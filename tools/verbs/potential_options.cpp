@@ -4,11 +4,10 @@
 #include "potential_picture.hpp"
 
 #include <coagula/common/checks.hpp>
-#include <coagula/io/input_file.hpp>
-#include <coagula/io/units.hpp>
+#include <coagula/io/table.hpp>
 
 #include <cmath>
-#include <sstream>
+#include <stdexcept>
 
 namespace coagula::tools {
 
@@ -35,38 +34,15 @@ double screening_length(const Arguments& arguments) {
                         arguments.quantity("temperature"));
 }
 
-/// Two columns with a unit each: "gap [nm],energy [J]".
-TabulatedLaw read_table(const std::string& path) {
-    std::istringstream file(io::read_file(path));
-    std::string line;
-    std::getline(file, line);
-    const std::vector<std::string> names = split(line);
-    const auto unit_of = [&](std::size_t column, const std::string& name, const std::string& unit) {
-        const std::string text = column < names.size() ? names[column] : "";
-        const auto open = text.find('[');
-        const auto close = text.find(']');
-        if (text.find(name) == std::string::npos || open == std::string::npos || close == std::string::npos || close < open) {
-            throw InputError(path + ": the first line must name the columns 'gap [unit]' and 'energy [unit]'");
-        }
-        return io::unit_factor(text.substr(open + 1, close - open - 1), unit);
-    };
-    const double length = unit_of(0, "gap", "m");
-    const double energy = unit_of(1, "energy", "J");
-    std::vector<double> gaps;
-    std::vector<double> energies;
-    for (std::size_t number = 2; std::getline(file, line); ++number) {
-        if (line.find_first_not_of(" \t\r") == std::string::npos) {
-            continue;
-        }
-        const std::vector<std::string> words = split(line);
-        try {
-            gaps.push_back(length * io::parse_quantity(words.at(0), "1"));
-            energies.push_back(energy * io::parse_quantity(words.at(1), "1"));
-        } catch (const std::exception&) {
-            throw InputError(path + ", line " + std::to_string(number) + ": '" + line + "' is not two numbers");
-        }
+TabulatedLaw read_potential(const std::string& path) {
+    constexpr double largest = physical::length.high;
+    const auto columns = io::read_table(path, {{.name = "gap", .unit = "m", .low = -largest, .high = largest},
+                                               {.name = "energy", .unit = "J", .low = -1e-12, .high = 1e-12}});
+    try {
+        return {{columns[0].begin(), columns[0].end()}, {columns[1].begin(), columns[1].end()}};
+    } catch (const std::invalid_argument& error) {
+        throw InputError(path + ": " + error.what());
     }
-    return {std::move(gaps), std::move(energies)};
 }
 
 std::vector<PairLaw> dlvo_laws(const Arguments& arguments, const PairRadii& radii, double surface_potential) {
@@ -114,7 +90,7 @@ PairPotential make_potential(const Arguments& arguments, double radius, std::opt
         if (arguments.has("surface-potential")) {
             throw InputError("--potential-table and --surface-potential exclude each other");
         }
-        laws.emplace_back(read_table(arguments.text("potential-table")));
+        laws.emplace_back(read_potential(arguments.text("potential-table")));
     } else {
         if (!surface_potential && !arguments.has("surface-potential")) {
             throw InputError("coagula generate brownian needs --surface-potential or --potential-table");

@@ -183,6 +183,24 @@ void append_broken(Results& results, const RheometerResult& result) {
     }
 }
 
+/// The largest of the orientations that came to rest under a stress.
+std::string rate_error_text(const RheometerResult& result) {
+    double largest = unset;
+    std::size_t known = 0;
+    for (const RheometerRun& run : result.runs) {
+        if (std::isfinite(run.rate_error)) {
+            largest = std::abs(run.rate_error) < std::abs(largest) ? largest : run.rate_error;
+            ++known;
+        }
+    }
+    if (known == 0) {
+        return "not known: no orientation came to rest under a stress";
+    }
+    const std::size_t all = result.runs.size();
+    return "at most " + with_unit(100 * largest, "1") + " %" +
+           (known < all ? " (" + std::to_string(known) + " of " + std::to_string(all) + " orientations)" : "");
+}
+
 }  // namespace
 
 Results datasets_of(const RheometerResult& result, const mechanics::RheometerOptions& options, double bond_tolerance) {
@@ -201,11 +219,9 @@ Results datasets_of(const RheometerResult& result, const mechanics::RheometerOpt
 Table table_of(const RheometerResult& result, const mechanics::RheometerOptions& options) {
     const bool plates = options.boundary == mechanics::RheometerBoundary::plates;
     std::string each;
-    double error = 0;
     Index broken = 0;
     for (const RheometerRun& run : result.runs) {
         each += (each.empty() ? "" : ", ") + name_of(run.orientation) + " " + with_unit(last(run).storage_modulus, "Pa");
-        error = std::abs(run.rate_error) > std::abs(error) ? run.rate_error : error;
         broken += static_cast<Index>(run.broken.size());
     }
     return {
@@ -214,8 +230,7 @@ Table table_of(const RheometerResult& result, const mechanics::RheometerOptions&
         {"storage modulus G'", with_unit(result.storage_modulus(), "Pa") + " +- " + with_unit(result.storage_deviation(), "Pa")},
         {"  each", each},
         {"loss modulus G''", with_unit(result.loss_modulus(), "Pa") + ", phase " + with_unit(result.phase(), "rad")},
-        {"rate", "inertial number " + with_unit(result.inertial_number, "1") + ", error of the stress at most " +
-                     with_unit(100 * error, "1") + " %"}};
+        {"rate", "inertial number " + with_unit(result.inertial_number, "1") + ", error of the stress " + rate_error_text(result)}};
 }
 
 }  // namespace coagula::tools

@@ -3,11 +3,11 @@
 #include "cli/arguments.hpp"
 
 #include <coagula/common/checks.hpp>
-#include <coagula/io/input_file.hpp>
+#include <coagula/io/table.hpp>
 #include <coagula/io/units.hpp>
 
-#include <algorithm>
-#include <sstream>
+#include <filesystem>
+#include <system_error>
 
 namespace coagula::tools {
 
@@ -15,48 +15,6 @@ namespace {
 
 using generators::SizeDistribution;
 using generators::SizeKind;
-
-std::string trim(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-struct Columns {
-    std::size_t radius = 0;
-    std::size_t fraction = 0;
-    std::string unit;  ///< of the radius
-    std::size_t count = 0;
-};
-
-Columns read_header(const std::string& line, const std::string& path) {
-    const std::vector<std::string> names = split(line);
-    Columns columns;
-    columns.count = names.size();
-    bool has_fraction = false;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const std::string name = trim(names[i]);
-        if (name.starts_with("radius") && name.ends_with(']') && name.find('[') != std::string::npos) {
-            columns.radius = i;
-            columns.unit = name.substr(name.find('[') + 1, name.size() - name.find('[') - 2);
-        } else if (name == "fraction") {
-            columns.fraction = i;
-            has_fraction = true;
-        }
-    }
-    if (columns.unit.empty() || !has_fraction) {
-        throw InputError(path + ": the first line must name the columns 'radius [unit]' and 'fraction'");
-    }
-    return columns;
-}
-
-double positive_number(const std::string& text, const std::string& unit, const std::string& place) {
-    try {
-        return unit == "1" ? parse_quantity(text, "1", within(1e-12, 1e12))
-                           : parse_quantity(text + " " + unit, "m", physical::length);
-    } catch (const InputError& error) {
-        throw InputError(place + ": " + error.what());
-    }
-}
 
 SizeDistribution parse_spread(SizeKind kind, const std::string& text, std::size_t colon) {
     SizeDistribution sizes;
@@ -70,43 +28,19 @@ SizeDistribution parse_spread(SizeKind kind, const std::string& text, std::size_
     return sizes;
 }
 
-std::string table_text(const std::string& path) {
-    try {
-        return io::read_file(path);
-    } catch (const InputError& error) {
-        throw InputError(std::string("--size-distribution: ") + error.what() +
-                         "; give monodisperse, normal:S, lognormal:S or a CSV file");
-    }
+/// Of the particles a share `fraction`, on any scale, has this radius.
+SizeDistribution read_size_table(const std::string& path) {
+    const auto columns =
+        io::read_table(path, {{.name = "radius", .unit = "m", .low = physical::length.low, .high = physical::length.high},
+                              {.name = "fraction", .unit = "1", .low = 1e-12, .high = 1e12}});
+    SizeDistribution sizes;
+    sizes.kind = SizeKind::table;
+    sizes.table_radius = columns[0];
+    sizes.table_fraction = columns[1];
+    return sizes;
 }
 
 }  // namespace
-
-SizeDistribution read_size_table(const std::string& path) {
-    std::istringstream file(table_text(path));
-    std::string line;
-    std::getline(file, line);
-    const Columns columns = read_header(line, path);
-    std::vector<double> radius;
-    std::vector<double> fraction;
-    for (int number = 2; std::getline(file, line); ++number) {
-        if (trim(line).empty()) {
-            continue;
-        }
-        const std::string place = path + ", line " + std::to_string(number);
-        const std::vector<std::string> cells = split(line);
-        if (cells.size() != columns.count) {
-            throw InputError(place + ": there are " + std::to_string(cells.size()) + " values, but " +
-                             std::to_string(columns.count) + " columns");
-        }
-        radius.push_back(positive_number(trim(cells[columns.radius]), columns.unit, place));
-        fraction.push_back(positive_number(trim(cells[columns.fraction]), "1", place));
-    }
-    SizeDistribution sizes;
-    sizes.kind = SizeKind::table;
-    sizes.table_radius = Eigen::VectorXd::Map(radius.data(), static_cast<Index>(radius.size()));
-    sizes.table_fraction = Eigen::VectorXd::Map(fraction.data(), static_cast<Index>(fraction.size()));
-    return sizes;
-}
 
 SizeDistribution parse_size_distribution(const std::string& text, std::optional<double> mean_radius) {
     const std::size_t colon = text.find(':');
@@ -115,6 +49,10 @@ SizeDistribution parse_size_distribution(const std::string& text, std::optional<
     if (name == "normal" || name == "lognormal") {
         sizes = parse_spread(name == "normal" ? SizeKind::normal : SizeKind::lognormal, text, colon);
     } else if (text != "monodisperse") {
+        if (std::error_code ignored; !std::filesystem::exists(text, ignored)) {
+            throw InputError("--size-distribution: there is no file '" + text +
+                             "'; give monodisperse, normal:S, lognormal:S or a CSV file");
+        }
         return read_size_table(text);
     }
     if (!mean_radius) {

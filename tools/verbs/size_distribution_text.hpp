@@ -8,11 +8,9 @@
 
 namespace coagula::tools {
 
+/// A table is CSV with the columns "radius [unit]" and "fraction" (share of the particles, any scale).
 /// @param mean_radius of the particles [m]; not used with a table.
 /// Throws InputError that names the option, or the file and line of a table.
 generators::SizeDistribution parse_size_distribution(const std::string& text, std::optional<double> mean_radius);
-
-/// Reads a CSV table with the columns "radius [unit]" and "fraction" (share of the particles, any scale).
-generators::SizeDistribution read_size_table(const std::string& path);
 
 }  // namespace coagula::tools

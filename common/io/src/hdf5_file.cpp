@@ -139,9 +139,10 @@ std::vector<std::string> File::datasets_below(const std::string& object) const {
     if (opened && H5Lvisit(opened.get(), H5_INDEX_NAME, H5_ITER_INC, append_name, &names) < 0) {
         fail(object, "cannot be listed: the file is damaged");
     }
+    const std::string folder = object.ends_with('/') ? object : object + '/';
     std::vector<std::string> datasets;
     for (const std::string& name : names) {
-        const std::string full = object + (object.ends_with('/') ? "" : "/") + name;
+        const std::string full = folder + name;
         if (is_dataset(full)) {
             datasets.push_back(full);
         }

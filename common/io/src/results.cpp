@@ -172,6 +172,7 @@ std::vector<Provenance> history_of(const std::vector<Dataset>& datasets) {
         }
     }
     std::vector<Provenance> entries;
+    entries.reserve(history.size());
     for (auto& [name, entry] : history) {
         entries.push_back(std::move(entry));
     }

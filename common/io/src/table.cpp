@@ -27,6 +27,17 @@ double unit_of(const CsvReader& table, const CsvReader::Column& found, const Tab
     return wanted.default_unit.value_or(1.0);
 }
 
+void check_value(const LineReader& file, const TableColumn& column, double value) {
+    if (!std::isfinite(value)) {
+        file.fail(column.name + " is too large a number in " + column.unit);
+    }
+    if (value < column.low || value > column.high) {
+        const std::string unit = column.unit == "1" ? "" : " " + column.unit;
+        file.fail(column.name + " is " + to_text(value) + unit + ", but must be " + to_text(column.low) + " .. " +
+                  to_text(column.high) + unit);
+    }
+}
+
 std::string quoted(const std::string& field) {
     if (field.find_first_of(",;\t\"\n") == std::string::npos) {
         return field;
@@ -57,13 +68,12 @@ std::vector<Eigen::VectorXd> read_table(const std::string& path, const std::vect
         for (std::size_t k = 0; k < columns.size(); ++k) {
             if (found[k]) {
                 values[k].push_back(table.number(*found[k]) * units[k]);
-                if (!std::isfinite(values[k].back())) {
-                    file.fail(columns[k].name + " is too large a number in " + columns[k].unit);
-                }
+                check_value(file, columns[k], values[k].back());
             }
         }
     }
     std::vector<Eigen::VectorXd> result;
+    result.reserve(values.size());
     for (const std::vector<double>& column : values) {
         result.emplace_back(Eigen::VectorXd::Map(column.data(), static_cast<Index>(column.size())));
     }

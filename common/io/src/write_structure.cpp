@@ -133,7 +133,8 @@ void keep_bonds_of_results(File& file) {
             continue;
         }
         for (const std::string& name : file.children(layout::connectivity)) {
-            file.link(layout::connectivity + ("/" + name), own + "/" + name);
+            const std::string place = "/" + name;
+            file.link(layout::connectivity + place, own + place);
         }
     }
 }

@@ -7,7 +7,7 @@
 namespace coagula::dem {
 
 std::uint64_t image_key(std::int32_t number, const Eigen::Vector3i& images) {
-    std::uint64_t key = static_cast<std::uint64_t>(number);
+    auto key = static_cast<std::uint64_t>(number);
     for (const int periods : images) {
         key = (key << 10U) | static_cast<std::uint64_t>(periods + 512);
     }

@@ -91,7 +91,8 @@ Eigen::Array3i NeighbourSearch::box_of(const Quad& position) const {
 }
 
 std::size_t NeighbourSearch::rank_of(const Eigen::Array3i& box) const {
-    return static_cast<std::size_t>(rank_[static_cast<std::size_t>((box[2] * boxes_[1] + box[1]) * boxes_[0] + box[0])]);
+    return static_cast<std::size_t>(
+        rank_[static_cast<std::size_t>((static_cast<Index>(box[2]) * boxes_[1] + box[1]) * boxes_[0] + box[0])]);
 }
 
 void NeighbourSearch::find_pairs_of(std::int32_t first, std::vector<ListedPair>& pairs) const {
@@ -105,7 +106,7 @@ void NeighbourSearch::find_pairs_of(std::int32_t first, std::vector<ListedPair>&
             if (!z.exists || !y.exists) {
                 continue;
             }
-            const std::int32_t* row = rank_.data() + (z.box * boxes_[1] + y.box) * boxes_[0];
+            const std::int32_t* row = rank_.data() + (static_cast<Index>(z.box) * boxes_[1] + y.box) * boxes_[0];
             for (int dx = -reach[0]; dx <= reach[0]; ++dx) {
                 const Place x = place_along(0, home[0] + dx);
                 if (x.exists) {

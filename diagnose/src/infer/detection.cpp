@@ -202,25 +202,21 @@ double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residua
     return value;
 }
 
-/// As many standard deviations as a normal number would lie above its mean with the same probability: by a gamma distribution of
-/// the same mean and variance, which squares of normal numbers have (Wilson and Hilferty 1931), of those values that are not the
-/// least of all, at which a sum may be cut off.
+/// As many standard deviations as a normal number would lie above its mean with the same probability: by counting; of the largest
+/// tenth by an exponential tail of the same mean, which tells those apart that are larger than all others.
 Eigen::ArrayXd standardised(const Eigen::ArrayXd& values) {
-    const Eigen::ArrayXd above = values - values.minCoeff();
-    const auto count = static_cast<double>((above > 0).count());
-    const double mean = above.sum() / std::max(count, 1.0);
-    const double variance = (above > 0).select((above - mean).square(), 0.0).sum() / std::max(count, 1.0);
-    constexpr double constant = 1e-9;  // variance over the square of the mean
-    if (!(variance > constant * mean * mean)) {
-        return Eigen::ArrayXd::Zero(values.size());
-    }
-    const double part = variance / (9 * mean * mean);
-    const double share = count / static_cast<double>(values.size());
-    return above.unaryExpr([=](double value) {
-        const boost::math::normal normal;
-        const double score = (std::cbrt(value / mean) - (1 - part)) / std::sqrt(part);
-        const double probability = share * boost::math::cdf(boost::math::complement(normal, std::min(score, 37.0)));
-        return boost::math::quantile(boost::math::complement(normal, probability));
+    std::vector<double> sorted(values.begin(), values.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto count = static_cast<double>(sorted.size());
+    const double threshold = sorted[sorted.size() - 1 - sorted.size() / 10];
+    const auto tail = std::upper_bound(sorted.begin(), sorted.end(), threshold);
+    const auto beyond = static_cast<double>(sorted.end() - tail);
+    const double excess = std::accumulate(tail, sorted.end(), 0.0) / std::max(beyond, 1.0) - threshold;
+    return values.unaryExpr([&](double value) {
+        const auto larger = static_cast<double>(sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value));
+        const double probability =
+            value > threshold ? beyond / count * std::exp(std::max(-(value - threshold) / excess, -650.0)) : (larger - 0.5) / count;
+        return boost::math::quantile(boost::math::complement(boost::math::normal(), probability));
     });
 }
 

@@ -41,7 +41,7 @@ struct MisfitStatistic {
     std::string cause = {};           ///< mechanism towards which `directions` go
     Eigen::MatrixXd directions = {};  ///< unit vectors, orthogonal to what the fitted quantities move
     double value = 0;
-    double score = 0;  ///< standardised: over the bootstrap's mean and standard deviation
+    double score = 0;  ///< the normal number of the same probability
 };
 
 struct Detection {

@@ -2,6 +2,7 @@
 
 #include "data/table_cells.hpp"
 #include "flexible.hpp"
+#include "fold_errors.hpp"
 #include "noise/weights.hpp"
 
 #include <coagula/common/random.hpp>
@@ -188,19 +189,21 @@ std::vector<std::vector<bool>> choose_folds(const Experiment& experiment, const 
     return folds;
 }
 
-Gain measure_gain(const DataSet& data, const std::vector<std::vector<bool>>& folds, const Experiment& experiment,
+Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& folds, const Experiment& experiment,
                   Simulator& simulator, const Hypothesis& possible, const DiagnosisOptions& options) {
     Gain gain;
     if (folds.empty()) {
         return gain;
     }
-    const Forward everywhere(experiment, data.observations, simulator);
-    const SmoothDepartures departures = smooth_departures(data.observations);
+    const Forward everywhere(experiment, all.observations, simulator);
+    const SmoothDepartures departures = smooth_departures(all.observations);
     std::vector<std::vector<double>> differences;
     double base_squares = 0;
     double extended_squares = 0;
     double flexible_squares = 0;
+    const Eigen::VectorXd structure_deviation = everywhere.structure_deviation(all.values);
     for (const std::vector<bool>& held_out : folds) {
+        const DataSet data = with_errors_of_the_rest(all, held_out, experiment, structure_deviation, options);
         const std::vector<Index> known_rows = rows_where(held_out, false);
         const std::vector<Index> held_rows = rows_where(held_out, true);
         const DataSet known = data.part(known_rows);

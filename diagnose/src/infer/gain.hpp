@@ -15,10 +15,10 @@ namespace coagula::diagnose {
 std::vector<std::vector<bool>> choose_folds(const Experiment& experiment, const std::vector<Observation>& observations,
                                             double part);
 
-/// For each fold the cause is chosen and fitted on the rest alone; then its prediction of what was held out is compared with that
+/// For each fold the errors are estimated and the cause is chosen and fitted on the rest alone; then its prediction of what was held out is compared with that
 /// of the base model and of a smooth correction. Densities are those of the posterior prediction: parameters drawn, effects of the
 /// samples and all errors as in the rest.
-Gain measure_gain(const DataSet& data, const std::vector<std::vector<bool>>& folds, const Experiment& experiment,
+Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& folds, const Experiment& experiment,
                   Simulator& simulator, const Hypothesis& possible, const DiagnosisOptions& options);
 
 }  // namespace coagula::diagnose

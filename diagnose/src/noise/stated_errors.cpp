@@ -116,6 +116,7 @@ void state_errors(Experiment& experiment, const std::vector<NoiseModel>& noise) 
         for (Column* column : open) {
             const bool of_phase = table.polar_errors && column->name == "loss_modulus";
             column->errors = of_phase ? across.law : along.law;
+            column->errors_estimated = true;
             column->standard_errors = !table.polar_errors ? errors_of_part(table, *column, along, across)
                                       : of_phase          ? across.deviations
                                                           : along.deviations;

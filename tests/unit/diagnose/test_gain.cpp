@@ -1,7 +1,14 @@
+#include "infer/fold_errors.hpp"
 #include "infer/gain.hpp"
+
+#include <coagula/common/random.hpp>
+#include <coagula/diagnose/stated_errors.hpp>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -56,6 +63,41 @@ TEST(Gain, HoldsOutEverySampleInTurn) {
     for (std::size_t row = 0; row < 4; ++row) {
         EXPECT_TRUE(folds[0][row] && folds[0][row + 8]) << "both tables of a sample go together";
     }
+}
+
+/// Sweeps of four samples, of which the last scatters twenty times as much.
+Experiment sweeps_of_four() {
+    Experiment experiment;
+    for (std::uint64_t sample = 0; sample < 4; ++sample) {
+        Measurement table;
+        table.label = table.sample = std::to_string(sample);
+        table.columns = {{"angular_frequency", "rad/s", {}}, {"storage_modulus", "Pa", {}}};
+        for (std::uint64_t row = 0; row < 20; ++row) {
+            table.columns[0].values.push_back(std::pow(1.5, static_cast<double>(row)));
+            table.columns[1].values.push_back(
+                1000 * (1 + (sample == 3 ? 0.2 : 0.01) * random_normal(5, RandomPurpose::test, row, sample).x()));
+        }
+        experiment.measurements.push_back(table);
+    }
+    return experiment;
+}
+
+TEST(Gain, KnowsNothingOfTheErrorsOfWhatIsHeldOut) {
+    Experiment experiment = sweeps_of_four();
+    state_errors(experiment, noise_of_tables(experiment.measurements));
+    const DataSet data = data_set_of(experiment, {});
+    ASSERT_EQ(data.size(), 80);
+    EXPECT_GT(data.noise.deviation[0], 30);
+    std::vector<bool> held_out(80, false);
+    std::fill(held_out.begin() + 60, held_out.end(), true);
+    const DataSet rest = with_errors_of_the_rest(data, held_out, experiment, Eigen::VectorXd::Zero(80), {});
+    EXPECT_EQ(rest.values, data.values);
+    Experiment alone = sweeps_of_four();
+    alone.measurements.pop_back();
+    state_errors(alone, noise_of_tables(alone.measurements));
+    const DataSet others = data_set_of(alone, {});
+    EXPECT_LT((rest.noise.deviation.head(60) - others.noise.deviation).cwiseAbs().maxCoeff(), 1e-6 * others.noise.deviation[0]);
+    EXPECT_NEAR(rest.noise.deviation[70], 10, 3);  // what is expected of a sample like the others
 }
 
 }  // namespace

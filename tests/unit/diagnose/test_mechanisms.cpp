@@ -1,6 +1,6 @@
 // Each mechanism, switched on in the simulation, shows the signature that the catalogue claims.
-#include "simulate/forward.hpp"
 #include "hidden_effects.hpp"
+#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>

@@ -1,8 +1,8 @@
 // Pore curves as data: what is predicted, how structures scatter, and a hidden change of the structure.
 #include "remade_structures.hpp"
 
-#include "simulate/forward.hpp"
 #include "observables/pore_curves.hpp"
+#include "simulate/forward.hpp"
 
 #include <gtest/gtest.h>
 

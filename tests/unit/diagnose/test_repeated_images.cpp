@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "infer/candidate_measurements.hpp"
 #include "hidden_effects.hpp"
+#include "infer/candidate_measurements.hpp"
 #include "support/reference_data.hpp"
 
 #include "observables/observations.hpp"

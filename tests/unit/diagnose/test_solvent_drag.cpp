@@ -1,6 +1,6 @@
 // Drag of the solvent: its limits, the extended model, and a sweep of another structure in which it is hidden.
-#include "simulate/forward.hpp"
 #include "hidden_effects.hpp"
+#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/frequency.hpp>

@@ -1,7 +1,7 @@
 // A sample that has settled between the plates: layers in series against sums over many of them, and gap series whose layers are
 // other structures, sheared by another solver.
-#include "simulate/forward.hpp"
 #include "hidden_effects.hpp"
+#include "simulate/forward.hpp"
 #include "simulate/volume_fraction_gradient.hpp"
 
 #include <coagula/mechanics/frequency.hpp>

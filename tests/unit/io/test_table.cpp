@@ -51,6 +51,14 @@ TEST_F(Table, NamesFileLineAndRule) {
     EXPECT_EQ(sentence<InputError>([&] { read_table(file("none.csv"), columns); }), file("none.csv") + " does not exist");
 }
 
+TEST_F(Table, KeepsTheRangeOfAColumn) {
+    const std::vector<TableColumn> lengths{{.name = "a", .unit = "m", .low = 1e-9, .high = 1e-6}};
+    EXPECT_EQ(read_table(write("t.csv", "a [um]\n0.5\n"), lengths)[0], Eigen::VectorXd::Constant(1, 5e-7));
+    const std::string path = write("bad.csv", "a [nm]\n2\n-2\n");
+    EXPECT_EQ(sentence<InputError>([&] { read_table(path, lengths); }),
+              path + ", line 3: a is -2e-09 m, but must be 1e-09 .. 1e-06 m");
+}
+
 TEST_F(Table, WritesWhatItReads) {
     write_rows(file("t.csv"), {{"name", "a", "modulus [Pa]"}, {"x, \"y\"", to_text(0.1), to_text(1.0 / 3)}, {"", "2", "3e6"}},
                false);

@@ -36,6 +36,11 @@ public:
 
 private:
     Eigen::Array3i box_of(const Eigen::Vector3d& point) const;
+    /// Of a box within the cell.
+    std::size_t slot_of(const Eigen::Array3i& box) const {
+        const Index slot = (static_cast<Index>(box[2]) * boxes_[1] + box[1]) * boxes_[0] + box[0];
+        return static_cast<std::size_t>(slot);
+    }
 
     template <class Visitor>
     void visit_box(Eigen::Array3i box, const Eigen::Vector3d& point, Visitor&& visit) const {
@@ -52,7 +57,7 @@ private:
             box[axis] -= turns * count;
             shift[axis] += turns * cell_.edges()(axis, axis);
         }
-        const auto slot = static_cast<std::size_t>((box[2] * boxes_[1] + box[1]) * boxes_[0] + box[0]);
+        const std::size_t slot = slot_of(box);
         for (int entry = start_[slot]; entry < start_[slot + 1]; ++entry) {
             const int particle = order_[static_cast<std::size_t>(entry)];
             visit(particle, Eigen::Vector3d(sorted_.col(entry) + shift));

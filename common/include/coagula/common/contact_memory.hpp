@@ -32,9 +32,9 @@ struct ContactIncrement {
     Eigen::Vector3d displacement;  ///< with its normal part [m]
     Eigen::Vector3d shear_growth;  ///< of the shear displacement, beyond its turn with the pair [m]
     Eigen::Vector3d normal;        ///< unit vector from first to second, now
-    double distance;               ///< of the centres, now [m]
-    double first_lever;            ///< distances of the contact point from the centres, now [m]
-    double second_lever;
+    double distance = 0;           ///< of the centres, now [m]
+    double first_lever = 0;        ///< distances of the contact point from the centres, now [m]
+    double second_lever = 0;
 };
 
 /// Brings branch, shear, bend and maxwell (without its relaxation) up to date (Cundall and Strack 1979; eq. 2 of Schenker et al.

@@ -100,7 +100,7 @@ public:
 
     /// Whether to keep the memory: false for a contact without a bond that has parted, both from its rest length (that of a broken
     /// bond may differ from the sum of radii) and from where make_contact() would begin a new one.
-    bool touches(const ContactMemory& memory, double first_radius, double second_radius) const;
+    static bool touches(const ContactMemory& memory, double first_radius, double second_radius);
 
 private:
     struct Jkr;
@@ -108,8 +108,8 @@ private:
     NormalResponse jkr(double overlap, double effective_radius) const;
     double overlap_under(double force, double effective_radius, bool bonded) const;
     bool is_hertzian() const { return contact_modulus_ > 0; }
-    void follow_stiffness(ContactMemory& memory, double now) const;
-    void limit_shear(ContactMemory& memory, double limit) const;
+    static void follow_stiffness(ContactMemory& memory, double now);
+    static void limit_shear(ContactMemory& memory, double limit);
     Eigen::Vector3d losses(ContactMemory& memory, const ContactIncrement& increment, double duration, double& dissipated) const;
 
     ContactModel model_;

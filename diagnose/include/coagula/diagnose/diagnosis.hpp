@@ -29,6 +29,7 @@ struct NoiseSettings {
 
 struct DiagnosisOptions {
     NoiseSettings noise;
+    NoiseOptions stated_noise;   ///< what state_errors() has assumed, for errors that are estimated anew without what is held out
     double level = 0.05;         ///< of the test whether anything is wrong
     int bootstrap = 999;         ///< data sets behind a p-value
     double held_out_part = 0.3;  ///< of the rows of a table, those at the end of its axis, if no whole table can be held out

@@ -67,6 +67,7 @@ struct Column {
     std::string unit;                          ///< SI
     std::vector<double> values;                ///< one per row; NaN where the cell is empty or left out
     std::vector<double> standard_errors = {};  ///< one per row in the same unit, or none
+    bool errors_estimated = false;             ///< these were estimated from replicates, or assumed
     ErrorLaw errors = {};
 };
 

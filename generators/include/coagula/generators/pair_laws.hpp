@@ -95,7 +95,7 @@ private:
 /// gap. Below the first gap the force keeps its first value.
 class TabulatedLaw {
 public:
-    /// @param gaps at least four, strictly ascending [m]. @param energies one for each [J].
+    /// @param gaps at least four, each 1e-15 m larger than the one before or more [m]. @param energies one for each [J].
     TabulatedLaw(std::vector<double> gaps, std::vector<double> energies);
     double energy(double gap) const;
     double force(double gap) const;

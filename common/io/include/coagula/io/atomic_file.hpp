@@ -26,7 +26,7 @@ public:
 
 private:
     struct Unopened {};
-    OutputFile(const std::string& path, bool overwrite, Unopened);
+    OutputFile(const std::string& path, bool overwrite, Unopened unopened);
     bool open_locked();
     void keep_owner_and_mode() const;
     void rename_to_target();

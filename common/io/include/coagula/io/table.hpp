@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +14,12 @@ namespace coagula::io {
 
 /// A column to read.
 struct TableColumn {
-    std::string name;                         ///< in any case; without the unit
-    std::string unit;                         ///< the values are converted to it; "1" for pure numbers
-    std::optional<double> default_unit = {};  ///< worth of the values, in `unit`, where the header names no unit
-    bool required = true;                     ///< otherwise the values are empty when there is no such column
+    std::string name;                                    ///< in any case; without the unit
+    std::string unit;                                    ///< the values are converted to it; "1" for pure numbers
+    std::optional<double> default_unit = {};             ///< worth of the values, in `unit`, where the header names no unit
+    bool required = true;                                ///< otherwise the values are empty when there is no such column
+    double low = std::numeric_limits<double>::lowest();  ///< the range of the values, in `unit`, ends included
+    double high = std::numeric_limits<double>::max();
 };
 
 /// Reads columns of a CSV file whose header names them with their units in brackets ("modulus [MPa]"; pure numbers need none);

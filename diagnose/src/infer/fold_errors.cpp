@@ -1,0 +1,51 @@
+#include "fold_errors.hpp"
+
+#include <coagula/diagnose/stated_errors.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace coagula::diagnose {
+
+namespace {
+
+Column& column_of(Experiment& experiment, const Observation& one) {
+    std::vector<Column>& columns = experiment.measurements[one.measurement].columns;
+    return *std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == observable_of(one); });
+}
+
+}  // namespace
+
+DataSet with_errors_of_the_rest(const DataSet& data, const std::vector<bool>& held_out, const Experiment& experiment,
+                                const Eigen::VectorXd& structure_deviation, const DiagnosisOptions& options) {
+    Experiment all = experiment;
+    bool any = false;
+    for (Measurement& table : all.measurements) {
+        for (Column& column : table.columns) {
+            if (column.errors_estimated) {
+                any = true;
+                column.standard_errors.clear();
+                table.polar_errors = false;
+            }
+        }
+    }
+    if (!any) {
+        return data;
+    }
+    Experiment rest = all;
+    for (std::size_t k = 0; k < data.observations.size(); ++k) {
+        const Observation& one = data.observations[k];
+        if (held_out[k] && is_modulus(one)) {
+            column_of(rest, one).values[one.row] = unset;
+        }
+    }
+    const std::vector<NoiseModel> noise = noise_of_tables(rest.measurements, options.stated_noise);
+    state_errors(all, noise);
+    NoiseSettings settings = options.noise;
+    state_sample_effect(noise, options.stated_noise.stated_sample, settings);
+    DataSet found = data_set_of(all, settings);
+    found.noise.deviation = (found.noise.deviation.array().square() + structure_deviation.array().square()).sqrt();
+    return found;
+}
+
+}  // namespace coagula::diagnose
