@@ -69,8 +69,8 @@ private:
     void read_measurements();
     void derive_moduli();
     void read_measurement(const toml::table& table, std::size_t number);
-    diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const;
-    ColumnRules column_rules(TomlKeys& keys) const;
+    static diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number);
+    static ColumnRules column_rules(TomlKeys& keys);
 
     std::string path_;
     toml::table root_;
@@ -222,7 +222,7 @@ double planned_end(TomlKeys& keys, const toml::node& node, const std::string& ke
 }
 
 /// A table that nobody has measured yet: its axis from an end to the other, and what is constant.
-diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) const {
+diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) {
     const diagnose::TableRule rule = diagnose::rule_of(kind);
     if (rule.axes.empty()) {
         keys.fail("planned", std::string(diagnose::name_of(kind)) + " has no axis that could be planned");
@@ -293,7 +293,7 @@ std::map<std::string, std::string> headings_by_quantity(TomlKeys& keys, const st
     return headings;
 }
 
-ColumnRules ExperimentReader::column_rules(TomlKeys& keys) const {
+ColumnRules ExperimentReader::column_rules(TomlKeys& keys) {
     ColumnRules rules;
     if (keys.holds_list("columns")) {
         rules.names = keys.texts("columns");

@@ -115,7 +115,8 @@ void give_temperature(Experiment& experiment, std::vector<TakenOver>& list) {
 
 void ExportMetadata::add(const std::string& name, const io::MeasuredFile& file, std::size_t first, std::size_t end) {
     for (io::InstrumentValue& value : io::instrument_values(file)) {
-        sources_[value.name].push_back({name, std::move(value), first, end});
+        std::vector<Source>& sources = sources_[value.name];
+        sources.push_back({name, std::move(value), first, end});
     }
 }
 

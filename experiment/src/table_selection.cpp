@@ -94,7 +94,7 @@ void keep(std::vector<double>& values, const std::vector<std::size_t>& rows) {
 }  // namespace
 
 std::vector<const io::PlainTable*> chosen_tables(TomlKeys& keys, const io::MeasuredFile& file, diagnose::MeasurementKind kind) {
-    const std::vector<const io::PlainTable*> tables = fitting_tables(keys, file);
+    std::vector<const io::PlainTable*> tables = fitting_tables(keys, file);
     const std::vector<std::int64_t> points = keys.wholes("points");
     if (kind != diagnose::MeasurementKind::waveform) {
         if (!points.empty()) {

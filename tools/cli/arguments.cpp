@@ -43,6 +43,12 @@ std::string hint(const std::string& verb) {
     return " (see 'coagula " + verb + " --help')";
 }
 
+/// Whether several arguments without a name may be given in this call.
+bool takes_many(const Verb& verb, const std::vector<std::string>& words) {
+    const bool beside = !verb.many_beside.empty() && std::find(words.begin(), words.end(), "--" + verb.many_beside) != words.end();
+    return verb.many_inputs || beside;
+}
+
 po::variables_map read_words(const Verb& verb, const std::vector<Option>& options, const std::vector<std::string>& words,
                              bool many_inputs) {
     po::options_description description;
@@ -251,8 +257,7 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : 
         command_line_ += ' ' + quoted(word);
     }
     const std::vector<Option> options = all_options(verb);
-    const bool many_inputs = verb.many_inputs || (!verb.many_beside.empty() &&
-                                                  std::find(words.begin(), words.end(), "--" + verb.many_beside) != words.end());
+    const bool many_inputs = takes_many(verb, words);
     const po::variables_map map = read_words(verb, options, words, many_inputs);
     if (map.count("help") > 0) {
         help_wanted_ = true;

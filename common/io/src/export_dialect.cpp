@@ -90,8 +90,8 @@ private:
 /// Tab, semicolon or comma: the first of these that occurs where the headings can be.
 char ExportReader::find_separator() const {
     for (const char separator : {'\t', ';', ','}) {
-        for (std::size_t line = 0; line < text_.lines.size(); ++line) {
-            const std::vector<std::string> cells = split_cells(text_.lines[line], separator);
+        for (const std::string& line : text_.lines) {
+            const std::vector<std::string> cells = split_cells(line, separator);
             if (cells.size() > 1 && (role_of(dialect_, cells.front()) == LineRole::headings || units_in_brackets(cells) > 1)) {
                 return separator;
             }

@@ -122,9 +122,9 @@ std::optional<TableHead> HeadFinder::with_units_inside() const {
     }
     TableHead head{{}, {}, 1, line_ + 1};
     for (const std::string& cell : behind(cells_, 1)) {
-        const std::string_view mark = cell.find(" / ") == cell.npos ? " in " : " / ";
+        const std::string_view mark = cell.find(" / ") == std::string::npos ? " in " : " / ";
         const std::size_t at = cell.find(mark);
-        if (at == cell.npos && !cell.empty()) {
+        if (at == std::string::npos && !cell.empty()) {
             return std::nullopt;
         }
         head.headings.push_back(cell.empty() ? HeadingWithUnit{} : heading(cell.substr(0, at), cell.substr(at + mark.size())));

@@ -62,7 +62,7 @@ std::optional<double> quantity_in(std::string_view text, const std::string& unit
     text = trim(text);
     const std::size_t end = std::min(text.find_first_not_of("0123456789.,+-eE"), text.size());
     const std::string number(text.substr(0, end));
-    const CellNumber value = read_cell(number, number.find(',') != number.npos);
+    const CellNumber value = read_cell(number, number.find(',') != std::string::npos);
     const std::string from = normal_unit(text.substr(end));
     if (!value.value || from.empty()) {
         return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<double> quantity_in(std::string_view text, const std::string& unit
 }
 
 std::string geometry_in(const std::string& words) {
-    const auto has = [&](std::string_view part) { return words.find(part) != words.npos; };
+    const auto has = [&](std::string_view part) { return words.find(part) != std::string::npos; };
     if (has("concentric") || has("cylinder") || has("zylinder") || has("couette") || words.starts_with("cc")) {
         return "concentric-cylinders";
     }
@@ -97,7 +97,7 @@ public:
             add_tool(entry.value, source);
             return;
         }
-        const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& each) { return each.key == key; });
+        const auto* const found = std::find_if(keys.begin(), keys.end(), [&](const Key& each) { return each.key == key; });
         if (found != keys.end()) {
             const std::string unit(found->unit);
             if (const auto value = quantity_in(entry.value, unit); value) {
@@ -125,7 +125,7 @@ private:
         }
         if (same == values_.end()) {
             values_.push_back({name, value, unit, "", source});
-        } else if (adds && same->source.find(source.substr(0, source.find(' '))) == source.npos) {
+        } else if (adds && same->source.find(source.substr(0, source.find(' '))) == std::string::npos) {
             same->value += value;
             same->source += ", " + source;
         }

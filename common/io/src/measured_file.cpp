@@ -53,7 +53,8 @@ std::string_view name_of(MeasuredFormat format) {
     if (format == MeasuredFormat::workbook) {
         return "Excel workbook";
     }
-    const auto found = std::find_if(readers.begin(), readers.end(), [&](const auto* reader) { return reader->format == format; });
+    const auto* const found =
+        std::find_if(readers.begin(), readers.end(), [&](const auto* reader) { return reader->format == format; });
     return found == readers.end() ? std::string_view{} : (*found)->name;
 }
 
@@ -66,10 +67,12 @@ MeasuredFile read_measured_file(const std::string& path) {
         return file;
     }
     const MeasuredText text{path, split_lines(to_utf8(bytes))};
-    if (std::any_of(text.lines.begin(), text.lines.end(), [](const std::string& line) { return line.find('\0') != line.npos; })) {
+    if (std::any_of(text.lines.begin(), text.lines.end(),
+                    [](const std::string& line) { return line.find('\0') != std::string::npos; })) {
         throw InputError(path + " is not a text file");
     }
-    const auto reader = std::find_if(readers.begin(), readers.end(), [&](const auto* each) { return each->recognises(text); });
+    const auto* const reader =
+        std::find_if(readers.begin(), readers.end(), [&](const auto* each) { return each->recognises(text); });
     MeasuredFile file = (*reader)->read(text);
     number_tables(file.tables);
     return file;

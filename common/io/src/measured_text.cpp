@@ -33,7 +33,7 @@ std::string unit_of(const std::string& quantity, const std::string& unit) {
 }  // namespace
 
 std::vector<std::string> split_lines(const std::string& text) {
-    const char line_end = text.find('\n') == text.npos ? '\r' : '\n';  // old programs end lines by a carriage return alone
+    const char line_end = text.find('\n') == std::string::npos ? '\r' : '\n';  // old programs end lines by a carriage return alone
     std::vector<std::string> lines;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find(line_end, begin), text.size());

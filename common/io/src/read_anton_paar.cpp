@@ -80,13 +80,13 @@ template <const ExportDialect& dialect>
 bool recognise(const MeasuredText& text) {
     return std::any_of(text.lines.begin(), text.lines.end(), [](const std::string& line) {
         const LineRole role = role_of(dialect, first_word(line));
-        return role == LineRole::headings || (role == LineRole::section && line.find_first_of("\t;,") != line.npos);
+        return role == LineRole::headings || (role == LineRole::section && line.find_first_of("\t;,") != std::string::npos);
     });
 }
 
 bool has_line_of_units(const MeasuredText& text) {
     return std::any_of(text.lines.begin(), text.lines.end(), [](const std::string& line) {
-        return line.find('[') != line.npos && units_in_brackets(split_cells(line, separator_in(line))) > 1;
+        return line.find('[') != std::string::npos && units_in_brackets(split_cells(line, separator_in(line))) > 1;
     });
 }
 

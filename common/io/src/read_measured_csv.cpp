@@ -71,13 +71,18 @@ char separator_of(const MeasuredText& text) {
         std::size_t with_it = 0;
         for (const std::string& line : text.lines) {
             lines += is_skipped(line) ? 0 : 1;
-            with_it += !is_skipped(line) && line.find(separator) != line.npos ? 1 : 0;
+            with_it += !is_skipped(line) && line.find(separator) != std::string::npos ? 1 : 0;
         }
         if (with_it > 0 && 2 * with_it >= lines) {
             return separator;
         }
     }
     return ',';
+}
+
+/// After a blank line: a title, or headings of a further table.
+bool begins_table(const FilledLine& line, std::size_t width) {
+    return line.after_blank && ((line.cells.size() != width && !holds_numbers_only(line.cells)) || !has_number(line.cells));
 }
 
 class CsvTables {
@@ -97,7 +102,6 @@ private:
     void read_table();
     void read_above(std::string& title);
     std::vector<HeadingWithUnit> read_headings(bool& given);
-    bool begins_table(const FilledLine& line, std::size_t width) const;
     const FilledLine* next() const { return at_ + 1 < lines_.size() ? &lines_[at_ + 1] : nullptr; }
 
     const MeasuredText& text_;
@@ -175,11 +179,6 @@ std::vector<HeadingWithUnit> CsvTables::read_headings(bool& given) {
     return headings;
 }
 
-/// After a blank line: a title, or headings of a further table.
-bool CsvTables::begins_table(const FilledLine& line, std::size_t width) const {
-    return line.after_blank && ((line.cells.size() != width && !holds_numbers_only(line.cells)) || !has_number(line.cells));
-}
-
 void CsvTables::read_table() {
     std::string title;
     read_above(title);
@@ -201,7 +200,7 @@ void CsvTables::read_table() {
     file_.tables.back().first_line = first_row < lines_.size() ? lines_[first_row].number + 1 : 0;
 }
 
-bool recognise(const MeasuredText&) {
+bool recognise(const MeasuredText& /*text*/) {
     return true;
 }
 

@@ -27,7 +27,7 @@ constexpr ExportDialect dialect{MeasuredFormat::rheowin, {}, UnitsPlace::after_h
 bool is_row(const std::string& line) {
     const std::string label = first_word(line);
     const std::size_t bar = label.find('|');
-    return bar != label.npos && announced_count(label.substr(0, bar)) > 0 && announced_count(label.substr(bar + 1)) > 0;
+    return bar != std::string::npos && announced_count(label.substr(0, bar)) > 0 && announced_count(label.substr(bar + 1)) > 0;
 }
 
 bool recognise(const MeasuredText& text) {

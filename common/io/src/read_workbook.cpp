@@ -27,22 +27,22 @@ std::string plain_cell(std::string_view text) {
 
 std::string text_of(double number) {
     std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
     return {digits.data(), end};
 }
 
 std::string text_of(const FreeXL_CellValue& cell) {
     switch (cell.type) {
         case FREEXL_CELL_INT:
-            return std::to_string(cell.value.int_value);
+            return std::to_string(cell.value.int_value);  // NOLINT: a union of FreeXL
         case FREEXL_CELL_DOUBLE:
-            return text_of(cell.value.double_value);
+            return text_of(cell.value.double_value);  // NOLINT
         case FREEXL_CELL_TEXT:
         case FREEXL_CELL_SST_TEXT:
         case FREEXL_CELL_DATE:
         case FREEXL_CELL_DATETIME:
         case FREEXL_CELL_TIME:
-            return plain_cell(cell.value.text_value == nullptr ? "" : cell.value.text_value);
+            return plain_cell(cell.value.text_value == nullptr ? "" : cell.value.text_value);  // NOLINT
         default:
             return "";
     }

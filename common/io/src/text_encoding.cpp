@@ -16,56 +16,63 @@ namespace {
 
 constexpr std::string_view replacement = "\xef\xbf\xbd";  // of a byte that means nothing
 
-/// A converter of the C library into UTF-8.
-class Converter {
+/// Conversion of a text into UTF-8 by the C library.
+class Conversion {
 public:
-    explicit Converter(const char* encoding) : handle_(iconv_open("UTF-8", encoding)) {}
-    ~Converter() {
+    Conversion(std::string_view bytes, const char* encoding) : handle_(iconv_open("UTF-8", encoding)), bytes_(bytes) {}
+    ~Conversion() {
         if (known()) {
             iconv_close(handle_);
         }
     }
-    Converter(const Converter&) = delete;
-    Converter& operator=(const Converter&) = delete;
+    Conversion(const Conversion&) = delete;
+    Conversion& operator=(const Conversion&) = delete;
 
-    bool known() const { return handle_ != reinterpret_cast<iconv_t>(-1); }
+    bool known() const { return handle_ != reinterpret_cast<iconv_t>(-1); }  // NOLINT: what iconv_open() returns when it fails
+    bool done() const { return at_ == bytes_.size(); }
 
-    /// Appends as many bytes as can be converted and returns how many remain.
-    std::size_t convert(std::string_view bytes, std::string& text) {
-        char* input = const_cast<char*>(bytes.data());  // iconv reads it only
-        std::size_t left = bytes.size();
-        for (bool more = true; more;) {
+    /// Appends as much as can be converted.
+    void convert(std::string& text) {
+        for (bool more = true; more && !done();) {
+            char* input = bytes_.data() + at_;
+            std::size_t left = bytes_.size() - at_;
             char* output = buffer_.data();
             std::size_t room = buffer_.size();
-            const std::size_t before = left;
-            const std::size_t result = iconv(handle_, &input, &left, &output, &room);
+            iconv(handle_, &input, &left, &output, &room);
+            more = bytes_.size() - left > at_;
+            at_ = bytes_.size() - left;
             text.append(buffer_.data(), buffer_.size() - room);
-            more = result == static_cast<std::size_t>(-1) && left < before && left > 0;
         }
-        return left;
     }
+
+    void skip(std::size_t width) { at_ = std::min(at_ + width, bytes_.size()); }
 
 private:
     iconv_t handle_;
+    std::string bytes_;
+    std::size_t at_ = 0;
     std::array<char, 4096> buffer_{};
 };
 
 /// Everything, or nothing where a byte does not fit.
 std::optional<std::string> converted(std::string_view bytes, const char* encoding) {
-    Converter converter(encoding);
+    Conversion conversion(bytes, encoding);
     std::string text;
-    return converter.known() && converter.convert(bytes, text) == 0 ? std::optional(text) : std::nullopt;
+    if (conversion.known()) {
+        conversion.convert(text);
+    }
+    return conversion.known() && conversion.done() ? std::optional(text) : std::nullopt;
 }
 
 /// Everything; what does not fit is replaced, `width` bytes at a time.
 std::string converted_in_part(std::string_view bytes, const char* encoding, std::size_t width) {
-    Converter converter(encoding);
+    Conversion conversion(bytes, encoding);
     std::string text;
-    while (converter.known() && !bytes.empty()) {
-        bytes.remove_prefix(bytes.size() - converter.convert(bytes, text));
-        if (!bytes.empty()) {
+    while (conversion.known() && !conversion.done()) {
+        conversion.convert(text);
+        if (!conversion.done()) {
             text += replacement;
-            bytes.remove_prefix(std::min(width, bytes.size()));
+            conversion.skip(width);
         }
     }
     return text;
@@ -89,7 +96,7 @@ bool looks_like_shift_jis(std::string_view bytes) {
 }
 
 bool has_japanese_escapes(std::string_view bytes) {
-    return bytes.find("\x1b$B") != bytes.npos || bytes.find("\x1b$@") != bytes.npos;
+    return bytes.find("\x1b$B") != std::string_view::npos || bytes.find("\x1b$@") != std::string_view::npos;
 }
 
 }  // namespace
