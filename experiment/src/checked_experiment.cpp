@@ -54,8 +54,9 @@ std::string remedy(const diagnose::Measurement& table, const TableFacts& facts) 
         list += (list.empty() ? "" : ", ") + heading;
     }
     const std::string& first = facts.not_understood.front();
-    return "; not understood are the columns " + list + ": if one of them is it, add to the measurement, say, columns = { " +
-           missing + " = \"" + first.substr(1, first.size() - 2) + "\" }";
+    list += ": if one of them is it, add to the measurement, say, columns = { " + missing + " = \"";
+    list += first.substr(1, first.size() - 2) + "\" }";
+    return "; not understood are the columns " + list;
 }
 
 std::vector<diagnose::CheckedMeasurement> check_tables(const ExperimentFile& file) {
