@@ -92,7 +92,7 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     naming(path, [&] {
         found.structures = check_structures(experiment);
         if (experiment.structure_sizes.empty()) {
-            found.file.notes.push_back("the experiment names no structures yet, which a diagnosis needs");
+            found.file.notes.emplace_back("the experiment names no structures yet, which a diagnosis needs");
         } else {
             diagnose::check(experiment, found.options);
         }

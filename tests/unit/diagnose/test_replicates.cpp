@@ -18,16 +18,20 @@ TEST(Replicates, AreTablesWithOneAxis) {
     for (double& strain : column(second, "strain").values) {
         strain *= 1.005;
     }
-    for (double& storage : column(second, "storage_modulus").values) {
-        storage *= 0.7;
+    for (const char* name : {"storage_modulus", "loss_modulus"}) {
+        for (double& modulus : column(second, name).values) {
+            modulus *= 0.7;
+        }
     }
     const std::vector<Replicates> found = find_replicates({sweep_of("A"), second});
-    ASSERT_EQ(found.size(), 2u);  // G' and G''
-    EXPECT_EQ(found[0].observable, "storage_modulus");
+    ASSERT_EQ(found.size(), 2u);  // of torque and phase
+    EXPECT_EQ(found[0].observable, "complex_modulus");
+    EXPECT_EQ(found[1].observable, "phase");
     EXPECT_EQ(found[0].samples, (std::vector<std::string>{"A", "B"}));
     EXPECT_TRUE(found[0].floor_of_stress);
     for (Eigen::Index row = 0; row < found[0].values.rows(); ++row) {
         EXPECT_DOUBLE_EQ(found[0].values(row, 1), 0.7 * found[0].values(row, 0));
+        EXPECT_NEAR(found[1].values(row, 1), 0, 1e-9 * found[1].levels[row]);  // the phase is the same
         EXPECT_DOUBLE_EQ(found[0].floor_weights[row], 1 / found[0].axis[row]);
     }
 }
@@ -57,6 +61,9 @@ TEST(Replicates, LineUpWhereRowsWereLeftOut) {
 TEST(Replicates, LineUpByTheNearestRowThatIsAlike) {
     Measurement first = sweep_of("A");
     Measurement second = sweep_of("B");
+    for (Measurement* table : {&first, &second}) {
+        std::erase_if(table->columns, [](const Column& one) { return one.name == "loss_modulus"; });
+    }
     const std::size_t rows = first.rows();
     ASSERT_GE(rows, 10u);
     for (std::size_t row = 0; row < rows; ++row) {
