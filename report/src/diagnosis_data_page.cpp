@@ -41,9 +41,10 @@ std::string noise_section(const std::vector<diagnose::NoiseModel>& noise) {
     std::map<std::string, std::vector<std::string>> effects;
     for (const diagnose::NoiseModel& model : noise) {
         rows.push_back({symbol_of(model.observable) + ", " + std::string(diagnose::name_of(model.kind)),
-                        interval(model.relative, 0.01, "%"),
+                        is_of_phase(model) ? interval(model.relative, 1, "rad") : interval(model.relative, 0.01, "%"),
                         interval(model.floor, 1, model.unit) + (model.floor_of_stress ? " of the stress" : ""),
-                        interval(model.sample, 0.01, "%"), printed(model.autocorrelation), escaped(model.statement)});
+                        is_of_phase(model) ? "" : interval(model.sample, 0.01, "%"), printed(model.autocorrelation),
+                        escaped(model.statement)});
         for (const diagnose::SampleEffect& effect : model.sample_effects) {
             effects[effect.sample].push_back(symbol_of(model.observable) + " " + signed_percent(effect.effect));
         }

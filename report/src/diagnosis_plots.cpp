@@ -232,6 +232,9 @@ PlotAxis moduli_axis(const Shown& shown) {
 }  // namespace
 
 std::string symbol_of(const std::string& observable) {
+    if (observable == "complex_modulus" || observable == "phase") {
+        return observable == "phase" ? "the phase" : "|G*|";
+    }
     if (observable.ends_with("_modulus")) {
         return pairs[0].symbols.at(observable == "loss_modulus");
     }

@@ -174,13 +174,17 @@ void add_noise_lines(Table& lines, const NoiseModel& noise) {
     const auto in_unit = [&](double value) { return with_unit(value, noise.unit); };
     const std::string floor = noise.floor_of_stress ? " and a floor of the stress of " : " and a floor of ";
     lines.emplace_back("noise", noise.observable + " of " + std::string(diagnose::name_of(noise.kind)) + ": " + noise.statement);
-    lines.emplace_back("  per row",
-                       interval(noise.relative, percent) + (noise.floor.high > 0 ? floor + interval(noise.floor, in_unit) : ""));
+    const bool of_phase = diagnose::is_of_phase(noise);
+    const auto in_radians = [](double value) { return with_unit(value, "rad"); };
+    lines.emplace_back("  per row", (of_phase ? interval(noise.relative, in_radians) : interval(noise.relative, percent)) +
+                                        (noise.floor.high > 0 ? floor + interval(noise.floor, in_unit) : ""));
     std::string effects;
     for (const diagnose::SampleEffect& effect : noise.sample_effects) {
         effects += (effects.empty() ? ": " : ", ") + effect.sample + " " + percent(effect.effect);
     }
-    lines.emplace_back("  per sample", interval(noise.sample, percent) + effects);
+    if (!of_phase) {  // in which samples do not differ
+        lines.emplace_back("  per sample", interval(noise.sample, percent) + effects);
+    }
     if (noise.rows_estimated) {
         lines.emplace_back("  neighbours", "residuals in neighbouring rows correlate by " + with_unit(noise.autocorrelation, "1"));
     }

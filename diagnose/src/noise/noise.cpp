@@ -279,7 +279,7 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
         }
         noise.floor = with_floor ? profile(likelihood, best, 0) : Estimate{};
         noise.relative = profile(likelihood, best, 1);
-        noise.sample = with_sample ? profile(likelihood, best, 2) : stated(options.stated_sample);
+        noise.sample = with_sample ? profile(likelihood, best, 2) : stated(of_phase ? 0 : options.stated_sample);
         const RestrictedFit fit = likelihood.fit(best);
         for (std::size_t s = 0; with_sample && s < names.size(); ++s) {
             noise.sample_effects.push_back({names[s], fit.effects[static_cast<Eigen::Index>(s)]});
