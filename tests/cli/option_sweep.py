@@ -55,7 +55,7 @@ WITHOUT = {"stop-coordination": "--stop-time 1us"}  # parts of a call that would
 # points, ratios to a structure without load, a barrier that is not there, strengths that are found
 # too rarely, the model of a cause where none is found.
 MAY_BE_MISSING = re.compile(r"a0_interval/|_stderr$|ratio_to_first$|failure_strain$|yield_strain$|decisive_structure$|barrier$|secondary_minimum$|"
-                            r"floppy_modes$|modulus_error$|found_(half|most)/|extended_model$")  # the iterative solver counts no modes and may need no step
+                            r"floppy_modes$|modulus_error$|found_(half|most)(/|$)|extended_model$")  # the iterative solver counts no modes and may need no step
 
 OPTION = re.compile(r"^  (?:-\w, |    )--([a-z-]+) (\S+) +(.*)$")
 RANGE = re.compile(r"range ([^;\]]+)")

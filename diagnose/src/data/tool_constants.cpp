@@ -96,8 +96,9 @@ ToolConstants tool_constants(const Instrument& instrument, double gap, double pl
         return of_cylinders(instrument);
     }
     const double radius = std::isfinite(plate_radius) ? plate_radius : instrument.plate_radius;
+    const bool cone = instrument.geometry ? instrument.geometry == Geometry::cone_plate : std::isfinite(instrument.cone_angle);
     const double angle = std::isfinite(cone_angle) ? cone_angle : instrument.cone_angle;
-    if (std::isfinite(angle)) {
+    if (cone || std::isfinite(cone_angle)) {
         return {3 / (2 * pi * std::pow(radius, 3)), 1 / angle};
     }
     return {2 / (pi * std::pow(radius, 3)), radius / (std::isfinite(gap) ? gap : instrument.gap)};
