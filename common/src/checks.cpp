@@ -28,6 +28,14 @@ std::string to_text(double value) {
     return {buffer.data(), end};
 }
 
+std::string list_of(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
 void require(bool condition, std::string_view sentence) {
     if (!condition) {
         throw std::invalid_argument(std::string{sentence});

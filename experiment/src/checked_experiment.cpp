@@ -49,10 +49,7 @@ std::string remedy(const diagnose::Measurement& table, const TableFacts& facts) 
     if (missing.empty() || facts.not_understood.empty()) {
         return "";
     }
-    std::string list;
-    for (const std::string& heading : facts.not_understood) {
-        list += (list.empty() ? "" : ", ") + heading;
-    }
+    std::string list = list_of(facts.not_understood);
     const std::string& first = facts.not_understood.front();
     list += ": if one of them is it, add to the measurement, say, columns = { " + missing + " = \"";
     list += first.substr(1, first.size() - 2) + "\" }";

@@ -95,14 +95,6 @@ std::string change_of_density(const diagnose::Gain& gain, const std::function<st
                                      : change + " (90 % interval " + print(gain.elpd_low) + " to " + print(gain.elpd_high) + ")";
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) {
-        text += (text.empty() ? "" : ", ") + name;
-    }
-    return text;
-}
-
 bool is_least_p(const Diagnosis& diagnosis) {
     return diagnosis.p_value * static_cast<double>(diagnosis.bootstrap.size() + 1) < 1.5;
 }

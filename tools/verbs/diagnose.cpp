@@ -85,14 +85,6 @@ Json measurement_json(const CheckedMeasurement& checked, const TableFacts& facts
     return json;
 }
 
-std::string list_of(const std::vector<std::string>& headings) {
-    std::string list;
-    for (const std::string& heading : headings) {
-        list += (list.empty() ? "" : ", ") + heading;
-    }
-    return list;
-}
-
 /// "1-3, 7".
 std::string row_list(const std::vector<std::size_t>& rows) {
     std::string text;

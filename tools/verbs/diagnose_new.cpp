@@ -1,10 +1,10 @@
 #include "diagnose_new.hpp"
 
-#include <coagula/experiment/measured_tables.hpp>
 #include "cli/report.hpp"
 #include "new_experiment.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/experiment/measured_tables.hpp>
 #include <coagula/io/atomic_file.hpp>
 
 #include <algorithm>

@@ -1,11 +1,10 @@
 #include "new_experiment.hpp"
 
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/check_data.hpp>
 #include <coagula/experiment/measured_tables.hpp>
 #include <coagula/report/printable.hpp>
 #include <coagula/report/results.hpp>
-
-#include <coagula/common/checks.hpp>
-#include <coagula/diagnose/check_data.hpp>
 
 #include <algorithm>
 #include <array>
@@ -142,14 +141,6 @@ std::string quoted(const std::string& text) {
 
 std::string stem_of(const io::MeasuredFile& file) {
     return fs::path(file.path).stem().string();
-}
-
-std::string list_of(const std::vector<std::string>& names) {
-    std::string list;
-    for (const std::string& name : names) {
-        list += (list.empty() ? "" : ", ") + name;
-    }
-    return list;
 }
 
 std::string comment(const std::string& text) {

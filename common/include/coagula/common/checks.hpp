@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace coagula {
 
@@ -13,6 +14,9 @@ inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
 /// A value as it is printed in messages: the shortest text that reads back as the same number.
 std::string to_text(double value);
+
+/// "a, b, c".
+std::string list_of(const std::vector<std::string>& names);
 
 /// Throws std::invalid_argument(sentence) unless `condition` holds.
 void require(bool condition, std::string_view sentence);

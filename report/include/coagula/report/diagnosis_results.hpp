@@ -25,9 +25,6 @@ const diagnose::Cause* extended_cause(const diagnose::Diagnosis& diagnosis);
 /// How the log predictive density on held-out rows changes: "+12.3 (90 % interval 8.1 to 17)". There must be such rows.
 std::string change_of_density(const diagnose::Gain& gain, const std::function<std::string(double)>& print);
 
-/// "ageing, wall-slip".
-std::string list_of(const std::vector<std::string>& names);
-
 /// No data set drawn from the base model has a misfit as large, so that p is at most what is stated.
 bool is_least_p(const diagnose::Diagnosis& diagnosis);
 
