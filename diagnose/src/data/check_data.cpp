@@ -305,7 +305,7 @@ void Checker::check_relations() {
 std::set<const Column*> suspects_in(const std::vector<const Relation*>& failing, const std::set<const Column*>& vouched) {
     std::set<const Column*> all;
     for (const Relation* relation : failing) {
-        if (relation->of_raw_torque) {
+        if (relation->is_of_raw_torque()) {
             all.insert(relation->redundant);
             continue;
         }
@@ -347,7 +347,7 @@ void Checker::leave_out_suspects(const std::vector<Relation>& relations) {
             const double ratio = (*relation)->ratio((*relation)->cells(row));
             leave_out(column(suspect->name), row,
                       (*relation)->name + " fails by a factor of " + factor_text(ratio) +
-                          ((*relation)->of_raw_torque ? ", as where the torque also turns the tool" : ""));
+                          ((*relation)->is_of_raw_torque() ? ", as where the torque also turns the tool" : ""));
         }
     }
 }

@@ -21,7 +21,7 @@ public:
     template <class Ratio, class Tolerance>
     void add(std::string name, const std::vector<const char*>& columns, const std::string& redundant, Ratio ratio,
              Tolerance tolerance) {
-        Relation relation{std::move(name), {}, nullptr, ratio, tolerance, redundant == "torque"};
+        Relation relation{std::move(name), {}, nullptr, ratio, tolerance};
         for (const char* column : columns) {
             const Column* found = find_column(table_, column);
             if (found == nullptr) {

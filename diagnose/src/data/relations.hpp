@@ -24,7 +24,7 @@ struct Relation {
     std::function<double(const Cells&)> tolerance;
     /// Where it fails, the redundant column alone is doubted: a torque that also turns the tool says nothing against moduli that
     /// were corrected for its inertia.
-    bool of_raw_torque = false;
+    bool is_of_raw_torque() const { return redundant != nullptr && redundant->name == "torque"; }
 
     Cells cells(std::size_t row) const;
     bool readable(std::size_t row) const;

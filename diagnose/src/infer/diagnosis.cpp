@@ -223,8 +223,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     const std::vector<const Mechanism*> possible = possible_causes(experiment, options.causes);
     DataSet data = data_set_of(experiment, options.noise);
     const Forward forward(experiment, data.observations, simulator);
-    data.noise.deviation =
-        (data.noise.deviation.array().square() + forward.structure_deviation(data.values).array().square()).sqrt();
+    data.noise.widen(forward.structure_deviation(data.values));
     const ErrorModel errors(data);
     const Inference inference(forward, errors);
     const std::vector<std::vector<bool>> folds = choose_folds(experiment, data.observations, options.held_out_part);

@@ -44,7 +44,7 @@ DataSet with_errors_of_the_rest(const DataSet& data, const std::vector<bool>& he
     NoiseSettings settings = options.noise;
     state_sample_effect(noise, options.stated_noise.stated_sample, settings);
     DataSet found = data_set_of(all, settings);
-    found.noise.deviation = (found.noise.deviation.array().square() + structure_deviation.array().square()).sqrt();
+    found.noise.widen(structure_deviation);
     return found;
 }
 

@@ -111,6 +111,10 @@ Eigen::VectorXd RowNoise::marginal_deviation() const {
     return all;
 }
 
+void RowNoise::widen(const Eigen::VectorXd& further) {
+    deviation = (deviation.array().square() + further.array().square()).sqrt();
+}
+
 double RowNoise::log_determinant() const {
     return 2 * deviation.array().log().sum() + (1 - correlation.array().square()).log().sum();
 }

@@ -30,6 +30,8 @@ struct RowNoise {
     /// Deviation of each value.
     Eigen::VectorXd marginal_deviation() const;
     double log_determinant() const;
+    /// Further independent errors with these deviations.
+    void widen(const Eigen::VectorXd& further);
 };
 
 /// One experiment's moduli, or some of its rows.

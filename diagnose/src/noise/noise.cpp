@@ -315,7 +315,6 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     noise.kind = replicates.kind;
     noise.labels = replicates.labels;
     noise.observable = replicates.observable;
-    noise.fluid = replicates.fluid;
     noise.unit = replicates.unit;
     std::vector<std::string> names;
     const ReplicatedValues data = replicated_values(replicates, names);

@@ -148,7 +148,6 @@ Replicates replicates_in(const Group& tables, const Column& observable) {
     const std::vector<double>& axis = axis_of(*tables.front())->values;
     Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}, false, {}, {}};
     replicates.axis = Eigen::VectorXd::Map(axis.data(), static_cast<Eigen::Index>(axis.size()));
-    replicates.fluid = std::isfinite(tables.front()->fluid_viscosity);
     const std::vector<double> weights = floor_weights(*tables.front());
     replicates.floor_of_stress = !weights.empty();
     replicates.floor_weights = Eigen::VectorXd::Ones(replicates.axis.size());

@@ -240,10 +240,6 @@ const char* observable_of(const Observation& observation) {
     return shown.at((observation.third_harmonic ? 2 : 0) + (observation.loss ? 1 : 0)).column;
 }
 
-bool same_column(const Observation& one, const Observation& other) {
-    return one.measurement == other.measurement && one.loss == other.loss && one.third_harmonic == other.third_harmonic;
-}
-
 bool is_modulus(const Observation& observation) {
     return !std::isfinite(observation.distance) && !is_pore(observation) && !observation.difference && !observation.third_harmonic;
 }

@@ -58,9 +58,6 @@ bool has_moduli(MeasurementKind kind);
 /// "localisation_plane", "localisation_axis" or "unmatched_share".
 const char* observable_of(const Observation& observation);
 
-/// Whether two numbers stand in one column of a table.
-bool same_column(const Observation& one, const Observation& other);
-
 /// Of a Newtonian fluid in place of the sample.
 inline bool is_fluid(const Observation& observation) {
     return std::isfinite(observation.fluid_viscosity);

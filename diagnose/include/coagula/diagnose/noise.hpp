@@ -30,7 +30,6 @@ struct Replicates {
     bool floor_of_stress = false;          ///< w is 1/strain
     std::vector<std::string> labels = {};  ///< of the tables
     Eigen::VectorXd levels = {};           ///< of a phase: mean |G*|, one per condition
-    bool fluid = false;                    ///< of a Newtonian fluid
 };
 
 /// Tables of one kind with the same run order whose axes run in the same direction and share at least three values, to 2 %, and
@@ -79,7 +78,6 @@ struct NoiseModel {
     /// Correlation of neighbouring residuals within a table; where it is high, rows are not independent and `relative` describes
     /// the drift of whole stretches.
     double autocorrelation = 0;
-    bool fluid = false;                                        ///< of a Newtonian fluid
     std::vector<std::string> labels = {};                      ///< of the tables
     double stated_correlation = unset;                         ///< of neighbouring rows, where no replicates tell
     std::size_t conditions = 0;                                ///< with replicates
