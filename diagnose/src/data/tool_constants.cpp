@@ -20,6 +20,20 @@ ToolConstants of_cylinders(const Instrument& instrument) {
     return {1 / (2 * pi * inner * instrument.bob_length * instrument.end_correction), 2 * outer / (outer - inner)};
 }
 
+/// Unset: those of the instrument.
+ToolConstants constants_by_size(const Instrument& instrument, double gap, double plate_radius, double cone_angle) {
+    if (instrument.geometry == Geometry::concentric_cylinders) {
+        return of_cylinders(instrument);
+    }
+    const double radius = std::isfinite(plate_radius) ? plate_radius : instrument.plate_radius;
+    const bool cone = instrument.geometry ? instrument.geometry == Geometry::cone_plate : std::isfinite(instrument.cone_angle);
+    const double angle = std::isfinite(cone_angle) ? cone_angle : instrument.cone_angle;
+    if (cone || std::isfinite(cone_angle)) {
+        return {3 / (2 * pi * std::pow(radius, 3)), 1 / angle};
+    }
+    return {2 / (pi * std::pow(radius, 3)), radius / (std::isfinite(gap) ? gap : instrument.gap)};
+}
+
 bool has(const Measurement& table, const char* name) {
     return find_column(table, name) != nullptr;
 }
@@ -42,6 +56,7 @@ void replace_column(Measurement& table, const std::string& name, const std::func
 struct PolarModulus {
     std::function<double(std::size_t)> size;
     std::function<double(std::size_t)> phase;
+    const char* divisor = "";  ///< column without which there is no size where it is 0
 };
 
 /// By torque and deflection; empty functions where something is missing.
@@ -54,7 +69,7 @@ PolarModulus by_torque(const Measurement& table, const Instrument& instrument) {
                 return std::abs(cell(table, "torque", row) / cell(table, "deflection", row)) /
                        constants_in(table, instrument, row).torque_per_modulus();
             },
-            [&, phase](std::size_t row) { return cell(table, phase, row); }};
+            [&, phase](std::size_t row) { return cell(table, phase, row); }, "deflection"};
 }
 
 PolarModulus by_stress(const Measurement& table) {
@@ -63,13 +78,12 @@ PolarModulus by_stress(const Measurement& table) {
     if (!(has(table, "phase") || tangent) || !(size || (has(table, "stress") && has(table, "strain")))) {
         return {};
     }
-    return {[&, size](std::size_t row) {
-                return size ? cell(table, "complex_modulus", row)
-                            : std::abs(cell(table, "stress", row) / cell(table, "strain", row));
-            },
-            [&, tangent](std::size_t row) {
-                return tangent ? std::atan(cell(table, "loss_tangent", row)) : cell(table, "phase", row);
-            }};
+    return {
+        [&, size](std::size_t row) {
+            return size ? cell(table, "complex_modulus", row) : std::abs(cell(table, "stress", row) / cell(table, "strain", row));
+        },
+        [&, tangent](std::size_t row) { return tangent ? std::atan(cell(table, "loss_tangent", row)) : cell(table, "phase", row); },
+        "strain"};
 }
 
 void require_constants(const Measurement& table, const Instrument& instrument) {
@@ -88,20 +102,12 @@ ToolConstants tool_constants(const Instrument& instrument) {
 }
 
 ToolConstants tool_constants(const Instrument& instrument, double gap, double plate_radius, double cone_angle) {
+    const ToolConstants by_size = constants_by_size(instrument, gap, plate_radius, cone_angle);
     const bool own = std::isfinite(cone_angle) || std::isfinite(plate_radius) || std::isfinite(gap);
-    if (!own && std::isfinite(instrument.stress_constant)) {
-        return {instrument.stress_constant, instrument.strain_constant};
-    }
-    if (instrument.geometry == Geometry::concentric_cylinders) {
-        return of_cylinders(instrument);
-    }
-    const double radius = std::isfinite(plate_radius) ? plate_radius : instrument.plate_radius;
-    const bool cone = instrument.geometry ? instrument.geometry == Geometry::cone_plate : std::isfinite(instrument.cone_angle);
-    const double angle = std::isfinite(cone_angle) ? cone_angle : instrument.cone_angle;
-    if (cone || std::isfinite(cone_angle)) {
-        return {3 / (2 * pi * std::pow(radius, 3)), 1 / angle};
-    }
-    return {2 / (pi * std::pow(radius, 3)), radius / (std::isfinite(gap) ? gap : instrument.gap)};
+    const bool known = std::isfinite(by_size.torque_per_modulus());
+    return std::isfinite(instrument.stress_constant) && !(own && known)
+               ? ToolConstants{instrument.stress_constant, instrument.strain_constant}
+               : by_size;
 }
 
 void derive_moduli(Measurement& table, const Instrument& instrument, bool raw) {
@@ -125,7 +131,12 @@ void derive_moduli(Measurement& table, const Instrument& instrument, bool raw) {
     }
     std::vector<std::complex<double>> moduli;
     for (std::size_t row = 0; row < table.rows(); ++row) {
-        moduli.push_back(std::polar(1.0, polar.phase(row)) * polar.size(row));
+        const bool divides = cell(table, polar.divisor, row) != 0;
+        const double phase = polar.phase(row);  // an impossible one is left out by the check
+        moduli.push_back(divides && std::abs(phase) <= pi ? std::polar(1.0, phase) * polar.size(row) : std::complex(unset, unset));
+        if (!divides) {
+            table.left_out.push_back({polar.divisor, row, "0", "must not be 0: the moduli are divided by it"});
+        }
     }
     replace_column(table, "storage_modulus", [&](std::size_t row) { return moduli[row].real(); });
     replace_column(table, "loss_modulus", [&](std::size_t row) { return moduli[row].imag(); });

@@ -45,6 +45,9 @@ TEST(ToolConstants, OfPlatesAndConeAreThoseOfTheTextbook) {
     stated.stress_constant = 1e5;
     stated.strain_constant = 10;
     EXPECT_EQ(tool_constants(stated).torque_per_modulus(), 1e-4);
+    EXPECT_NEAR(tool_constants(stated, 0.5e-3, unset, unset).strain, 25, 1e-12);
+    stated.plate_radius = unset;  // a column of the gap alone does not undo what is stated
+    EXPECT_EQ(tool_constants(stated, 0.5e-3, unset, unset).torque_per_modulus(), 1e-4);
     EXPECT_TRUE(std::isnan(tool_constants(Instrument{}).torque_per_modulus()));
 }
 
@@ -100,6 +103,21 @@ TEST(RawModuli, AreRefusedWithoutTheSizeOfTheTool) {
     Measurement lacking = table;
     lacking.columns.erase(lacking.columns.begin() + 2);
     EXPECT_THROW(derive_moduli(lacking, plates(), true), InputError);
+}
+
+TEST(RawModuli, OfARowThatDidNotMoveOrHasNoPhaseAreLeftOut) {
+    Measurement table = read_by(plates(), {1, 10, 100}, {{1e5, 1e3}, {1e5, 1e3}, {1e5, 1e3}}, 0);
+    table.columns[2].values[1] = 0;
+    table.columns[3].values[0] = 9;  // rad
+    derive_moduli(table, plates(), false);
+    for (const char* name : {"storage_modulus", "loss_modulus"}) {
+        EXPECT_TRUE(std::isnan(find_column(table, name)->values[0])) << name;
+        EXPECT_TRUE(std::isnan(find_column(table, name)->values[1])) << name;
+    }
+    EXPECT_NEAR(find_column(table, "storage_modulus")->values[2], 1e5, 1e-3);
+    ASSERT_EQ(table.left_out.size(), 1U);
+    EXPECT_EQ(table.left_out[0].column, "deflection");
+    EXPECT_EQ(table.left_out[0].row, 1U);
 }
 
 TEST(RawModuli, OfStressAndStrainOrOfOneModulusAndItsPhase) {

@@ -19,7 +19,7 @@ struct ToolConstants {
 ToolConstants tool_constants(const Instrument& instrument);
 
 /// The same with the gap, radius and cone of a row; unset: those of the instrument. Stated constants are those of the instrument's
-/// own gap, radius and cone.
+/// own gap, radius and cone, and of rows with others where a size of the tool is not known.
 ToolConstants tool_constants(const Instrument& instrument, double gap, double plate_radius, double cone_angle);
 
 /// Gives a table of moduli that lacks them strain, storage and loss modulus from what it has: torque, deflection and phase (the raw
