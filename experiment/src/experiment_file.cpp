@@ -1,6 +1,7 @@
 #include <coagula/experiment/experiment_file.hpp>
 
 #include <coagula/experiment/measured_tables.hpp>
+#include "planned_table.hpp"
 #include "table_selection.hpp"
 #include "toml_keys.hpp"
 
@@ -69,7 +70,6 @@ private:
     void read_measurements();
     void derive_moduli();
     void read_measurement(const toml::table& table, std::size_t number);
-    static diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number);
     static ColumnRules column_rules(TomlKeys& keys);
 
     std::string path_;
@@ -215,56 +215,6 @@ void ExperimentReader::read_expectation() {
     keys.refuse_other_keys();
 }
 
-/// An end of a planned axis; an angular frequency may be given in cycles.
-double planned_end(TomlKeys& keys, const toml::node& node, const std::string& key, const std::string& unit) {
-    const bool in_cycles = unit == "rad/s" && node.is_string() && node.ref<std::string>().ends_with("Hz");
-    return in_cycles ? 2 * std::numbers::pi * keys.quantity_of(node, key, "Hz") : keys.quantity_of(node, key, unit);
-}
-
-/// A table that nobody has measured yet: its axis from an end to the other, and what is constant.
-diagnose::Measurement ExperimentReader::planned_table(TomlKeys& keys, diagnose::MeasurementKind kind, std::size_t number) {
-    const diagnose::TableRule rule = diagnose::rule_of(kind);
-    if (rule.axes.empty()) {
-        keys.fail("planned", std::string(diagnose::name_of(kind)) + " has no axis that could be planned");
-    }
-    if (kind == diagnose::MeasurementKind::waveform) {
-        keys.fail("planned", "waveforms are planned as a table of kind harmonics, with the strains of their oscillations");
-    }
-    const diagnose::Quantity& axis = *diagnose::find_quantity(rule.axes.front());
-    double from = unset;
-    double to = unset;
-    double points = unset;
-    for (const auto& [name, node] : keys.entries("planned")) {
-        if (name == "from" || name == "to") {
-            (name == "from" ? from : to) = planned_end(keys, *node, "planned." + name, std::string(axis.unit));
-        } else if (name == "points") {
-            points = keys.quantity_of(*node, "planned.points", "1");
-        } else {
-            keys.fail("planned", "'" + name + "' is none of from, to, points");
-        }
-    }
-    if (!(from > 0 && to > 0 && from != to)) {
-        keys.fail("planned", "needs 'from' and 'to', two values of " + std::string(axis.name) + " > 0");
-    }
-    if (!(points >= static_cast<double>(rule.fewest_rows) && points <= 10000 && points == std::floor(points))) {
-        keys.fail("planned", "needs 'points', a whole number from " + std::to_string(rule.fewest_rows) + " to 10000");
-    }
-    diagnose::Measurement table;
-    table.kind = kind;
-    table.label = "measurement " + std::to_string(number) + " (planned)";
-    const auto rows = static_cast<std::size_t>(points);
-    diagnose::Column column{std::string(axis.name), std::string(axis.unit), std::vector<double>(rows)};
-    for (std::size_t row = 0; row < rows; ++row) {
-        const double way = static_cast<double>(row) / (points - 1);
-        column.values[row] = axis.name == "time" || axis.name == "gap" ? from + (to - from) * way : from * std::pow(to / from, way);
-    }
-    table.columns.push_back(std::move(column));
-    for (const auto& [name, value] : column_rules(keys).constants) {
-        table.columns.push_back({name, std::string(diagnose::find_quantity(name)->unit), std::vector<double>(rows, value)});
-    }
-    return table;
-}
-
 void ExperimentReader::read_measurements() {
     const toml::node* list = root_.get("measurement");
     if (list == nullptr || !list->is_array_of_tables()) {
@@ -399,7 +349,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
     }
     const TableSetting setting = read_setting(keys, number);
     if (table.contains("planned")) {
-        diagnose::Measurement measurement = planned_table(keys, *kind, number);
+        diagnose::Measurement measurement = planned_table(keys, *kind, number, column_rules(keys).constants);
         keys.refuse_other_keys();
         setting.give_to(measurement);
         result_.experiment.measurements.push_back(std::move(measurement));

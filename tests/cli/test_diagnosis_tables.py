@@ -1,38 +1,10 @@
 """coagula diagnose on structure series, coordinates, rough plates, a Newtonian oil and a cone: what stands in diagnosis.json, and bad values refused."""
 
-import json
 import math
 import random
 import unittest
 
-from support import ProgramTest
-
-PLATES = '[instrument]\ngeometry = "plate-plate"\nplate_radius = "12.5 mm"\ngap = "1 mm"\n'
-STIFFNESS = 40  # N/m, of the measured particles; the simulation's own unit is 100 N/m
-
-
-class Tables(ProgramTest):
-    def structure(self, name, seed, particles=150, coordination=4.7, fraction=0.4):
-        self.succeed("generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", fraction, "--radius",
-                     "0.25um", "--target-coordination", coordination, "--seed", seed, "--quiet", "-o", name)
-
-    def modulus(self, name):
-        """By the linear method, for particles of 100 N/m."""
-        return self.succeed_json("shear", name, "-o", "sheared.h5", "--force")["storage_modulus"]["mean"]
-
-    def table(self, name, heads, rows):
-        self.write(name, "\n".join([",".join(heads)] + [",".join(f"{cell:.9g}" for cell in row) for row in rows]) + "\n")
-
-    def diagnosis(self, text, *words):
-        self.write("experiment.toml", text)
-        said = self.succeed_json("diagnose", "experiment.toml", "-o", "results", "--force", "--bootstrap", 199, *words)
-        written = json.loads((self.folder / "results" / "diagnosis.json").read_text())
-        self.assertEqual(written["rows"], said["rows"])
-        return written
-
-    def refuse(self, text, *says):
-        self.write("experiment.toml", text)
-        self.refuse_experiment(says)
+from diagnosis_support import PLATES, STIFFNESS, Tables
 
 
 class StructureSeries(Tables):
@@ -173,60 +145,6 @@ class Coordinates(Tables):
         self.refuse(self.experiment(file="few.csv"), "few.csv", "3 usable rows are too few")
         self.write("inside.csv", "\n".join(lines[:40]) + "\n")
         self.refuse(self.experiment(file="inside.csv"), "20 particles lie deep enough inside")
-
-
-class RawColumns(Tables):
-    """Torque, deflection and raw phase, as an instrument reads them of a stiff sample under a heavy tool."""
-
-    FREQUENCIES = [10**(0.23 * k) for k in range(14)]  # rad/s
-    PER_MODULUS = math.pi * 0.0125**4 / 2e-3          # torque over angle and modulus
-    INERTIA = 5e-5
-
-    def setUp(self):
-        super().setUp()
-        self.structure("known.h5", 1, 200)
-        self.hidden = STIFFNESS / 100 * self.modulus("known.h5")
-
-    def torque(self, frequency, number):
-        """Per radian: amplitude and phase, with errors of 2 % and 4 mrad."""
-        size = self.PER_MODULUS * self.hidden - self.INERTIA * frequency**2
-        return abs(size) * (1 + number.gauss(0, 0.02)), (math.pi if size < 0 else 0) + number.gauss(0, 0.004)
-
-    def write_tables(self):
-        number = random.Random(3)
-        parts = []
-        for sample in "AB":
-            rows, moduli = [], []
-            for frequency in self.FREQUENCIES:
-                torque, phase = self.torque(frequency, number)
-                phase = math.remainder(phase, 2 * math.pi)
-                rows.append((frequency, 1e3 * torque * 1e-3, 1, math.degrees(phase)))
-                modulus = torque / self.PER_MODULUS
-                moduli.append((frequency, modulus * math.cos(phase), modulus * math.sin(phase)))
-            self.table(f"raw{sample}.csv", ("angular_frequency [rad/s]", "torque [mN.m]", "deflection [mrad]", "raw_phase [degree]"), rows)
-            self.table(f"moduli{sample}.csv", ("angular_frequency [rad/s]", "storage_modulus [Pa]", "loss_modulus [Pa]"), moduli)
-            parts.append(f'[[measurement]]\nkind = "frequency-sweep"\nfile = "raw{sample}.csv"\nsample = "{sample}"\n')
-        return PLATES + '[structures]\nfiles = ["known.h5"]\n\n' + "".join(parts)
-
-    def test_say_the_same_as_their_moduli(self):
-        text = self.write_tables()
-        raw = self.diagnosis(text)
-        self.assertEqual((raw["verdict"], raw["credible_set"]), ("named", ["tool-inertia"]))
-        inertia = raw["causes"][0]["parameters"]["inertia"]
-        self.assertTrue(inertia["low"] < self.INERTIA < inertia["high"])
-        self.assertTrue(any(row["measured"] < 0 for row in raw["rows"] if row["observable"] == "storage_modulus"))
-        moduli = self.diagnosis(text.replace("raw", "moduli"))
-        for one, other in zip(raw["rows"], moduli["rows"]):
-            self.assertAlmostEqual(one["measured"], other["measured"], delta=1e-6 * self.hidden)
-
-    def test_refusals(self):
-        text = self.write_tables()
-        self.refuse(text.replace('plate_radius = "12.5 mm"\n', ""), "rawA.csv", "need the size of the tool")
-        self.refuse(text.replace('file = "rawA.csv"', 'file = "modulusA.csv"'), "modulusA.csv")
-        self.refuse(text.replace('"rawA.csv"', '"moduliA.csv"\nmoduli = "raw"'), "moduliA.csv", "torque, deflection and raw_phase")
-        self.refuse(text + 'moduli = "cooked"\n', "'cooked' is neither raw nor as-given")
-        self.refuse(text.replace("raw", "moduli").replace("[structures]", "stress_constant = 1e5\n[structures]"), "stress_constant", "go together")
-        self.refuse("[noise]\nstated_correlation = 1\n" + text, "stated_correlation", "below 1")
 
 
 class GapSeries(Tables):
