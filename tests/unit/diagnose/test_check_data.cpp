@@ -34,10 +34,10 @@ TEST(CheckData, LeavesConsistentDataAsTheyAre) {
     const CheckedMeasurement checked = check_data(table);
     EXPECT_TRUE(checked.problems.empty());
     EXPECT_TRUE(checked.measurement.left_out.empty());
-    EXPECT_EQ(checked.relations.size(), 7u);
+    EXPECT_EQ(checked.relations.size(), 7U);
     for (const RelationResult& relation : checked.relations) {
-        EXPECT_EQ(relation.rows, 20u) << relation.name;
-        EXPECT_EQ(relation.failed, 0u) << relation.name;
+        EXPECT_EQ(relation.rows, 20U) << relation.name;
+        EXPECT_EQ(relation.failed, 0U) << relation.name;
     }
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         EXPECT_EQ(checked.measurement.columns[i].values, table.columns[i].values);
@@ -55,7 +55,7 @@ TEST(CheckData, FindsTheOneWrongCellInAnyColumn) {
             const CheckedMeasurement checked = check_data(table);
             ASSERT_TRUE(checked.problems.empty()) << name;
             std::set<std::string> found = left_out_columns(checked);
-            EXPECT_EQ(found.count(name), 1u) << name << ' ' << factor;
+            EXPECT_EQ(found.count(name), 1U) << name << ' ' << factor;
             found.erase(name);
             if (name == "storage_modulus" || name == "loss_modulus") {
                 found.erase("storage_modulus");
@@ -63,7 +63,7 @@ TEST(CheckData, FindsTheOneWrongCellInAnyColumn) {
             }
             EXPECT_TRUE(found.empty()) << name << ' ' << factor << ": " << *found.begin();
             for (const LeftOutCell& cell : checked.measurement.left_out) {
-                EXPECT_EQ(cell.row, 7u);
+                EXPECT_EQ(cell.row, 7U);
                 EXPECT_FALSE(cell.reason.empty());
                 EXPECT_TRUE(std::isnan(find_column(checked.measurement, cell.column)->values[7]));
             }
@@ -76,7 +76,7 @@ TEST(CheckData, ASmallLossModulusIsNotVouchedForByTheModulus) {
     Measurement table = amplitude_sweep();
     column(table, "loss_modulus").values[2] *= 0.1;
     const CheckedMeasurement checked = check_data(table);
-    ASSERT_EQ(checked.measurement.left_out.size(), 1u);
+    ASSERT_EQ(checked.measurement.left_out.size(), 1U);
     EXPECT_EQ(checked.measurement.left_out[0].column, "loss_modulus");
 }
 
@@ -101,7 +101,7 @@ TEST(CheckData, ARunOfSlippedSeparatorsDoesNotVouchForItself) {
     }
     const CheckedMeasurement checked = check_data(table);
     EXPECT_EQ(left_out_columns(checked), std::set<std::string>{"stress"});
-    EXPECT_EQ(checked.measurement.left_out.size(), 15u);
+    EXPECT_EQ(checked.measurement.left_out.size(), 15U);
 }
 
 TEST(CheckData, ToleratesPeakStressesOfAPlasticSampleInAmplitudeSweepsOnly) {
@@ -117,7 +117,7 @@ TEST(CheckData, ToleratesPeakStressesOfAPlasticSampleInAmplitudeSweepsOnly) {
         column(table, "complex_viscosity").values[row] =
             column(table, "complex_modulus").values[row] / column(table, "angular_frequency").values[row];
     }
-    EXPECT_EQ(left_out_columns(check_data(table)).count("stress"), 1u);
+    EXPECT_EQ(left_out_columns(check_data(table)).count("stress"), 1U);
 }
 
 TEST(CheckData, NamesAWrongUnit) {
@@ -157,7 +157,7 @@ TEST(CheckData, DropsARedundantColumnThatContradictsThroughout) {
     const CheckedMeasurement checked = check_data(table);
     EXPECT_TRUE(checked.problems.empty());
     EXPECT_EQ(left_out_columns(checked), std::set<std::string>{"complex_viscosity"});
-    EXPECT_EQ(checked.measurement.left_out.size(), 20u);
+    EXPECT_EQ(checked.measurement.left_out.size(), 20U);
 }
 
 TEST(CheckData, WantsTheColumnsOfTheKind) {
@@ -237,7 +237,7 @@ TEST(CheckData, LeavesOutImpossibleValues) {
     const CheckedMeasurement checked = check_data(table);
     EXPECT_TRUE(std::isnan(find_column(checked.measurement, "angular_frequency")->values[2]));
     EXPECT_TRUE(std::isnan(find_column(checked.measurement, "strain")->values[0]));
-    EXPECT_EQ(checked.measurement.left_out.size(), 2u);
+    EXPECT_EQ(checked.measurement.left_out.size(), 2U);
 }
 
 }  // namespace

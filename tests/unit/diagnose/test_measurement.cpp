@@ -14,7 +14,7 @@ TEST(Measurement, KindsAndGeometriesHaveNamesOfTheirOwn) {
         EXPECT_EQ(measurement_kind(name_of(kind)), kind);
         names.insert(name_of(kind));
     }
-    EXPECT_EQ(names.size(), 9u);
+    EXPECT_EQ(names.size(), 9U);
     EXPECT_FALSE(measurement_kind("sweep"));
     EXPECT_EQ(geometry("cone-plate"), Geometry::cone_plate);
     EXPECT_FALSE(geometry("couette"));
@@ -29,7 +29,7 @@ TEST(Measurement, EveryRequiredColumnIsAQuantity) {
         for (const std::string_view name : rule.required) {
             EXPECT_NE(find_quantity(name), nullptr) << name;
         }
-        EXPECT_GT(rule.fewest_rows, 3u);  // a table of three points says nothing
+        EXPECT_GT(rule.fewest_rows, 3U);  // a table of three points says nothing
     }
 }
 

@@ -85,7 +85,7 @@ TEST(Noise, PredictsTheEffectOfEachSample) {
     Replicates replicates = simulate({2e-4, 0.02, 0}, 50, 4, 5);
     replicates.values.col(3) *= 0.7;  // the others then lie a little above the mean
     const NoiseModel noise = fit_noise(replicates);
-    ASSERT_EQ(noise.sample_effects.size(), 4u);
+    ASSERT_EQ(noise.sample_effects.size(), 4U);
     EXPECT_EQ(noise.sample_effects[3].sample, "sample 3");
     const double ratio = (1 + noise.sample_effects[3].effect) / (1 + noise.sample_effects[0].effect);
     EXPECT_NEAR(ratio, 0.7, 0.01);
@@ -114,7 +114,7 @@ TEST(Noise, IsTheSameForACompleteTableWithMissingRowsAdded) {
     const NoiseModel after = fit_noise(replicates);
     EXPECT_EQ(before.relative.value, after.relative.value);
     EXPECT_EQ(before.sample.high, after.sample.high);
-    EXPECT_EQ(after.values, 100u);
+    EXPECT_EQ(after.values, 100U);
 }
 
 TEST(Noise, StatesItsDefaultsWhereThereAreNoReplicates) {
@@ -174,7 +174,7 @@ std::vector<Measurement> sweeps_of_torque_and_phase() {
 
 TEST(Noise, OfATableWithBothModuliIsThatOfTorqueAndPhase) {
     const std::vector<NoiseModel> models = noise_of_tables(sweeps_of_torque_and_phase());
-    ASSERT_EQ(models.size(), 2u);
+    ASSERT_EQ(models.size(), 2U);
     EXPECT_EQ(models[0].observable, "complex_modulus");
     EXPECT_EQ(models[1].observable, "phase");
     EXPECT_NEAR(models[0].relative.value, 0.02, 0.003);    // 156 degrees of freedom: 6 %

@@ -24,7 +24,7 @@ TEST(Replicates, AreTablesWithOneAxis) {
         }
     }
     const std::vector<Replicates> found = find_replicates({sweep_of("A"), second});
-    ASSERT_EQ(found.size(), 2u);  // of torque and phase
+    ASSERT_EQ(found.size(), 2U);  // of torque and phase
     EXPECT_EQ(found[0].observable, "complex_modulus");
     EXPECT_EQ(found[1].observable, "phase");
     EXPECT_EQ(found[0].samples, (std::vector<std::string>{"A", "B"}));
@@ -41,7 +41,7 @@ TEST(Replicates, DifferInFrequencyOrKindThenTheyAreNone) {
     for (double& frequency : column(faster, "angular_frequency").values) {
         frequency *= 2;
     }
-    EXPECT_EQ(find_replicates({sweep_of("A"), faster}).size(), 4u);
+    EXPECT_EQ(find_replicates({sweep_of("A"), faster}).size(), 4U);
     Measurement wave = sweep_of("C");
     wave.kind = MeasurementKind::structure_series;
     EXPECT_TRUE(find_replicates({wave}).empty());
@@ -65,7 +65,7 @@ TEST(Replicates, LineUpByTheNearestRowThatIsAlike) {
         std::erase_if(table->columns, [](const Column& one) { return one.name == "loss_modulus"; });
     }
     const std::size_t rows = first.rows();
-    ASSERT_GE(rows, 10u);
+    ASSERT_GE(rows, 10U);
     for (std::size_t row = 0; row < rows; ++row) {
         column(second, "storage_modulus").values[row] = 100 + static_cast<double>(row);
         column(second, "strain").values[row] = column(first, "strain").values[row];

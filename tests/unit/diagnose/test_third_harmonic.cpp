@@ -159,17 +159,17 @@ TEST(ThirdHarmonic, AWaveformIsARowOfItsSweepAndCountsOnce) {
                                                     {"storage_modulus", "Pa", {100, 90, 50}}}),
         linear_waveform(2.01e-4, 90, 0, 1), linear_waveform(7e-4, 40, 0, 2)};
     reduce_waveforms(experiment, 0.03, 0.01);
-    ASSERT_EQ(experiment.measurements.size(), 2u);
+    ASSERT_EQ(experiment.measurements.size(), 2U);
     const Measurement& table = experiment.measurements[1];
     EXPECT_EQ(table.kind, MeasurementKind::harmonics);
-    EXPECT_EQ(table.rows(), 2u);
+    EXPECT_EQ(table.rows(), 2U);
     EXPECT_EQ(find_column(table, "time")->values[0], 15);
     EXPECT_TRUE(std::isnan(find_column(table, "time")->values[1]));
     EXPECT_TRUE(std::isnan(find_column(table, "storage_modulus")->values[0]));
     EXPECT_NEAR(find_column(table, "storage_modulus")->values[1], 40, 1e-6);
     EXPECT_NEAR(find_column(table, "storage_modulus")->standard_errors[1], 40 * std::hypot(0.03, 0.002), 1e-6);
     const auto rows = observations_of(experiment);
-    EXPECT_EQ(rows.size(), 3u + 4u + 2u);
+    EXPECT_EQ(rows.size(), 3U + 4U + 2U);
     experiment.measurements.push_back(
         table_of(MeasurementKind::waveform, {{"time", "s", {0, 1}}, {"strain", "1", {0, 1}}, {"stress", "Pa", {0, 1}}}));
     EXPECT_THROW(reduce_waveforms(experiment, 0.03, 0.01), InputError);
@@ -198,10 +198,10 @@ TEST(ThirdHarmonic, OfAnOilIsNotThatOfTheSample) {
                                                                            {"loss_modulus", "Pa", {6.3}},
                                                                            {"third_harmonic_storage", "1", {0}},
                                                                            {"third_harmonic_loss", "1", {0}}})};
-    EXPECT_EQ(observations_of(experiment).size(), 3u);
+    EXPECT_EQ(observations_of(experiment).size(), 3U);
     experiment.measurements[0].fluid_viscosity = 1;
     const auto rows = observations_of(experiment);
-    ASSERT_EQ(rows.size(), 1u);
+    ASSERT_EQ(rows.size(), 1U);
     EXPECT_STREQ(observable_of(rows[0]), "loss_modulus");
 }
 

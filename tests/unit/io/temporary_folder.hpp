@@ -13,12 +13,16 @@
 namespace coagula::io {
 
 class TemporaryFolder : public ::testing::Test {
+public:
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() override { std::filesystem::remove_all(folder_); }
+
 protected:
     TemporaryFolder() {
         std::string pattern = (std::filesystem::temp_directory_path() / "coagula_io_XXXXXX").string();
         folder_ = mkdtemp(pattern.data());
     }
-    ~TemporaryFolder() override { std::filesystem::remove_all(folder_); }
 
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
 

@@ -18,12 +18,12 @@ const std::string french =
 TEST_F(ExportDialects, RheoCompassInFrench) {
     const MeasuredFile file = read_measured_file(write("f.csv", french));
     EXPECT_EQ(file.format, MeasuredFormat::rheocompass);
-    ASSERT_EQ(file.tables.size(), 1u);
+    ASSERT_EQ(file.tables.size(), 1U);
     const PlainTable& table = file.tables.front();
     EXPECT_EQ(table.test, "E1");
     EXPECT_EQ(table.title, "Balayage 1");
     EXPECT_EQ(table.section, 2);
-    EXPECT_EQ(table.first_line, 11u);
+    EXPECT_EQ(table.first_line, 11U);
     EXPECT_EQ(values(table, "storage_modulus", "Pa"), (std::vector<double>{1234.5, 1034.5}));
     EXPECT_EQ(values(table, "strain", "1")[0], 0.001);
     EXPECT_EQ(values(table, "torque", "N.m")[0], 3.25e-6);
@@ -37,7 +37,7 @@ TEST_F(ExportDialects, ALanguageThatNobodyForesawIsFoundByItsUnits) {
                                                        "Datos:\tPunto\tMódulo de almacenamiento\tMódulo de pérdida\n\t\t\t\n"
                                                        "\t\t[Pa]\t[Pa]\n\t1\t100\t10\n\t2\t90\t11\n\n"
                                                        "Intervalo y puntos:\t2\t1\nDatos:\tPunto\tG'\n\t\t[kPa]\n\t1\t2\n"));
-    ASSERT_EQ(file.tables.size(), 1u);  // the second has but one unit and is not recognised without its word
+    ASSERT_EQ(file.tables.size(), 1U);  // the second has but one unit and is not recognised without its word
     EXPECT_EQ(file.tables[0].columns[0].heading, "Módulo de almacenamiento");
     EXPECT_EQ(file.tables[0].columns[0].unit, "Pa");
     EXPECT_EQ(file.tables[0].columns[0].quantity, "");
@@ -91,10 +91,10 @@ TEST_F(ExportDialects, CsvMayHaveATitleAndALineOfUnits) {
                                                          "Frequency sweep - 1,,\nAngular frequency,Storage modulus,Tan(delta)\n"
                                                          "rad/s,kPa,\n1,1.5,0.1\n2,1.6,******\n,,\nFlow - 2,,\n"
                                                          "Shear rate,Stress,Remark\n1/s,Pa,\n0.1,2,fine\n"));
-    ASSERT_EQ(sheets.tables.size(), 2u);
+    ASSERT_EQ(sheets.tables.size(), 2U);
     EXPECT_EQ(sheets.tables[0].title, "Frequency sweep - 1");
     EXPECT_EQ(values(sheets.tables[0], "storage_modulus", "Pa"), (std::vector<double>{1500, 1600}));
-    ASSERT_EQ(sheets.tables[0].unreadable.size(), 1u);
+    ASSERT_EQ(sheets.tables[0].unreadable.size(), 1U);
     EXPECT_EQ(sheets.tables[0].unreadable[0].reason, "stands for no value");
     EXPECT_EQ(sheets.tables[1].title, "Flow - 2");
     EXPECT_EQ(values(sheets.tables[1], "stress", "Pa"), (std::vector<double>{2}));
@@ -105,7 +105,7 @@ TEST_F(ExportDialects, CsvMayHaveATitleAndALineOfUnits) {
 TEST_F(ExportDialects, WhatStandsForNoValueIsNoNumber) {
     for (const std::string cell : {"******", "#NAME?", "#DIV/0!", "---", "n/a", "NaN", "∞", "invalid point", "3.40282347E+38"}) {
         const PlainTable table = read_measured_file(write("p.csv", "time [s],G' [Pa]\n1,2\n2," + cell + "\n")).tables.front();
-        ASSERT_EQ(table.unreadable.size(), 1u) << cell;
+        ASSERT_EQ(table.unreadable.size(), 1U) << cell;
         EXPECT_EQ(table.unreadable[0].reason, "stands for no value") << cell;
         EXPECT_TRUE(std::isnan(table.columns[1].values[1]));
     }

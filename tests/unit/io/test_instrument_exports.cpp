@@ -14,9 +14,9 @@ class InstrumentExports : public TemporaryFolder {};
 TEST_F(InstrumentExports, TriosTextHasTheInertiaOfTheRheometerInItsTorquesAndPhases) {
     const MeasuredFile file = read_measured_file(testing::dataset("trios_lims_json/multi_technique.txt"));
     EXPECT_EQ(file.format, MeasuredFormat::trios);
-    ASSERT_EQ(file.tables.size(), 3u);
+    ASSERT_EQ(file.tables.size(), 3U);
     EXPECT_EQ(file.tables[2].title, "Flow ramp - 3");
-    EXPECT_EQ(file.tables[2].rows(), 223u);
+    EXPECT_EQ(file.tables[2].rows(), 223U);
     const PlainTable& sweep = file.tables[1];
     EXPECT_EQ(sweep.title, "Frequency sweep - 2");
     const auto omega = values(sweep, "angular_frequency", "rad/s");
@@ -41,10 +41,10 @@ TEST_F(InstrumentExports, TriosTextHasTheInertiaOfTheRheometerInItsTorquesAndPha
 
 TEST_F(InstrumentExports, TriosForLimsHasAStepPerTemperature) {
     const MeasuredFile file = read_measured_file(testing::dataset("trios_lims_json/frequency_sweep_tts.txt"));
-    ASSERT_EQ(file.tables.size(), 20u);
+    ASSERT_EQ(file.tables.size(), 20U);
     EXPECT_EQ(file.tables[19].title, "Frequency sweep (-40.0 °C)");
     for (const PlainTable& table : file.tables) {
-        EXPECT_EQ(table.rows(), 17u);
+        EXPECT_EQ(table.rows(), 17U);
         EXPECT_EQ(table.announced_points, 17);
         EXPECT_TRUE(table.unreadable.empty());
         const auto storage = values(table, "storage_modulus", "Pa");
@@ -79,9 +79,9 @@ TEST_F(InstrumentExports, TriosTextWithCommasIsThatWithTabs) {
 TEST_F(InstrumentExports, TriosJsonBringsItsGeometry) {
     const MeasuredFile file = read_measured_file(testing::dataset("trios_lims_json/tadatakit/dataset.json"));
     EXPECT_EQ(file.format, MeasuredFormat::trios_json);
-    ASSERT_EQ(file.tables.size(), 1u);
+    ASSERT_EQ(file.tables.size(), 1U);
     EXPECT_EQ(file.tables[0].title, "Amplitude - 1");
-    ASSERT_EQ(file.tables[0].rows(), 2u);
+    ASSERT_EQ(file.tables[0].rows(), 2U);
     EXPECT_EQ(values(file.tables[0], "storage_modulus", "Pa")[1], 26741.224609375);
     EXPECT_EQ(values(file.tables[0], "torque", "N.m")[0], 3.4826778119168e-6);
     EXPECT_EQ(geometry_of(file), "plate-plate");
@@ -94,9 +94,10 @@ TEST_F(InstrumentExports, TriosJsonBringsItsGeometry) {
 TEST_F(InstrumentExports, RheoPlusKeepsItsFifteenIntervals) {
     for (const std::string gel : {"PXP", "TXT"}) {
         for (const std::string sample : {"1", "2", "3", "4"}) {
-            const MeasuredFile file = read_measured_file(testing::dataset("deforest_hydrogels/" + gel + "_N" + sample + ".csv"));
+            const MeasuredFile file =
+                read_measured_file(testing::dataset("deforest_hydrogels/" + std::string(gel).append("_N").append(sample) + ".csv"));
             EXPECT_EQ(file.format, MeasuredFormat::rheoplus);
-            ASSERT_EQ(file.tables.size(), 15u);
+            ASSERT_EQ(file.tables.size(), 15U);
             const std::vector<std::size_t> rows{80, 31, 80, 113, 80, 600, 20, 600, 20, 600, 20, 600, 20, 600, 28};
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 EXPECT_EQ(file.tables[i].rows(), rows[i]);
@@ -127,8 +128,8 @@ TEST_F(InstrumentExports, RheoPlusInJapaneseIsReadInBothEncodings) {
     const MeasuredFile utf8 = read_measured_file(testing::dataset("rheoplus_japanese/datafile.csv"));
     const MeasuredFile escapes = read_measured_file(testing::dataset("rheoplus_japanese/datafile2.csv"));
     EXPECT_EQ(utf8.format, MeasuredFormat::rheoplus);
-    ASSERT_EQ(utf8.tables.size(), 25u);
-    ASSERT_EQ(escapes.tables.size(), 26u);
+    ASSERT_EQ(utf8.tables.size(), 25U);
+    ASSERT_EQ(escapes.tables.size(), 26U);
     EXPECT_EQ(geometry_of(utf8), "plate-plate");
     EXPECT_DOUBLE_EQ(value_of(utf8, "plate_radius"), 4e-3);
     EXPECT_TRUE(std::isnan(value_of(utf8, "gap")));  // "d=0.1 mm" is no gap
@@ -139,7 +140,7 @@ TEST_F(InstrumentExports, RheoPlusInJapaneseIsReadInBothEncodings) {
         const auto modulus = values(table, "complex_modulus", "Pa");
         const auto viscosity = values(table, "complex_viscosity", "Pa.s");
         const auto frequency = values(table, "frequency", "Hz");
-        ASSERT_EQ(table.rows(), 11u);
+        ASSERT_EQ(table.rows(), 11U);
         for (std::size_t row = 0; row < table.rows(); ++row) {
             EXPECT_NEAR(stress[row] / strain[row], modulus[row], 0.01 * modulus[row]);
             EXPECT_NEAR(viscosity[row] * 2 * std::numbers::pi * frequency[row], modulus[row], 0.01 * modulus[row]);
@@ -162,12 +163,12 @@ TEST_F(InstrumentExports, RheoCompassTellsTwelveResultsOfOneNameByTheirTests) {
         read_measured_file(testing::dataset("rheodata_toolkit/anton_paar/gwens_data/Steady State Viscosity "
                                             "Curve-35C.csv"));
     EXPECT_EQ(file.format, MeasuredFormat::rheocompass);
-    ASSERT_EQ(file.tables.size(), 12u);
+    ASSERT_EQ(file.tables.size(), 12U);
     std::set<std::string> tests;
     for (const PlainTable& table : file.tables) {
         EXPECT_EQ(table.title, "Viscosity curve 1");
         EXPECT_EQ(table.section, 1);
-        EXPECT_EQ(table.rows(), 25u);
+        EXPECT_EQ(table.rows(), 25U);
         EXPECT_EQ(table.announced_points, 25);
         tests.insert(table.test);
         const auto stress = values(table, "stress", "Pa");
@@ -175,7 +176,7 @@ TEST_F(InstrumentExports, RheoCompassTellsTwelveResultsOfOneNameByTheirTests) {
         EXPECT_NEAR(torque[24] / stress[24], 32.77e-6, 0.01e-6);  // the constant of the measuring system
     }
     EXPECT_EQ(file.tables[11].number, 12);
-    EXPECT_GE(tests.size(), 11u);
+    EXPECT_GE(tests.size(), 11U);
     // What a spreadsheet made of the same file: Latin-1, tabs at the end of lines, fewer digits.
     const MeasuredFile text = read_measured_file(testing::dataset("rheodata_toolkit/anton_paar/gwens_data/txt_test_unedited.txt"));
     EXPECT_EQ(values(text.tables[0], "torque", "N.m")[24], values(file.tables[0], "torque", "N.m")[24]);
@@ -185,11 +186,11 @@ TEST_F(InstrumentExports, RheoCompassTellsTwelveResultsOfOneNameByTheirTests) {
 TEST_F(InstrumentExports, ALossTangentOf20000AndTheModulusBesideItAreNoValues) {
     const PlainTable sweep =
         read_measured_file(testing::dataset("rheodata_toolkit/anton_paar/yulings_data/freqsweep.csv")).tables.front();
-    EXPECT_EQ(sweep.rows(), 11u);
-    EXPECT_EQ(numbers_in(values(sweep, "loss_tangent", "1")), 3u);
-    EXPECT_EQ(numbers_in(values(sweep, "storage_modulus", "Pa")), 3u);
-    EXPECT_EQ(numbers_in(values(sweep, "loss_modulus", "Pa")), 11u);
-    EXPECT_EQ(sweep.unreadable.size(), 16u);
+    EXPECT_EQ(sweep.rows(), 11U);
+    EXPECT_EQ(numbers_in(values(sweep, "loss_tangent", "1")), 3U);
+    EXPECT_EQ(numbers_in(values(sweep, "storage_modulus", "Pa")), 3U);
+    EXPECT_EQ(numbers_in(values(sweep, "loss_modulus", "Pa")), 11U);
+    EXPECT_EQ(sweep.unreadable.size(), 16U);
     const PlainTable amplitude =
         read_measured_file(testing::dataset("rheodata_toolkit/anton_paar/yulings_data/amplitudesweep.csv")).tables.front();
     EXPECT_EQ(values(amplitude, "strain", "1")[0], 0.000101);  // in [1] here, in [%] there
@@ -203,24 +204,24 @@ TEST_F(InstrumentExports, RheoWinHasThreeSeriesAndDecimalCommas) {
     for (const MeasuredFile& file : {with_slashes, with_in}) {
         EXPECT_EQ(file.format, MeasuredFormat::rheowin);
         EXPECT_TRUE(file.decimal_comma);
-        ASSERT_EQ(file.tables.size(), 3u);
-        EXPECT_EQ(file.tables[0].rows(), 20u);
+        ASSERT_EQ(file.tables.size(), 3U);
+        EXPECT_EQ(file.tables[0].rows(), 20U);
         EXPECT_EQ(file.tables[2].section, 3);
-        EXPECT_EQ(file.tables[2].rows(), 40u);
+        EXPECT_EQ(file.tables[2].rows(), 40U);
         const auto stress = values(file.tables[2], "stress", "Pa");
         const auto rate = values(file.tables[2], "shear_rate", "1/s");  // "GP"
         const auto viscosity = values(file.tables[2], "viscosity", "Pa.s");
         EXPECT_NEAR(stress[39] / rate[39], viscosity[39], 0.01 * viscosity[39]);
         EXPECT_NEAR(values(file.tables[0], "temperature", "K")[0], 298.15, 0.2);  // "T", not the time
     }
-    EXPECT_EQ(with_slashes.tables[1].rows(), 37u);
+    EXPECT_EQ(with_slashes.tables[1].rows(), 37U);
     EXPECT_EQ(values(with_slashes.tables[1], "stress", "Pa")[1], 1.0);  // "1,0000"
     EXPECT_EQ(values(with_slashes.tables[1], "storage_modulus", "Pa")[1], 0.001904);
 }
 
 TEST_F(InstrumentExports, BlocksWithoutHeadingsAreTablesOfNamelessColumns) {
     const MeasuredFile file = read_measured_file(testing::dataset("drilling_suspensions/RheogramSet.txt"));
-    ASSERT_EQ(file.tables.size(), 385u);
+    ASSERT_EQ(file.tables.size(), 385U);
     EXPECT_EQ(file.tables[0].title, "KCl/Polymer 1.75sg 10degC");
     PlainTable last = file.tables[384];
     EXPECT_EQ(last.title, "Larisa Bentonite recipe 2 BT");
@@ -232,10 +233,10 @@ TEST_F(InstrumentExports, BlocksWithoutHeadingsAreTablesOfNamelessColumns) {
 
     PlainTable figure = read_measured_file(testing::dataset("rheofit_flow/digitised/FigS3b_Seth2011.csv")).tables.front();
     EXPECT_FALSE(figure.has_headings);
-    ASSERT_EQ(figure.columns.size(), 6u);
+    ASSERT_EQ(figure.columns.size(), 6U);
     EXPECT_EQ(figure.columns[2].values[0], 0.75);  // the volume fraction above the pair
     name_columns(figure, {"", "", "shear rate [1/s]", "stress [Pa]", "", ""});
-    EXPECT_EQ(figure.columns.size(), 2u);
+    EXPECT_EQ(figure.columns.size(), 2U);
 }
 
 /// G* from torque, raw phase and deflection under a cone, K G* = (T/theta) e^(i phi) + I w^2, and the moduli that the instrument
@@ -245,7 +246,7 @@ TEST_F(InstrumentExports, OldWorkbooksOfTriosHoldRawPhases) {
         read_measured_file(testing::dataset("rheodata_toolkit/ta_trios_xls/mixed_test_types/Copy of "
                                             "JeT_5k100-5k100_100mgml_amp_frq_swp_672017 copy.xls"));
     EXPECT_EQ(file.format, MeasuredFormat::workbook);
-    ASSERT_EQ(file.tables.size(), 5u);
+    ASSERT_EQ(file.tables.size(), 5U);
     EXPECT_EQ(geometry_of(file), "cone-plate");
     const double radius = value_of(file, "plate_radius");
     const double angle = value_of(file, "cone_angle");
@@ -273,9 +274,9 @@ TEST_F(InstrumentExports, OldWorkbooksOfTriosHoldRawPhases) {
 
 TEST_F(InstrumentExports, EverySheetOfAWorkbookIsATable) {
     const MeasuredFile file = read_measured_file(testing::dataset("rheofit_flow/trios_xls/10sle1s_85castoroil-3.xls"));
-    ASSERT_EQ(file.tables.size(), 2u);
+    ASSERT_EQ(file.tables.size(), 2U);
     EXPECT_EQ(file.tables[1].title, "Flow sweep - 2");
-    EXPECT_EQ(file.tables[1].rows(), 71u);
+    EXPECT_EQ(file.tables[1].rows(), 71U);
     EXPECT_DOUBLE_EQ(value_of(file, "inner_radius"), 14e-3);
     EXPECT_DOUBLE_EQ(value_of(file, "outer_radius"), 15.2e-3);
     EXPECT_DOUBLE_EQ(value_of(file, "instrument_inertia"), 20.9207e-6);
@@ -293,7 +294,7 @@ TEST_F(InstrumentExports, WorkbooksAndXmlSayWhatToExportInstead) {
           "rheodata_toolkit/anton_paar/gwens_data/Steady State Viscosity Curve-LO80C_xml.xml"}) {
         const std::string path = testing::dataset(name);
         const std::string said = sentence<InputError>([&] { read_measured_file(path); });
-        EXPECT_EQ(said.find(path), 0u);
+        EXPECT_EQ(said.find(path), 0U);
         EXPECT_NE(said.find("which is not read: export the measurement as text or CSV"), std::string::npos) << said;
     }
 }

@@ -62,13 +62,13 @@ const std::string german =
 void check_german(const MeasuredFile& file) {
     EXPECT_EQ(file.format, MeasuredFormat::rheocompass);
     EXPECT_TRUE(file.decimal_comma);
-    ASSERT_EQ(file.tables.size(), 4u);  // two intervals, two waveforms
+    ASSERT_EQ(file.tables.size(), 4U);  // two intervals, two waveforms
     const PlainTable& first = file.tables[0];
     EXPECT_EQ(first.title, "Platte 1");
     EXPECT_EQ(first.section, 1);
     EXPECT_EQ(first.announced_points, 3);
-    EXPECT_EQ(first.rows(), 3u);
-    ASSERT_EQ(first.columns.size(), 4u);  // the status is text
+    EXPECT_EQ(first.rows(), 3U);
+    ASSERT_EQ(first.columns.size(), 4U);  // the status is text
     EXPECT_EQ(column(first, "strain").unit, "%");
     EXPECT_EQ(column(first, "strain").values, (std::vector<double>{0.01, 0.1, 1}));
     EXPECT_EQ(column(first, "storage_modulus").values[0], 1234.5);
@@ -77,14 +77,14 @@ void check_german(const MeasuredFile& file) {
     EXPECT_TRUE(std::isnan(column(first, "torque").values[0]));
     EXPECT_EQ(column(first, "torque").values[2], -0.5);
     EXPECT_EQ(column(first, "complex_viscosity").values, (std::vector<double>{2878.2, 1.5e4, 1234567}));
-    ASSERT_EQ(first.unreadable.size(), 1u);
+    ASSERT_EQ(first.unreadable.size(), 1U);
     EXPECT_EQ(first.unreadable[0].text, "7.67E-01");
-    EXPECT_EQ(first.unreadable[0].row, 0u);
+    EXPECT_EQ(first.unreadable[0].row, 0U);
     EXPECT_EQ(first.columns[first.unreadable[0].column].quantity, "torque");
     EXPECT_EQ(first.unreadable[0].reason, "has a decimal point in a file with decimal commas");
 
     EXPECT_EQ(file.tables[1].section, 2);
-    ASSERT_EQ(file.tables[1].columns.size(), 1u);  // what is a waveform is not in the table of points
+    ASSERT_EQ(file.tables[1].columns.size(), 1U);  // what is a waveform is not in the table of points
     EXPECT_EQ(file.tables[1].columns[0].values, (std::vector<double>{2.5, 5}));
     EXPECT_EQ(file.tables[2].point, 1);
     EXPECT_EQ(column(file.tables[2], "strain").values, (std::vector<double>{0, 2.5, 0}));
@@ -112,7 +112,7 @@ TEST_F(MeasuredFiles, ReadsEnglishRheoCompassWithCommasAndNoLineOfQualifiers) {
                                  ",2,1,2000,,0.09\n"));
     EXPECT_EQ(file.format, MeasuredFormat::rheocompass);
     EXPECT_FALSE(file.decimal_comma);
-    ASSERT_EQ(file.tables.size(), 1u);
+    ASSERT_EQ(file.tables.size(), 1U);
     EXPECT_EQ(file.tables[0].title, "Frequency sweep");
     EXPECT_EQ(column(file.tables[0], "storage_modulus").values, (std::vector<double>{1234.5, 2000}));
     EXPECT_EQ(column(file.tables[0], "loss_tangent").unit, "1");
@@ -131,7 +131,7 @@ TEST_F(MeasuredFiles, ReadsTriosExports) {
               "0.1\t1.5\t0.2\t0.133\t25.0\t3\r\n1\t1.6\t0.2\t0.125\t25.0\t3.2\r\n\r\n"
               "[step]\r\nAmplitude sweep - 2\r\nOscillation strain\tStorage modulus\r\n%\tMPa\r\n0.01\t0.0015\r\n"));
     EXPECT_EQ(plain.format, MeasuredFormat::trios);
-    ASSERT_EQ(plain.tables.size(), 2u);
+    ASSERT_EQ(plain.tables.size(), 2U);
     EXPECT_EQ(plain.tables[0].title, "Frequency sweep - 1");
     EXPECT_EQ(column(plain.tables[0], "storage_modulus").unit, "kPa");
     EXPECT_EQ(column(plain.tables[0], "storage_modulus").values, (std::vector<double>{1.5, 1.6}));
@@ -150,10 +150,10 @@ TEST_F(MeasuredFiles, ReadsTriosExports) {
                                  "Data point\t0,01\t1,5\t0x0\t5,1\n"
                                  "Data point\t0,02\t3,0\t0x0\t5,2\n"));
     EXPECT_TRUE(lims.decimal_comma);
-    ASSERT_EQ(lims.tables.size(), 1u);
+    ASSERT_EQ(lims.tables.size(), 1U);
     EXPECT_EQ(lims.tables[0].title, "Amplitude sweep");
     EXPECT_EQ(lims.tables[0].announced_points, 3);
-    EXPECT_EQ(lims.tables[0].rows(), 2u);
+    EXPECT_EQ(lims.tables[0].rows(), 2U);
     EXPECT_EQ(column(lims.tables[0], "stress").values, (std::vector<double>{1.5, 3}));
     EXPECT_EQ(column(lims.tables[0], "phase").unit, "°");
     EXPECT_EQ(lims.metadata[2].group, "Geometry Parameters");
@@ -167,19 +167,19 @@ TEST_F(MeasuredFiles, ReadsCsvWithUnitsInTheHeader) {
     EXPECT_EQ(file.format, MeasuredFormat::csv);
     EXPECT_TRUE(file.decimal_comma);
     const PlainTable& table = file.tables.front();
-    ASSERT_EQ(table.columns.size(), 3u);
+    ASSERT_EQ(table.columns.size(), 3U);
     EXPECT_EQ(column(table, "storage_modulus").unit, "kPa");
     EXPECT_EQ(column(table, "storage_modulus").values, (std::vector<double>{1.5, 1234.5, 1234.5}));
     EXPECT_EQ(column(table, "loss_modulus").unit, "Pa");
-    ASSERT_EQ(table.unreadable.size(), 2u);
+    ASSERT_EQ(table.unreadable.size(), 2U);
     EXPECT_EQ(table.unreadable[0].text, "oops");
     EXPECT_EQ(table.unreadable[1].text, "1,2,3");
 }
 
 TEST_F(MeasuredFiles, KeepsAColumnWithoutNumbersWhereItsMeaningIsKnown) {
     const PlainTable table = read_measured_file(write("n.csv", "strain [1],G' [Pa],note\n0.1,nan,a\n0.2,nan,b\n")).tables.front();
-    ASSERT_EQ(table.columns.size(), 2u);
-    EXPECT_EQ(table.unreadable.size(), 2u);
+    ASSERT_EQ(table.columns.size(), 2U);
+    EXPECT_EQ(table.unreadable.size(), 2U);
     EXPECT_TRUE(std::isnan(column(table, "storage_modulus").values[0]));
 }
 
@@ -192,11 +192,11 @@ TEST_F(MeasuredFiles, NeverGuessesAnAmbiguousNumber) {
     EXPECT_EQ(column(values("1;1,234\n2;0.5\n"), "stress").values[0], 1234);
     const PlainTable mixed = values("1;0,5\n2;0,25\n3;0.75\n");
     EXPECT_TRUE(std::isnan(column(mixed, "stress").values[2]));
-    EXPECT_EQ(mixed.unreadable.size(), 1u);
+    EXPECT_EQ(mixed.unreadable.size(), 1U);
     for (const std::string bad : {"1.23.4", "1e", "0x10", "inf", "1e999", "--1", "1-2", "12.34,5", "."}) {
         const PlainTable table = values("1;0,5\n2;0,25\n3;" + bad + "\n");
         EXPECT_TRUE(std::isnan(column(table, "stress").values[2])) << bad;
-        EXPECT_EQ(table.unreadable.size(), 1u) << bad;
+        EXPECT_EQ(table.unreadable.size(), 1U) << bad;
     }
 }
 
@@ -236,8 +236,8 @@ TEST_F(MeasuredFiles, TakesNoSquareOfTheColumns) {
     const std::clock_t start = std::clock();
     const PlainTable table = read_measured_file(path).tables.front();
     EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1);
-    ASSERT_EQ(table.unreadable.size(), 50000u);
-    EXPECT_EQ(table.unreadable[49999].column, 49999u);
+    ASSERT_EQ(table.unreadable.size(), 50000U);
+    EXPECT_EQ(table.unreadable[49999].column, 49999U);
 }
 
 TEST_F(MeasuredFiles, RefusesANameOfAResultThatEveryTableWouldCarry) {
@@ -299,14 +299,14 @@ std::complex<double> first_harmonic(const std::vector<double>& values) {
 TEST_P(CementPaste, WaveformsAndModuliOfTheExportAgree) {
     const MeasuredFile file = read_measured_file(path());
     EXPECT_EQ(file.format, MeasuredFormat::rheocompass);
-    ASSERT_EQ(file.tables.size(), 2u + 51u);
-    EXPECT_EQ(file.tables[0].rows(), 60u);
+    ASSERT_EQ(file.tables.size(), 2U + 51U);
+    EXPECT_EQ(file.tables[0].rows(), 60U);
     const PlainTable& sweep = file.tables[1];
-    ASSERT_EQ(sweep.rows(), 51u);
+    ASSERT_EQ(sweep.rows(), 51U);
     for (std::size_t point = 20; point < 51; ++point) {  // below 0.1 % strain the noise of the waveform is larger than its signal
         const PlainTable& wave = file.tables[2 + point];
         ASSERT_EQ(wave.point, static_cast<int>(point) + 1);
-        ASSERT_EQ(wave.rows(), 513u);
+        ASSERT_EQ(wave.rows(), 513U);
         const std::complex<double> strain = first_harmonic(column(wave, "strain").values) / 100.0;
         const std::complex<double> modulus = first_harmonic(column(wave, "stress").values) / strain;
         const double storage = column(sweep, "storage_modulus").values[point];
@@ -321,9 +321,9 @@ INSTANTIATE_TEST_SUITE_P(Replicates, CementPaste,
 
 TEST(CementPasteBuildUp, KeepsEveryCellAsItStands) {
     const MeasuredFile file = read_measured_file(testing::dataset("cement_laos/SAOS_0.55_250.csv"));
-    ASSERT_EQ(file.tables.size(), 2u);
+    ASSERT_EQ(file.tables.size(), 2U);
     const PlainTable& table = file.tables[1];
-    ASSERT_EQ(table.rows(), 200u);
+    ASSERT_EQ(table.rows(), 200U);
     const std::vector<double>& stress = column(table, "stress").values;
     EXPECT_EQ(stress[0], 0.0014445);
     EXPECT_EQ(stress[199], 14.685);  // a slipped decimal separator is not the reader's business
