@@ -60,6 +60,19 @@ Departures departures_of(const Inference& inference, const Fit& fit) {
     return all;
 }
 
+Eigen::VectorXd departures_from_base(const Forward& forward, const DataSet& data) {
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const Prediction base = forward.prediction(inference.fit({}).model);
+    const Eigen::VectorXd effects = errors.effects(base);
+    Eigen::VectorXd left = data.values - base.values - base.errors.changes * effects.tail(base.errors.changes.cols());
+    for (Index row = 0; row < data.size(); ++row) {
+        const Index sample = data.sample[static_cast<std::size_t>(row)];
+        left[row] -= sample >= 0 ? base.level_slope[row] * effects[sample] : 0.0;
+    }
+    return left;
+}
+
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(columns);
     return factor.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), factor.rank());

@@ -16,6 +16,9 @@ struct Departures {
 };
 Departures departures_of(const Inference& inference, const Fit& fit);
 
+/// Of the data from the fitted base model with its most probable effects and errors, in their own units.
+Eigen::VectorXd departures_from_base(const Forward& forward, const DataSet& data);
+
 /// Orthonormal columns that span those given.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
 

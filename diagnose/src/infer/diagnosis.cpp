@@ -1,10 +1,12 @@
 #include <coagula/diagnose/diagnosis.hpp>
 
 #include "attribution.hpp"
+#include "departures.hpp"
 #include "detection.hpp"
 #include "gain.hpp"
 #include "hypothesis.hpp"
 #include "localise.hpp"
+#include "noise/row_correlation.hpp"
 #include "noise/weights.hpp"
 #include "proposal.hpp"
 
@@ -224,6 +226,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     DataSet data = data_set_of(experiment, options.noise);
     const Forward forward(experiment, data.observations, simulator);
     data.noise.widen(forward.structure_deviation(data.values));
+    set_correlations(correlations_shown(data, departures_from_base(forward, data)), data);
     const ErrorModel errors(data);
     const Inference inference(forward, errors);
     const std::vector<std::vector<bool>> folds = choose_folds(experiment, data.observations, options.held_out_part);

@@ -1,8 +1,10 @@
 #include "gain.hpp"
 
 #include "data/table_cells.hpp"
+#include "departures.hpp"
 #include "flexible.hpp"
 #include "fold_errors.hpp"
+#include "noise/row_correlation.hpp"
 #include "noise/weights.hpp"
 
 #include <coagula/common/random.hpp>
@@ -203,13 +205,16 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
     double flexible_squares = 0;
     const Eigen::VectorXd structure_deviation = everywhere.structure_deviation(all.values);
     for (const std::vector<bool>& held_out : folds) {
-        const DataSet data = with_errors_of_the_rest(all, held_out, experiment, structure_deviation, options);
+        DataSet data = with_errors_of_the_rest(all, held_out, experiment, structure_deviation, options);
         const std::vector<Index> known_rows = rows_where(held_out, false);
         const std::vector<Index> held_rows = rows_where(held_out, true);
-        const DataSet known = data.part(known_rows);
+        DataSet known = data.part(known_rows);
+        const Forward forward(experiment, known.observations, simulator);
+        const RowCorrelations correlations = correlations_shown(known, departures_from_base(forward, known));
+        set_correlations(correlations, known);
+        set_correlations(correlations, data);
         const DataSet held = data.part(held_rows);
         const ErrorModel errors(known);
-        const Forward forward(experiment, known.observations, simulator);
         const Inference inference(forward, errors);
         const Fit base = inference.fit({});
         const Fit extended = chosen(inference, base, possible, options);

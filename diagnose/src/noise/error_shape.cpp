@@ -20,7 +20,7 @@ struct Correlation {
     double deviation = 0;
 };
 
-/// Beforehand the less probable the stronger. @param estimate by replicates. @param error its standard error at no correlation;
+/// Beforehand all are equally probable. @param estimate by replicates. @param error its standard error at no correlation;
 /// infinite: there is no estimate.
 Correlation correlation_by(double estimate, double error) {
     constexpr double strongest = 0.9;
@@ -33,7 +33,7 @@ Correlation correlation_by(double estimate, double error) {
         const double deviation = error * std::sqrt(1 - place * place);
         const double likelihood =
             std::isfinite(error) ? std::exp(-0.5 * std::pow((estimate - place) / deviation, 2)) / deviation : 1.0;
-        const double weight = (strongest - place) * std::max(likelihood, 1e-300);
+        const double weight = std::max(likelihood, 1e-300);
         sum += weight;
         first += weight * place;
         second += weight * place * place;

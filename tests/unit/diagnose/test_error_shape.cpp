@@ -106,8 +106,8 @@ TEST(ErrorShape, KnowsNothingOfCorrelationWithoutReplicates) {
     alone.observable = "storage_modulus";
     alone.relative = {0.02, 0.02, 0.02};
     const ErrorShape shape = shape_of_errors({alone}, alone);
-    EXPECT_NEAR(shape.law.correlation, 0.3, 1e-3);
-    EXPECT_NEAR(shape.law.correlation_error, 0.9 / std::sqrt(18.0), 1e-3);
+    EXPECT_NEAR(shape.law.correlation, 0.45, 1e-3);
+    EXPECT_NEAR(shape.law.correlation_error, 0.9 / std::sqrt(12.0), 1e-3);
     EXPECT_EQ(shape.factor, 1);
     EXPECT_FALSE(std::isfinite(shape.law.tail));
 }

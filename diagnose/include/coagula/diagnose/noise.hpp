@@ -104,8 +104,8 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options =
 std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const NoiseOptions& options = {});
 
 /// What the models of torque, or of phase, say together about errors besides their size. Correlation of neighbours: what replicates
-/// show, freed from the bias that estimated sample effects make, beside a prior that falls from 0 to 0.9; that prior alone where
-/// there are none. Tail: the kurtosis, drawn towards that of normal errors.
+/// show, freed from the bias that estimated sample effects make, where all from 0 to 0.9 are equally probable beforehand. Tail: the
+/// kurtosis, drawn towards that of normal errors.
 struct ErrorShape {
     ErrorLaw law;
     double factor = 1;  ///< on the model's deviation: drawn towards the other tables', and freed from what correlated rows lose to
