@@ -136,6 +136,7 @@ struct Sizes {
             if (const double size = log_size(table, row); std::isfinite(size)) {
                 values.push_back(size);
                 rows.push_back(row);
+                negative.push_back(cell(table, "storage_modulus", row) < 0);
             }
         }
     }
@@ -154,11 +155,13 @@ struct Sizes {
         if (k == 0 || k + 1 == values.size()) {
             return values[k] - values[k == 0 ? 1 : k - 1];
         }
-        return beside_neighbours(values, k);
+        const double beside = beside_neighbours(values, k);
+        return beside < 0 && negative[k - 1] != negative[k + 1] ? 0.0 : beside;  // raw |G*| is least where inertia cancels G'
     }
 
     std::vector<double> values;
     std::vector<std::size_t> rows;
+    std::vector<bool> negative;  ///< G'
 };
 
 /// @param usual deviation of the sizes of a table.

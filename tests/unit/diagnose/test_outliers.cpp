@@ -91,6 +91,18 @@ TEST(Outliers, AreNeitherPeaksThatAllSamplesHaveNorSteps) {
     EXPECT_TRUE(leave_out_outliers(stepped).empty());
 }
 
+TEST(Outliers, AreNoRowsWhereInertiaCancelsTheElasticity) {
+    for (const double inertia : {0.2, 0.5, 0.8}) {  // of 1e5 Pa at row 12
+        Measurement table = sweep_of("A", 1e5, 1);
+        for (std::size_t row = 0; row < 14; ++row) {
+            table.columns[1].values[row] = 1e5 * (1 - inertia * std::pow(2.5, static_cast<double>(row) - 11));
+            table.columns[2].values[row] = 1e3;
+        }
+        std::vector<Measurement> tables{table};
+        EXPECT_TRUE(leave_out_outliers(tables).empty()) << inertia;
+    }
+}
+
 TEST(Outliers, AreSamplesThatLieFarBesideTwoOthers) {
     std::vector<Measurement> tables = three_samples();
     for (std::size_t row = 0; row < 14; ++row) {
