@@ -77,7 +77,8 @@ std::vector<Chain> chains_of(const DataSet& data, Eigen::VectorXd departures, bo
             sign = data.noise.correlation[k] < 0 ? -sign : sign;
             chain.lags[place] = static_cast<double>(row - before);
             const double along = 2 * static_cast<double>(place) / static_cast<double>(size - 1) - 1;
-            chain.columns.row(place) << 1, along, 1.5 * along * along - 0.5, along * (2.5 * along * along - 1.5), sign * departures[k];
+            chain.columns.row(place) << 1, along, 1.5 * along * along - 0.5, along * (2.5 * along * along - 1.5),
+                sign * departures[k];
             before = row;
             ++place;
         }
@@ -89,6 +90,7 @@ std::vector<Chain> chains_of(const DataSet& data, Eigen::VectorXd departures, bo
 RowCorrelation shown_by(const std::vector<Chain>& chains, RowCorrelation beforehand) {
     std::vector<double> logarithms;
     std::vector<double> places;
+    double share = 1;  // of the departures that errors make
     for (int node = 0; node < nodes; ++node) {
         const double place = strongest * (node + 0.5) / nodes;
         Restricted all;
@@ -98,9 +100,10 @@ RowCorrelation shown_by(const std::vector<Chain>& chains, RowCorrelation beforeh
             all.squares += one.squares;
             all.degrees += one.degrees;
         }
+        share = node == 0 ? std::min(1.0, all.degrees / all.squares) : share;
         const double prior = std::pow((place - beforehand.mean) / beforehand.deviation, 2);
         places.push_back(place);
-        logarithms.push_back(all.logarithm - 0.5 * all.degrees * std::log(all.squares) - 0.5 * prior);
+        logarithms.push_back(share * (all.logarithm - 0.5 * all.degrees * std::log(all.squares)) - 0.5 * prior);
     }
     const std::vector<double> weights = probabilities_of(std::move(logarithms));
     double mean = 0;
