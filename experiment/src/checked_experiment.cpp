@@ -4,7 +4,10 @@
 #include <coagula/experiment/checked_experiment.hpp>
 #include <coagula/experiment/measured_tables.hpp>
 
+#include "liquid.hpp"
+
 #include <algorithm>
+#include <cmath>
 
 namespace coagula::experiment {
 
@@ -61,12 +64,26 @@ std::vector<diagnose::CheckedMeasurement> check_tables(const ExperimentFile& fil
     refuse_what_was_not_measured(tables);
     std::vector<diagnose::CheckedMeasurement> checked;
     for (std::size_t i = 0; i < tables.size(); ++i) {
-        checked.push_back(diagnose::check_data(tables[i]));
+        const bool liquid = file.experiment.material.kind == diagnose::MaterialKind::newtonian;
+        checked.push_back(diagnose::check_data(tables[i], {.liquid = liquid}));
         if (!checked.back().problems.empty()) {
             throw InputError(checked.back().problems.front() + remedy(tables[i], file.facts[i]));
         }
     }
     return checked;
+}
+
+/// A network cannot show what a liquid does.
+void note_liquids(ExperimentFile& file) {
+    const bool network = file.experiment.material.kind == diagnose::MaterialKind::network;
+    for (const diagnose::Measurement& table : file.experiment.measurements) {
+        if (network && std::isnan(table.fluid_viscosity) && looks_newtonian(table)) {
+            file.notes.push_back(
+                table.label +
+                ": this sample is a liquid, G'' is far above G' and in proportion to the frequency, and no "
+                "network of particles; add [material] with kind = \"newtonian\", and its viscosity where it is known");
+        }
+    }
 }
 
 }  // namespace
@@ -78,6 +95,7 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     found.tables = check_tables(found.file);
     std::transform(found.tables.begin(), found.tables.end(), experiment.measurements.begin(),
                    [](const diagnose::CheckedMeasurement& checked) { return checked.measurement; });
+    note_liquids(found.file);
     for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(experiment.measurements)) {
         found.file.notes.push_back(outlier.sentence);
     }
@@ -88,7 +106,7 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     diagnose::reduce_waveforms(experiment, noise.stated_relative, noise.stated_phase);
     naming(path, [&] {
         found.structures = check_structures(experiment);
-        if (experiment.structure_sizes.empty()) {
+        if (experiment.structure_sizes.empty() && experiment.material.kind == diagnose::MaterialKind::network) {
             found.file.notes.emplace_back("the experiment names no structures yet, which a diagnosis needs");
         } else {
             diagnose::check(experiment, found.options);

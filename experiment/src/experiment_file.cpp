@@ -1,6 +1,7 @@
 #include <coagula/experiment/experiment_file.hpp>
 
 #include <coagula/experiment/measured_tables.hpp>
+#include "material_keys.hpp"
 #include "planned_table.hpp"
 #include "table_selection.hpp"
 #include "toml_keys.hpp"
@@ -31,11 +32,13 @@ public:
     ExperimentFile run() {
         TomlKeys keys(root_, path_);
         result_.experiment.title = keys.text("title").value_or("");
-        for (const char* table : {"sample", "instrument", "structures", "noise", "expected", "measurement"}) {
+        for (const char* table : {"sample", "material", "instrument", "structures", "noise", "expected", "measurement"}) {
             keys.ignore(table);
         }
         keys.refuse_other_keys();
         read_sample();
+        TomlKeys material(part("material"), where("material"));
+        result_.experiment.material = read_material(material);
         read_instrument();
         read_structures();
         read_noise();

@@ -77,7 +77,7 @@ ExperimentStructures check_structures(diagnose::Experiment& experiment) {
 
 void make_structures(diagnose::Experiment& experiment, ExperimentStructures& structures, const Progress& progress) {
     structures.stages.measure_pores = measure_pores;
-    if (!structures.packings.empty()) {
+    if (!structures.packings.empty() || experiment.material.kind != diagnose::MaterialKind::network) {
         return;
     }
     if (experiment.structure_sizes.empty()) {

@@ -60,12 +60,23 @@ std::string header(const DiagnosisRecord& record) {
     return html + "</dl>\n</header>\n";
 }
 
+std::string base_model_text(const diagnose::Material& material) {
+    switch (material.kind) {
+        case diagnose::MaterialKind::newtonian:
+            return "The base model is a Newtonian liquid under a perfect instrument. It has one parameter, the viscosity.";
+        case diagnose::MaterialKind::smooth:
+            return std::string("The base model is any material whose moduli are smooth in frequency") +
+                   (material.ages ? ", strain and age" : " and strain") + ", under a perfect instrument.";
+        default:
+            return "The base model – linear normal and shear springs, bonds without moments, no loss – has one free parameter, the "
+                   "stiffness of the particles.";
+    }
+}
+
 std::string detection(const DiagnosisRecord& record, Gnuplot& gnuplot) {
     const Diagnosis& found = record.diagnosis;
     std::string html = heading("Where the base model fails");
-    html += paragraph(
-        "The base model – linear normal and shear springs, bonds without moments, no loss – has one free parameter, the "
-        "stiffness of the particles.");
+    html += paragraph(base_model_text(record.experiment.material));
     if (found.failures.empty()) {
         html += paragraph(found.detected ? "It fails as a whole, without a smooth departure along one axis that would stand out."
                                          : "It does not fail: no misfit is larger than chance makes it.");

@@ -48,7 +48,8 @@ std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
     const auto& set = diagnosis.credible_set;
     const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
                                    [&](const diagnose::Cause& cause) { return !set.empty() && cause.name == set.front(); });
-    const bool has_contact = best != diagnosis.causes.end() && !best->parameters.empty() && !diagnosis.base.parameters.empty();
+    const bool has_contact =
+        std::isfinite(radius) && best != diagnosis.causes.end() && !best->parameters.empty() && !diagnosis.base.parameters.empty();
     if (!diagnosis.detected || !has_contact) {
         return {};
     }
@@ -123,7 +124,7 @@ void run_diagnosis(const Arguments& arguments) {
     naming(arguments.input(), [&] { make_structures(experiment, structures, progress); });
 
     diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
-    const double radius = mean_radius(structures.packings.front());
+    const double radius = structures.packings.empty() ? unset : mean_radius(structures.packings.front());
     const std::vector<std::string> sentences = structure_sentences(experiment, structures);
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
                                   experiment.structure_groups);

@@ -162,8 +162,11 @@ public:
         text_ +=
             comment("Lines that begin with # are suggestions: remove the # of those that hold. All keys: docs/experiment-file.md.");
         text_ +=
-            "\n[sample]\n# particle_radius = \"0.25 um\"    # these three are needed for a diagnosis\n# volume_fraction = 0.4\n"
-            "# solvent_viscosity = \"1 mPa.s\"\n\n[instrument]\n";
+            "\n[sample]\n# particle_radius = \"0.25 um\"    # these three are needed to simulate a network of particles\n"
+            "# volume_fraction = 0.4\n# solvent_viscosity = \"1 mPa.s\"\n\n[material]\n"
+            "# kind = \"newtonian\"    # an oil, of viscosity = \"1 Pa.s\" where it is known; no particles, no structures\n"
+            "# kind = \"smooth\"    # any sample: what the instrument does to it is diagnosed, no particles, no structures\n"
+            "\n[instrument]\n";
         write_instrument(files);
         for (const RecognisedFile& file : files) {
             write_file(file);

@@ -34,7 +34,7 @@ class Checker {
 public:
     Checker(const Measurement& measurement, const DataCheckOptions& options)
         : options_(options), rule_(rule_of(measurement.kind)), checked_{measurement, {}, {}} {
-        if (std::isfinite(measurement.fluid_viscosity)) {
+        if (has_moduli(measurement.kind) && is_liquid()) {
             rule_.required = {"loss_modulus"};  // a Newtonian fluid stores nothing
         }
     }
@@ -54,6 +54,7 @@ public:
 
 private:
     Measurement& table() { return checked_.measurement; }
+    bool is_liquid() const { return options_.liquid || std::isfinite(checked_.measurement.fluid_viscosity); }
     void complain(const std::string& sentence) { checked_.problems.push_back(table().label + ": " + sentence); }
 
     Column& column(std::string_view name) { return const_cast<Column&>(*find_column(table(), name)); }
@@ -109,7 +110,7 @@ void Checker::check_columns() {
         }
     }
     const bool has_frequency = find_column(table(), "angular_frequency") != nullptr || find_column(table(), "frequency") != nullptr;
-    if (std::isfinite(table().fluid_viscosity) && !has_frequency) {
+    if (has_moduli(table().kind) && is_liquid() && !has_frequency) {
         complain("a Newtonian fluid needs 'angular_frequency' or 'frequency', with which its loss modulus grows");
     }
     for (const Column& column : table().columns) {
@@ -162,7 +163,7 @@ void Checker::check_level() {
     constexpr double softest = 1e-9;
     constexpr double stiffest = 1e15;
     const Column* storage = find_column(table(), "storage_modulus");
-    if (storage == nullptr || std::isfinite(table().fluid_viscosity)) {
+    if (storage == nullptr || is_liquid()) {
         return;
     }
     std::vector<double> values;

@@ -1,5 +1,7 @@
 #include <coagula/diagnose/measurement.hpp>
 
+#include "material.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,7 +51,7 @@ constexpr std::array quantities = {
              "third harmonic of the stress over the first, viscous: G3''/|G*|"},
     Quantity{"loss_tangent", "1", -infinite, false, infinite, "G''/G'"},
     Quantity{"phase", "rad", -std::numbers::pi, false, std::numbers::pi, "of the stress before the strain"},
-    Quantity{"raw_phase", "rad", -std::numbers::pi, false, std::numbers::pi,
+    Quantity{"raw_phase", "rad", -2 * std::numbers::pi, false, 2 * std::numbers::pi,
              "of torque before deflection, as the instrument measured it"},
     Quantity{"angular_frequency", "rad/s", 0, true, infinite, "2 pi times the frequency"},
     Quantity{"frequency", "Hz", 0, true, infinite, "cycles per second"},
@@ -213,6 +215,11 @@ std::span<const MeasurementKind> all_measurement_kinds() {
     return kinds;
 }
 
+bool has_moduli(MeasurementKind kind) {
+    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
+           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
+}
+
 std::string_view name_of(Geometry geometry) {
     return name_in(geometry_names, geometry);
 }
@@ -272,6 +279,7 @@ const Column* axis_of(const Measurement& measurement) {
 
 void check(const Experiment& experiment) {
     check_sample(experiment.sample);
+    check_material(experiment);
     check_instrument(experiment.instrument);
     if (!experiment.structures.empty() && experiment.recipe) {
         throw InputError("structures are given both as files and as a recipe");

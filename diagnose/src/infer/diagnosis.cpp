@@ -23,20 +23,14 @@ constexpr double certain = 0.95;
 constexpr double decisive = 3;  ///< logarithm of a Bayes factor of 20
 constexpr const char* none_name = "none of the catalogue";
 
-/// Whether something measured depends on the stiffness of the particles.
-bool shows_stiffness(const Inference& inference) {
-    const auto& observations = inference.errors().data().observations;
-    return std::any_of(observations.begin(), observations.end(),
-                       [](const Observation& one) { return is_modulus(one) && !is_fluid(one); });
-}
-
 Cause cause_of(const Fit& fit, const Inference& inference) {
     Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .model = fit.model, .draws = fit.draws};
     const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior, bool at_end = false) {
         cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high, at_end});
     };
-    if (shows_stiffness(inference)) {
-        add("normal_stiffness", "N/m", fit.stiffness);
+    const bool newtonian = inference.forward().experiment().material.kind == MaterialKind::newtonian;
+    if (inference.shows_scale()) {
+        add(newtonian ? "viscosity" : "normal_stiffness", newtonian ? "Pa.s" : "N/m", fit.stiffness);
     } else {
         cause.draws = fit.draws.bottomRows(std::max<Index>(0, fit.draws.rows() - 1)).eval();
     }
@@ -56,7 +50,7 @@ std::vector<const Mechanism*> possible_causes(const Experiment& experiment, cons
     require_causes(wanted);
     std::vector<const Mechanism*> possible;
     for (const Mechanism& mechanism : catalogue()) {
-        if (is_asked_for(mechanism, wanted) && mechanism.applies(experiment)) {
+        if (is_asked_for(mechanism, wanted) && can_act(mechanism, experiment)) {
             possible.push_back(&mechanism);
         }
     }
@@ -84,14 +78,19 @@ bool in_any(const std::vector<std::vector<bool>>& folds, std::size_t row) {
 void predict_rows(const DataSet& data, const Inference& inference, const Model& base, const Model& extended,
                   const std::vector<std::vector<bool>>& folds, Diagnosis& diagnosis) {
     const ErrorModel& errors = inference.errors();
-    const Prediction by_base = inference.forward().prediction(base);
-    Prediction by_extended = inference.forward().prediction(extended);
-    by_extended.values = inference.forward().predict(extended, true);
+    const Forward& forward = inference.forward();
+    Prediction by_base = forward.prediction(base);
+    Prediction by_extended = forward.prediction(extended);
+    if (!forward.is_smooth()) {
+        by_extended.values = forward.predict(extended, true);
+    }
     const Eigen::VectorXd base_residual = errors.residual(by_base);
     const Eigen::VectorXd extended_residual = errors.residual(by_extended);
     const Eigen::VectorXd deviation = data.noise.marginal_deviation();
     diagnosis.base_effects = effects_of(errors, by_base);
     diagnosis.extended_effects = effects_of(errors, by_extended);
+    by_base.values = forward.fitted(by_base, errors.effects(by_base));
+    by_extended.values = forward.fitted(by_extended, errors.effects(by_extended));
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);

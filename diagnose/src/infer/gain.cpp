@@ -218,8 +218,12 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
         const Inference inference(forward, errors);
         const Fit base = inference.fit({});
         const Fit extended = chosen(inference, base, possible, options);
-        const Eigen::VectorXd by_base = everywhere.predict(base.model);
-        const Eigen::VectorXd better = everywhere.predict(extended.model);
+        const auto predicted_by = [&](const Model& model) {
+            const Prediction all_rows = everywhere.prediction(model);
+            return everywhere.fitted(all_rows, errors.effects(rows_of(all_rows, known_rows)));
+        };
+        const Eigen::VectorXd by_base = predicted_by(base.model);
+        const Eigen::VectorXd better = predicted_by(extended.model);
         const Eigen::VectorXd flexible = flexible_prediction(data, by_base, known_rows, departures);
         base_squares += squares(held, by_base(held_rows));
         extended_squares += squares(held, better(held_rows));

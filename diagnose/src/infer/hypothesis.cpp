@@ -55,21 +55,25 @@ Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, doubl
 
 }  // namespace
 
+bool Inference::shows_scale() const {
+    const auto& observations = errors_.data().observations;
+    return std::any_of(observations.begin(), observations.end(), [&](const Observation& one) { return forward_.scales(one); });
+}
+
 double Inference::stiffness_error() const {
-    const double stated = forward_.experiment().sample.normal_stiffness_error;
+    const double stated = known_scale(forward_.experiment()).error;
     return std::isnan(stated) ? stated : std::hypot(stated, forward_.level_error());
 }
 
 bool Inference::level_is_open() const {
     const auto& observations = errors_.data().observations;
-    return std::isnan(forward_.experiment().sample.normal_stiffness_error) &&
+    return std::isnan(known_scale(forward_.experiment()).error) &&
            std::any_of(observations.begin(), observations.end(),
                        [](const Observation& one) { return is_modulus(one) && one.structures == 0; });
 }
 
 double Inference::stiffness_departure(double log_stiffness) const {
-    const Sample& sample = forward_.experiment().sample;
-    return (log_stiffness - std::log(sample.normal_stiffness)) / stiffness_error();
+    return (log_stiffness - std::log(known_scale(forward_.experiment()).value)) / stiffness_error();
 }
 
 double Inference::log_prior(double log_stiffness) const {
@@ -86,7 +90,7 @@ double Inference::log_level() const {
         std::vector<double> ratios;
         for (std::size_t k = 0; k < observations.size(); ++k) {
             const double ratio = observations[k].value / predicted[static_cast<Index>(k)];
-            if (is_modulus(observations[k]) && !is_fluid(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
+            if (forward_.scales(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
                 ratios.push_back(ratio);
             }
         }
@@ -132,6 +136,10 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
 /// Newton's method for the logarithm of the stiffness, with the density as a whole near its end only. @param least log weight from
 /// which on the node counts.
 Node Inference::best_stiffness(const Model& model, double start, double least) const {
+    if (!scales_) {
+        const double density = errors_.log_density(forward_.prediction(model));
+        return {start, 0, density, density};
+    }
     constexpr int most_steps = 40;
     constexpr double near = 0.1;       // standard deviations, from where a parabola is exact enough
     constexpr double inaccurate = 20;  // logarithms that the density at the middle of the deviations may be off

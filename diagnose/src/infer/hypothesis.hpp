@@ -46,13 +46,17 @@ struct Fit {
 /// eight decades about that which the level of the data asks for.
 class Inference {
 public:
-    Inference(const Forward& forward, const ErrorModel& errors) : forward_(forward), errors_(errors), log_level_(log_level()) {}
+    Inference(const Forward& forward, const ErrorModel& errors)
+        : forward_(forward), errors_(errors), scales_(shows_scale()), log_level_(log_level()) {}
 
     Fit fit(const Hypothesis& hypothesis) const;
 
     /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places, the sample effects and
     /// the errors of the prediction at a fit.
     Eigen::MatrixXd jacobian(const Fit& fit) const;
+
+    /// Whether something measured depends on the stiffness of the particles, or on what else scales the material.
+    bool shows_scale() const;
 
     /// Standard deviation of the logarithm of the known stiffness, with what so few structures leave in the level of the moduli
     /// that it makes; NaN where no stiffness is known.
@@ -84,6 +88,7 @@ private:
 
     const Forward& forward_;
     const ErrorModel& errors_;
+    bool scales_;
     double log_level_;  ///< logarithm of the stiffness [N/m] that the base model needs for half of the moduli
 };
 

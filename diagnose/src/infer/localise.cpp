@@ -104,15 +104,20 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
                              std::vector<Failure>& failures) {
     const double least = failures.empty() ? 0.0 : noticeable;
     const double stiffness = base.model.settings.normal_stiffness;
-    const double known = inference.forward().experiment().sample.normal_stiffness;
+    const Experiment& experiment = inference.forward().experiment();
+    const double known = known_scale(experiment).value;
+    const bool newtonian = experiment.material.kind == MaterialKind::newtonian;
+    const std::string unit = newtonian ? " Pa.s" : " N/m";
     if (const double score = inference.stiffness_departure(std::log(stiffness)); std::abs(score) >= least) {
-        failures.push_back({.observable = "storage_modulus",
-                            .axis = "normal_stiffness",
-                            .log_bayes_factor = log_bayes_factor_of(score),
-                            .from = stiffness,
-                            .departure = stiffness / known - 1,
-                            .sentence = "the level of G' asks for a normal stiffness of " + three_digits(stiffness) + " N/m, " +
-                                        deviations_text(score) + " the known " + three_digits(known) + " N/m"});
+        failures.push_back(
+            {.observable = newtonian ? "loss_modulus" : "storage_modulus",
+             .axis = newtonian ? "viscosity" : "normal_stiffness",
+             .log_bayes_factor = log_bayes_factor_of(score),
+             .from = stiffness,
+             .departure = stiffness / known - 1,
+             .sentence =
+                 "the level of " + std::string(newtonian ? "G'' asks for a viscosity of " : "G' asks for a normal stiffness of ") +
+                 three_digits(stiffness) + unit + ", " + deviations_text(score) + " the known " + three_digits(known) + unit});
     }
     const DataSet& data = inference.errors().data();
     if (data.samples() < 2 || data.effect <= 0) {

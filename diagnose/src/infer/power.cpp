@@ -297,6 +297,10 @@ Share share_of(int count, int of) {
 }
 
 Power find_power(const Experiment& experiment, Simulator& simulator, const PowerOptions& given, const Progress& progress) {
+    if (experiment.material.kind != MaterialKind::network) {
+        throw InputError("a plan needs a simulated network, but material.kind is '" +
+                         std::string(name_of(experiment.material.kind)) + "'");
+    }
     PowerOptions options = given;
     options.diagnosis.noise.sample = given.noise.stated_sample;
     const Planned planned(prepared(experiment), simulator, options);
@@ -325,7 +329,7 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     double done = 0;
     for (const Mechanism& mechanism : catalogue()) {
         progress.update("simulating the experiment", done++ / static_cast<double>(catalogue().size()), mechanism.name);
-        if (is_asked_for(mechanism, options.causes) && mechanism.applies(planned.experiment())) {
+        if (is_asked_for(mechanism, options.causes) && can_act(mechanism, planned.experiment())) {
             power.causes.push_back(Search(planned, simulator, options, mechanism, base.normal_stiffness).run());
         }
     }

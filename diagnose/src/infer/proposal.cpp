@@ -184,7 +184,7 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
 std::vector<Proposal> propose(const Inference& inference, Simulator& simulator, const std::vector<Fit>& causes,
                               const std::vector<double>& weights, std::uint64_t seed) {
     std::vector<Proposal> proposals;
-    if (causes.size() < 2) {
+    if (causes.size() < 2 || inference.forward().is_smooth()) {  // of a smooth material nobody knows what else it would show
         return proposals;
     }
     std::vector<double> normalised = weights;

@@ -18,16 +18,25 @@ struct Start {
     Eigen::MatrixXd following;  ///< whitened directions of stiffness and parameters, of unit deviation
 };
 
-Start start_of(const Inference& inference, const Fit& fit) {
-    Model model = fit.model;
-    const double known = inference.forward().experiment().sample.normal_stiffness;
-    const double error = inference.stiffness_error();
-    if (std::isfinite(error)) {
-        model.settings.normal_stiffness = known;  // about which it may differ by its error
+/// The prediction at the known stiffness, about which it may differ by its error, as far as a straight line from that of the fit
+/// leads there: what follows does so along such lines.
+Prediction about_known_stiffness(const Inference& inference, const Model& model) {
+    constexpr double step = 1e-4;
+    const Forward& forward = inference.forward();
+    Prediction prediction = forward.prediction(model);
+    const double known = known_scale(forward.experiment()).value;
+    if (std::isfinite(known)) {
+        Model beside = model;
+        beside.settings.normal_stiffness *= std::exp(step);
+        const double way = std::log(known / model.settings.normal_stiffness) / step;
+        prediction.values += way * (forward.predict(beside) - prediction.values);
     }
-    Fit moved = fit;
-    moved.model = model;
-    const Eigen::MatrixXd slopes = inference.jacobian(moved);
+    return prediction;
+}
+
+Start start_of(const Inference& inference, const Fit& fit) {
+    const double error = inference.stiffness_error();
+    const Eigen::MatrixXd slopes = inference.jacobian(fit);
     const auto parameters = static_cast<Index>(fit.active_end.size());
     std::vector<Eigen::VectorXd> columns;
     for (Index column = 0; column <= parameters; ++column) {
@@ -39,7 +48,7 @@ Start start_of(const Inference& inference, const Fit& fit) {
         columns.emplace_back(column == 0 && std::isfinite(error) ? Eigen::VectorXd(error * slope)
                                                                  : Eigen::VectorXd(free_deviation / slope.norm() * slope));
     }
-    Start start{inference.forward().prediction(model), Eigen::MatrixXd(slopes.rows(), static_cast<Index>(columns.size()))};
+    Start start{about_known_stiffness(inference, fit.model), Eigen::MatrixXd(slopes.rows(), static_cast<Index>(columns.size()))};
     for (std::size_t k = 0; k < columns.size(); ++k) {
         start.following.col(static_cast<Index>(k)) = columns[k];
     }

@@ -59,6 +59,12 @@ std::span<const Mechanism> catalogue() {
     return all;
 }
 
+bool can_act(const Mechanism& mechanism, const Experiment& experiment) {
+    const bool of_instrument =
+        std::holds_alternative<ChangesGeometry>(mechanism.effect) || std::holds_alternative<ChangesTool>(mechanism.effect);
+    return (of_instrument || experiment.material.kind == MaterialKind::network) && mechanism.applies(experiment);
+}
+
 const Mechanism* find_mechanism(const std::string& name) {
     const auto all = catalogue();
     const auto found = std::find_if(all.begin(), all.end(), [&](const Mechanism& entry) { return entry.name == name; });

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <set>
 
 namespace coagula::diagnose::mechanisms {
 
@@ -21,7 +22,9 @@ inline bool any_measurement(const Experiment& experiment, bool (*holds)(const Me
 
 /// Some table has moduli.
 inline bool has_moduli(const Experiment& experiment) {
-    return any_measurement(experiment, [](const Measurement& table) { return find_column(table, "storage_modulus") != nullptr; });
+    return any_measurement(experiment, [](const Measurement& table) {
+        return find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr;
+    });
 }
 
 /// Torque per angle over the modulus is known.
@@ -53,6 +56,25 @@ inline bool sees_structure(const Experiment& experiment) {
     });
     return (images && std::isfinite(experiment.sample.particle_radius)) ||
            (has_moduli(experiment) && std::isfinite(experiment.sample.normal_stiffness));
+}
+
+/// What changes every row alike is told from a material that nobody has a model of only where tables differ in gap or plate.
+inline bool shows_geometry(const Experiment& experiment) {
+    if (experiment.material.kind != MaterialKind::smooth) {
+        return true;
+    }
+    std::set<double> all;
+    for (const Measurement& table : experiment.measurements) {
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            const auto in_row = [&](const char* name) {
+                const Column* column = find_column(table, name);
+                return column == nullptr ? unset : column->values[row];
+            };
+            all.insert(tool_constants(experiment.instrument, in_row("gap"), in_row("plate_radius"), table.cone_angle)
+                           .torque_per_modulus());
+        }
+    }
+    return !all.empty() && *all.rbegin() > 1.05 * *all.begin();
 }
 
 inline bool knows_frequency(const Experiment& experiment) {

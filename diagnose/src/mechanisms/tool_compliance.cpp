@@ -10,7 +10,7 @@ Mechanism tool_compliance() {
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return modulus / (1.0 + values[0] * row.torque_per_modulus * modulus);
             }},
-            .applies = knows_tool};
+            .applies = [](const Experiment& experiment) { return knows_tool(experiment) && shows_geometry(experiment); }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

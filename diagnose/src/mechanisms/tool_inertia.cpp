@@ -6,7 +6,7 @@ Mechanism tool_inertia() {
     return {.name = "tool-inertia",
             .term = "the inertia of the tool is larger than the instrument corrects",
             .signature = "shifts the storage modulus by the square of the frequency and never the loss modulus",
-            .parameters = {{"inertia", "kg.m2", 1e-9, 1e-4, true}},
+            .parameters = {{"inertia", "kg.m2", 1e-9, 1e-3, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 const double frequency = row.angular_frequency;
                 return std::isfinite(frequency) ? modulus - values[0] * frequency * frequency / row.torque_per_modulus : modulus;

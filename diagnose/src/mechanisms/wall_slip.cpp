@@ -42,7 +42,7 @@ Mechanism wall_slip() {
             .signature = "the apparent modulus is the lower the stiffer the sample and the smaller the gap",
             .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true}},
             .effect = ChangesGeometry{slipping},
-            .applies = knows_walls};
+            .applies = [](const Experiment& experiment) { return knows_walls(experiment) && shows_geometry(experiment); }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -13,9 +13,8 @@ namespace {
 constexpr std::size_t fewest_shared = 3;
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-bool has_moduli(MeasurementKind kind) {
-    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
-           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series;
+bool can_be_repeated(MeasurementKind kind) {
+    return has_moduli(kind) && kind != MeasurementKind::structure_series;
 }
 
 /// Median of a column; NaN without one.
@@ -108,7 +107,7 @@ using Group = std::vector<const Measurement*>;
 std::vector<Group> group(const std::vector<Measurement>& measurements) {
     std::vector<Group> groups;
     for (const Measurement& table : measurements) {
-        if (!has_moduli(table.kind) || axis_of(table) == nullptr) {
+        if (!can_be_repeated(table.kind) || axis_of(table) == nullptr) {
             continue;
         }
         const auto found =

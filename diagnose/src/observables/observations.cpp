@@ -221,11 +221,6 @@ std::vector<Observation> seen_in_images(const Experiment& experiment, std::size_
 
 }  // namespace
 
-bool has_moduli(MeasurementKind kind) {
-    return kind == MeasurementKind::frequency_sweep || kind == MeasurementKind::amplitude_sweep ||
-           kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
-}
-
 const char* observable_of(const Observation& observation) {
     if (std::isfinite(observation.distance)) {
         return "neighbours";

@@ -51,9 +51,6 @@ struct Observation {
     double pore_radius = unset;  ///< [m]
 };
 
-/// Whether tables of this kind hold G' or G''.
-bool has_moduli(MeasurementKind kind);
-
 /// "storage_modulus", "loss_modulus", "third_harmonic_storage", "third_harmonic_loss", "neighbours", "exclusion_probability",
 /// "localisation_plane", "localisation_axis" or "unmatched_share".
 const char* observable_of(const Observation& observation);

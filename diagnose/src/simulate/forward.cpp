@@ -25,6 +25,15 @@ Settings of_material(Settings settings) {
     return settings;
 }
 
+/// Of a viscosity of 1 Pa.s.
+Eigen::VectorXcd newtonian_moduli(const std::vector<Observation>& observations) {
+    Eigen::VectorXcd moduli(static_cast<Index>(observations.size()));
+    for (Index row = 0; row < moduli.size(); ++row) {
+        moduli[row] = Complex(0, observations[static_cast<std::size_t>(row)].angular_frequency);
+    }
+    return moduli;
+}
+
 /// Those mechanisms that change the material.
 std::vector<ActingMechanism> acting_on_material(const Model& model) {
     std::vector<ActingMechanism> some;
@@ -59,6 +68,9 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
       simulator_(simulator),
       largest_strains_before_(largest_strains_before()) {
     check_structure_series(experiment_, observations_);
+    if (experiment_.material.kind == MaterialKind::smooth) {
+        smooth_.emplace(observations_, experiment_.material.ages);
+    }
 }
 
 /// Under plates or a cone, by a tool.
@@ -104,9 +116,32 @@ Complex Forward::linear_response(const Settings& settings, const Observation& ob
     return response;
 }
 
-/// G* of the material at every observation for a normal stiffness of 1 N/m, to which it is proportional; of a fluid, and third
-/// harmonics over the first, as they are. The mean over the structures, then with each error in how they yield.
+/// G* of the material at every observation for a scale of 1, to which it is proportional; of a fluid as it is. The most probable
+/// one, then with one standard error of each thing that is open about it.
 Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
+    Eigen::MatrixXcd all;
+    switch (experiment_.material.kind) {
+        case MaterialKind::network:
+            all = network(model, exact);
+            break;
+        case MaterialKind::newtonian:
+            all = newtonian_moduli(observations_);
+            break;
+        case MaterialKind::smooth:
+            all = smooth_->moduli(smooth_->start());
+            break;
+    }
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        if (const Observation& observation = observations_[k]; is_fluid(observation)) {
+            all.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * observation.angular_frequency));
+        }
+    }
+    return all;
+}
+
+/// For a normal stiffness of 1 N/m; third harmonics over the first as they are. The mean over the structures, then with each error
+/// in how they yield and are dragged on.
+Eigen::MatrixXcd Forward::network(const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const SimulatedSample sample{experiment_, simulator_, settings, exact};
     const std::map<std::size_t, double> linear = linear_moduli(settings, exact);
@@ -128,11 +163,6 @@ Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
         const Index columns = all.cols();
         all.conservativeResize(Eigen::NoChange, columns + moved.cols());
         all.rightCols(moved.cols()) = moved;
-    }
-    for (std::size_t k = 0; k < observations_.size(); ++k) {
-        if (const Observation& observation = observations_[k]; is_fluid(observation)) {
-            all.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * observation.angular_frequency));
-        }
     }
     return all;
 }
@@ -190,8 +220,8 @@ Eigen::VectorXd Forward::seen(const Model& model, const Eigen::VectorXcd& moduli
         } else if (!is_modulus(observation)) {
             predicted[i] = seen_of_structure(settings, observation, exact);
         } else {
-            const double stiffness = is_fluid(observation) ? 1.0 : settings.normal_stiffness;
-            const Complex modulus = seen_by_instrument(model, k, stiffness * moduli[i]);
+            const double scale = scales(observation) ? settings.normal_stiffness : 1.0;
+            const Complex modulus = seen_by_instrument(model, k, scale * moduli[i]);
             predicted[i] = observation.loss ? modulus.imag() : modulus.real();
         }
     }
@@ -222,8 +252,25 @@ double Forward::degrees_of_errors(const Settings& settings, bool any) const {
 }
 
 Prediction Forward::prediction(const Model& model) const {
-    constexpr double step = 1e-5;
     const Eigen::MatrixXcd& moduli = remembered_material(model, false);
+    if (!smooth_) {
+        return prediction_of(model, moduli, degrees_of_errors(model.simulated(), moduli.cols() > 1));
+    }
+    // About the material that this instrument asks for: most instruments show it in proportion, slip and compliance nearly so.
+    constexpr int rounds = 2;
+    Eigen::VectorXd place = smooth_->start();
+    Prediction about = prediction_of(model, moduli, SmoothMaterial::degrees);
+    for (int round = 0; round < rounds; ++round) {
+        place = smooth_->best(place, about.values, about.errors.changes);
+        about = prediction_of(model, smooth_->moduli(place), SmoothMaterial::degrees);
+    }
+    about.values -= about.errors.changes * place;
+    return about;
+}
+
+/// @param moduli of the material, then with each of its errors. @param degrees of freedom of these.
+Prediction Forward::prediction_of(const Model& model, const Eigen::MatrixXcd& moduli, double degrees) const {
+    constexpr double step = 1e-5;
     const Eigen::VectorXd mean = seen(model, moduli.col(0), false);
     // What neither geometry nor tool change is in proportion to the modulus of the material.
     const bool plain = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
@@ -238,11 +285,14 @@ Prediction Forward::prediction(const Model& model) const {
     for (Index error = 0; error < changes.cols(); ++error) {
         changes.col(error) = seen(model, moduli.col(error + 1), false) - mean;
     }
-    return {mean, std::move(level_slope), {std::move(changes), degrees_of_errors(model.simulated(), moduli.cols() > 1)}};
+    return {mean, std::move(level_slope), {std::move(changes), degrees}};
 }
 
 Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {
     Eigen::VectorXd deviation = Eigen::VectorXd::Zero(values.size());
+    if (experiment_.structure_groups.empty()) {
+        return deviation;
+    }
     const Eigen::VectorXd base = predict(Model{});
     std::vector<double> ratios;
     for (Index row = 0; row < values.size(); ++row) {

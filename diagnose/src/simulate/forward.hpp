@@ -8,6 +8,7 @@
 
 #include "noise/prediction.hpp"
 #include "observables/observations.hpp"
+#include "smooth_material.hpp"
 
 #include <Eigen/Core>
 
@@ -46,7 +47,22 @@ public:
     Eigen::VectorXd structure_deviation(const Eigen::VectorXd& values) const;
 
     /// The same for the level of all other rows, relative to it.
-    double level_error() const { return simulator_.structure_error(); }
+    double level_error() const { return experiment_.material.kind == MaterialKind::network ? simulator_.structure_error() : 0.0; }
+
+    /// The prediction where its own errors are those that data ask for: of a smooth material, which is nothing but what data show;
+    /// else as it is.
+    /// @param effects most probable ones of samples, then errors of the prediction.
+    Eigen::VectorXd fitted(const Prediction& prediction, const Eigen::VectorXd& effects) const {
+        const Eigen::MatrixXd& changes = prediction.errors.changes;
+        return smooth_ ? Eigen::VectorXd(prediction.values + changes * effects.tail(changes.cols())) : prediction.values;
+    }
+
+    bool is_smooth() const { return smooth_.has_value(); }
+
+    /// Whether an observation is in proportion to the stiffness of the particles, or to the viscosity of a Newtonian material.
+    bool scales(const Observation& observation) const {
+        return is_modulus(observation) && !is_fluid(observation) && experiment_.material.kind != MaterialKind::smooth;
+    }
 
 private:
     std::complex<double> seen_by_instrument(const Model& model, std::size_t number, std::complex<double> modulus) const;
@@ -65,7 +81,9 @@ private:
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
     std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
     Eigen::MatrixXcd material(const Model& model, bool exact) const;
+    Eigen::MatrixXcd network(const Model& model, bool exact) const;
     Eigen::MatrixXcd moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const;
+    Prediction prediction_of(const Model& model, const Eigen::MatrixXcd& moduli, double degrees) const;
     double degrees_of_errors(const Settings& settings, bool any) const;
     const Eigen::MatrixXcd& remembered_material(const Model& model, bool exact) const;
     Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
@@ -74,6 +92,7 @@ private:
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
     std::vector<double> largest_strains_before_;
+    std::optional<SmoothMaterial> smooth_;
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
     mutable std::vector<ActingMechanism> last_acting_;

@@ -38,9 +38,9 @@ mechanics::LinearResponse solve(const Packing& packing, const ContactNetwork& bo
 Simulator::Simulator(std::vector<Packing> structures, std::vector<std::string> names, SimulationCache& cache,
                      const Progress& progress, std::vector<std::size_t> groups)
     : Simulator(Structures(std::move(structures)), std::move(names), cache, progress, std::move(groups), 0) {
-    require(structures_.size() > 0 && structures_.size() == names_.size(), "a diagnosis needs at least one structure");
+    require(structures_.size() == names_.size(), "every structure must have a name");
     require(groups_.empty() || groups_.size() == structures_.size(), "every structure must belong to a group, or none");
-    radius_ = mean_radius(structures_[0]);
+    radius_ = structures_.size() > 0 ? mean_radius(structures_[0]) : 0;
 }
 
 Simulator::Simulator(Structures structures, std::vector<std::string> names, SimulationCache& cache, Progress progress,

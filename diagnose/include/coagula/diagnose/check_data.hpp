@@ -20,6 +20,8 @@ struct DataCheckOptions {
     /// Parts of the rows above which what fails is not single cells: the order of the rows, the relation between two columns.
     double most_out_of_order = 0.1;
     double most_failing = 0.5;
+    /// Tables of oscillations need the loss modulus only.
+    bool liquid = false;
 };
 
 /// What a relation between columns of a table says.

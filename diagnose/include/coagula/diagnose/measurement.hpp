@@ -30,6 +30,8 @@ enum class MeasurementKind {
 std::string_view name_of(MeasurementKind kind);
 std::optional<MeasurementKind> measurement_kind(std::string_view name);
 std::span<const MeasurementKind> all_measurement_kinds();
+/// Whether tables of this kind hold G' or G''.
+bool has_moduli(MeasurementKind kind);
 
 /// A column that a table may have.
 struct Quantity {
@@ -114,6 +116,23 @@ struct Sample {
     bool sheared_before = false;            ///< every run follows a shear that destroyed the structure
 };
 
+/// What stands for the sample.
+enum class MaterialKind {
+    network,    ///< simulated structures of bonded particles
+    newtonian,  ///< G* = i w eta
+    smooth,     ///< no model: any smooth G* of what it varies with
+};
+/// "network", "newtonian", "smooth".
+std::string_view name_of(MaterialKind kind);
+std::optional<MaterialKind> material_kind(std::string_view name);
+
+struct Material {
+    MaterialKind kind = MaterialKind::network;
+    double viscosity = unset;        ///< of a Newtonian one, where it is known [Pa.s]
+    double viscosity_error = unset;  ///< standard deviation of its logarithm
+    bool ages = false;               ///< a smooth one varies with its age, too
+};
+
 enum class Geometry { plate_plate, cone_plate, concentric_cylinders };
 std::string_view name_of(Geometry geometry);
 std::optional<Geometry> geometry(std::string_view name);
@@ -148,6 +167,7 @@ struct StructureRecipe {
 struct Experiment {
     std::string title;
     Sample sample;
+    Material material;
     Instrument instrument;
     std::vector<std::string> structures;  ///< paths of HDF5 files
     /// One per structure: which rows of a structure series it stands for, those with this number in `structure`, from 1; empty: all
@@ -161,5 +181,13 @@ struct Experiment {
 
 /// Throws InputError when sample, instrument and recipe contradict themselves or each other (gap 0, outer radius below inner ...).
 void check(const Experiment& experiment);
+
+/// The one number that scales the moduli of the material, as far as it is known: the normal stiffness of a particle [N/m] or a
+/// viscosity [Pa.s], and the standard deviation of its logarithm; both NaN where nobody knows it.
+struct KnownScale {
+    double value = unset;
+    double error = unset;
+};
+KnownScale known_scale(const Experiment& experiment);
 
 }  // namespace coagula::diagnose

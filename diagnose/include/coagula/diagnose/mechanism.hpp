@@ -84,6 +84,9 @@ struct Mechanism {
 /// All of them. Those of the geometry, and those of the tool, act in this order.
 std::span<const Mechanism> catalogue();
 
+/// Whether a mechanism can be a cause in an experiment: what has no particles has no contacts and no structure.
+bool can_act(const Mechanism& mechanism, const Experiment& experiment);
+
 /// Null when there is none of this name.
 const Mechanism* find_mechanism(const std::string& name);
 

@@ -1,0 +1,11 @@
+// What stands for the sample, checked against the rest of the experiment.
+#pragma once
+
+#include <coagula/diagnose/measurement.hpp>
+
+namespace coagula::diagnose {
+
+/// Throws InputError when something in the experiment needs another material.
+void check_material(const Experiment& experiment);
+
+}  // namespace coagula::diagnose
