@@ -305,6 +305,7 @@ void ExperimentReader::derive_moduli() {
         const bool raw = std::find(raw_moduli_.begin(), raw_moduli_.end(), i) != raw_moduli_.end();
         if (!tables[i].label.ends_with("(planned)")) {
             diagnose::derive_moduli(tables[i], result_.experiment.instrument, raw);
+            diagnose::derive_viscosity(tables[i]);
         }
     }
 }

@@ -25,6 +25,7 @@ PlotAxis axis_named(const std::string& name) {
         {"strain", {"strain amplitude {/Symbol g}_0 [%]", 0.01}},
         {"angular_frequency", {"angular frequency ω [rad/s]", 1.0}},
         {"time", {"time t [s]", 1.0}},
+        {"shear_rate", {"shear rate [1/s]", 1.0}},
         {"gap", {"gap h [mm]", 1e-3}},
         {"heterogeneity", {"degree of heterogeneity a", 1.0}},
         {"coordination", {"coordination number C", 1.0}},
@@ -59,9 +60,12 @@ struct Pair {
     std::string size;     ///< what errors of predictions are measured against
     std::string meaning;  ///< of the points
     double unit = 1;
+
+    /// Moduli and viscosities differ by factors.
+    bool scales() const { return label.empty() || observables.front() == "viscosity"; }
 };
 
-const std::array<Pair, 4> pairs{{
+const std::array<Pair, 5> pairs{{
     {{"storage_modulus", "loss_modulus"}, {"G'", "G''"}, "", "|G*|", "Circles G', triangles G''"},
     {{"third_harmonic_storage", "third_harmonic_loss"},
      {"G_3'", "G_3''"},
@@ -75,6 +79,7 @@ const std::array<Pair, 4> pairs{{
      "share of the void space farther away",
      "the void space",
      "Circles: share of the void space farther from any surface"},
+    {{"viscosity", ""}, {"viscosity", ""}, "viscosity [Pa s]", "the viscosity", "Circles: viscosity in steady flow"},
 }};
 
 /// The rows of one table that belong to a pair, with the place of each along the axis.
@@ -90,7 +95,7 @@ struct Shown {
 Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& diagnosis, const Pair& pair) {
     const diagnose::Column* column = diagnose::axis_of(table);
     Shown shown{.pair = pair, .x = axis_named(column == nullptr ? "" : column->name)};
-    if (pair.label.empty()) {
+    if (pair.scales()) {
         shown.base_factor = factor_of(diagnosis.base_effects, table.sample);
         shown.extended_factor = factor_of(diagnosis.extended_effects, table.sample);
     }
@@ -219,7 +224,7 @@ PlotAxis moduli_axis(const Shown& shown) {
     for (const PredictedRow* row : shown.rows) {
         largest = std::max(largest, row->measured);
     }
-    PlotAxis y = modulus_axis(largest);
+    PlotAxis y = shown.pair.label.empty() ? modulus_axis(largest) : PlotAxis{.label = shown.pair.label};
     for (const PredictedRow* row : shown.rows) {
         const double low = row->measured - row->standard_deviation;
         y.include(low > 0 ? low : row->measured > 0 ? row->measured : not_a_number);
@@ -241,13 +246,14 @@ std::string symbol_of(const std::string& observable) {
     return observable.starts_with("third_harmonic")     ? "the third harmonic"
            : observable == pairs[2].observables.front() ? "the neighbours"
            : observable == pairs[3].observables.front() ? "the pores"
+           : observable == pairs[4].observables.front() ? "the viscosity"
                                                         : "all numbers";
 }
 
 namespace {
 
 std::string draw_pair(Gnuplot& gnuplot, const Measurement& table, const Shown& shown, const std::string& cause) {
-    const PlotAxis y = shown.pair.label.empty() ? moduli_axis(shown) : share_axis(shown);
+    const PlotAxis y = shown.pair.scales() ? moduli_axis(shown) : share_axis(shown);
     const bool both = !cause.empty();
     std::string commands =
         palette + blocks_of(shown, y) + "set multiplot\n" + shown.x.commands("x") + y.commands("y") +

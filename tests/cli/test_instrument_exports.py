@@ -25,18 +25,18 @@ class NewExperiment(ProgramTest):
     def test_rheoplus(self):
         kinds = self.accepted(GELS / "TXT_N2.csv", GELS / "PXP_N1.csv")
         self.assertEqual(kinds[:4], ["time-sweep", "frequency-sweep", "time-sweep", "amplitude-sweep"])
-        self.assertEqual(len(kinds), 21)
+        self.assertEqual(len(kinds), 23)
 
     def test_trios(self):
         self.assertEqual(self.accepted(DATA / "trios_lims_json/multi_technique.txt"), ["amplitude-sweep", "frequency-sweep"])
         text = (self.folder / "e.toml").read_text()
-        self.assertIn("# table 3, 'Flow ramp - 3', 223 rows, is not used: a flow curve, creep or step: there is no storage modulus", text)
+        self.assertIn("# table 3, 'Flow ramp - 3', 223 rows, is not used: flow-curve, but table 3: the rows are in the wrong order", text)
 
     def test_twenty_temperatures(self):
         self.assertEqual(self.accepted(DATA / "trios_lims_json/frequency_sweep_tts.txt"), 20 * ["frequency-sweep"])
 
     def test_rheowin_with_blanks_in_its_name(self):
-        self.assertEqual(self.accepted(DATA / "haake_rheowin_pt/Ur5-2 conjunto   20.45.21 2018-02-28.txt"), ["frequency-sweep"])
+        self.assertEqual(self.accepted(DATA / "haake_rheowin_pt/Ur5-2 conjunto   20.45.21 2018-02-28.txt"), ["frequency-sweep", "flow-curve"])
 
     def test_rheocompass_in_german(self):
         self.assertEqual(self.accepted(DATA / "cement_laos/SAOS_0.55_250.csv", DATA / "cement_laos/LAOS_0.55_250_3.csv"),
@@ -44,17 +44,22 @@ class NewExperiment(ProgramTest):
 
     def test_old_workbook(self):
         kinds = self.accepted(DATA / "rheofit_flow/trios_xls/10sle1s_85castoroil-3.xls")
-        self.assertEqual(kinds, ["amplitude-sweep"])
+        self.assertEqual(kinds, ["amplitude-sweep", "flow-curve"])
         taken = {value["name"]: value for value in self.succeed_json("diagnose", "--check", "e.toml")["taken_over"]}
         self.assertEqual((taken["inner_radius"]["value"], taken["inner_radius"]["unit"]), (0.014, "m"))
         self.assertEqual({value["fate"] for value in taken.values()}, {"taken over"})
 
     def test_what_cannot_be_diagnosed_is_said(self):
-        self.succeed("diagnose", "--new", LINSEED, "-o", "e.toml")
+        creep = DATA / "trios_lims_json/creep_experiment.txt"
+        self.succeed("diagnose", "--new", creep, "-o", "e.toml")
         text = (self.folder / "e.toml").read_text()
         self.assertIn("None of these tables can be diagnosed", text)
         self.fail_with(2, "diagnose", "--check", "e.toml", says="there is no measurement")
-        self.fail_with(2, "diagnose", "--new", LINSEED, "-o", "e.toml", says="e.toml")  # is there already
+        self.fail_with(2, "diagnose", "--new", creep, "-o", "e.toml", says="e.toml")  # is there already
+
+    def test_flow_curves_are_of_an_oil(self):
+        self.assertEqual(self.accepted(LINSEED), 12 * ["flow-curve"])
+        self.assertIn('\nkind = "newtonian"', (self.folder / "e.toml").read_text())
 
     def test_prints_without_a_file_to_write(self):
         printed = self.succeed("diagnose", "--new", JAPANESE)

@@ -73,7 +73,7 @@ class Oil(Tables):
         found = self.diagnosis(self.gap_series(3e-5, ""))
         members = {name for cause in found["causes"] for name in cause["name"].split(" + ")}
         self.assertLessEqual(members, {"base", "none of the catalogue", "gap-error", "wall-slip", "tool-compliance", "tool-inertia",
-                                       "bearing-damping", "phase-offset"})
+                                       "bearing-damping", "phase-offset", "torque-offset"})
         self.assertFalse((self.folder / "results" / "extended_model.toml").exists())
 
     def test_refusals(self):
@@ -153,6 +153,69 @@ class RealExports(Tables):
         material's does; what is found is 3 % larger."""
         inertia = self.inertia("rheodata_toolkit/ta_trios_xls/mixed_test_types/Copy of JeT_5k100-5k100_100mgml_amp_frq_swp_672017 copy.xls")
         self.assertAlmostEqual(inertia["value"] / 25.7e-6, 1, delta=0.05)
+
+
+class FlowCurves(Tables):
+    """Viscosity against shear rate in steady flow."""
+
+    RADIUS = 25e-3
+
+    def curves(self, gap_error=0.0, damping=0.0, offset=0.0, heads=("shear_rate [1/s]", "viscosity [Pa.s]")):
+        number = random.Random(2)
+        text = (f'[material]\nkind = "newtonian"\n\n[instrument]\ngeometry = "plate-plate"\nplate_radius = {self.RADIUS}\ngap = 1e-3\n\n'
+                + NOISE)
+        for place, gap in enumerate((0.1e-3, 0.2e-3, 0.4e-3, 0.8e-3, 1.6e-3)):
+            viscosity = gap / (gap + gap_error) + damping * 2 * gap / (math.pi * self.RADIUS**4)
+            rows = []
+            for rate in (10**(k / 4 - 1) for k in range(13)):
+                shown = (viscosity + offset / rate) * (1 + number.gauss(0, 0.01))
+                rows.append((rate, shown * (rate if "stress" in heads[1] else 1)))
+            self.table(f"flow{place}.csv", heads, rows)
+            text += (f'[[measurement]]\nkind = "flow-curve"\nfile = "flow{place}.csv"\nsample = "oil"\nrun_order = {place}\n'
+                     f"values = {{ gap = {gap} }}\n\n")
+        return text
+
+    def test_of_an_oil_tell_a_wrong_gap(self):
+        for heads in (("shear_rate [1/s]", "viscosity [Pa.s]"), ("shear_rate [1/s]", "stress [Pa]")):
+            found = self.diagnosis(self.curves(gap_error=3e-5, heads=heads))
+            self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["gap-error"]))
+            parameters = found["causes"][0]["parameters"]
+            self.assertTrue(parameters["gap_error"]["low"] < 3e-5 < parameters["gap_error"]["high"])
+            self.assertTrue(parameters["viscosity"]["low"] < 1 < parameters["viscosity"]["high"])
+            self.assertEqual({row["observable"] for row in found["rows"]}, {"viscosity"})
+
+    def test_show_what_the_bearing_brakes(self):
+        found = self.diagnosis(self.curves(damping=5e-5))
+        damping = found["causes"][0]["parameters"]["damping"]
+        self.assertIn("bearing-damping", found["credible_set"])
+        self.assertTrue(damping["low"] < 5e-5 < damping["high"], damping)
+
+    def test_of_a_network_are_refused(self):
+        self.refuse(self.curves().replace('kind = "newtonian"', 'kind = "network"', 1), "flow0.csv", "flow curve", "newtonian or smooth")
+        self.refuse(self.curves(heads=("shear_rate [1/s]", "torque [N.m]")), "flow0.csv", "'viscosity'")
+
+    def test_of_linseed_oil_show_a_torque_that_stays(self):
+        """The lowest rates ask for 5 nN.m, of which a quarter of a millipascal stays; the viscosity is 36.7 mPa.s at 35 degrees."""
+        name = "Steady State Viscosity Curve-35C.csv"
+        shutil.copy(Path(os.environ["COAGULA_DATASETS"]) / "rheodata_toolkit/anton_paar/gwens_data" / name, self.folder / "oil.csv")
+        text = '[material]\nkind = "newtonian"\n\n[noise]\nstated_floor = {}\n\n[[measurement]]\nkind = "flow-curve"\nfile = "oil.csv"\ntable = 11\n'
+        found = self.diagnosis(text.format(0))
+        where = found["where"][0]
+        self.assertEqual((where["observable"], where["axis"]), ("viscosity", "shear_rate"))
+        self.assertLess(where["from"], 0.05)
+        self.assertEqual(found["credible_set"], ["torque-offset"])
+        parameters = found["causes"][0]["parameters"]
+        self.assertTrue(parameters["viscosity"]["low"] < 0.0367 < parameters["viscosity"]["high"], parameters)
+        self.assertTrue(1e-4 < parameters["stress_offset"]["value"] < 4e-4, parameters)
+        self.assertFalse(self.diagnosis(text.format(2e-4))["detected"])  # a floor explains it, too
+
+    def test_show_a_torque_that_stays(self):
+        for offset in (0.02, -0.02):
+            text = self.curves(offset=offset)
+            found = self.diagnosis(text)
+            self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["torque-offset"]))
+            stress = found["causes"][0]["parameters"]["stress_offset"]
+            self.assertTrue(stress["low"] < offset < stress["high"], stress)
 
 
 if __name__ == "__main__":

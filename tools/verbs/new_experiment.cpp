@@ -25,6 +25,7 @@ using diagnose::MeasurementKind;
 
 constexpr double varies_from = 1.2;      // largest over smallest value; set points that an instrument holds vary less
 constexpr double ramp_from = 5;          // K
+constexpr std::size_t long_table = 40;   // rows, from which on some can be left out
 constexpr double gap_series_from = 1.5;  // a gap that follows the sample varies less
 
 /// The numbers of a column in rows that have a storage modulus, or in all rows where none has.
@@ -98,6 +99,12 @@ RecognisedTable by_columns(const io::PlainTable& plain, const Measurement& table
         return with_axis(MeasurementKind::harmonics, table, "strain");
     }
     if (!has(table, "storage_modulus")) {
+        // In a creep the rate falls, but the stress stays.
+        const bool flows = has(table, "viscosity") || has(table, "stress");
+        const bool creeps = has(table, "stress") && spread(table, "stress") < varies_from;
+        if (flows && !creeps && spread(table, "shear_rate") > varies_from) {
+            return with_axis(MeasurementKind::flow_curve, table, "shear_rate");
+        }
         return {std::nullopt, other_test(plain)};
     }
     for (const char* axis : {"heterogeneity", "coordination", "volume_fraction"}) {
@@ -163,10 +170,10 @@ public:
             comment("Lines that begin with # are suggestions: remove the # of those that hold. All keys: docs/experiment-file.md.");
         text_ +=
             "\n[sample]\n# particle_radius = \"0.25 um\"    # these three are needed to simulate a network of particles\n"
-            "# volume_fraction = 0.4\n# solvent_viscosity = \"1 mPa.s\"\n\n[material]\n"
-            "# kind = \"newtonian\"    # an oil, of viscosity = \"1 Pa.s\" where it is known; no particles, no structures\n"
-            "# kind = \"smooth\"    # any sample: what the instrument does to it is diagnosed, no particles, no structures\n"
-            "\n[instrument]\n";
+            "# volume_fraction = 0.4\n# solvent_viscosity = \"1 mPa.s\"\n";
+        write_material(files);
+        every_ = thinned(files);
+        text_ += "\n[instrument]\n";
         write_instrument(files);
         for (const RecognisedFile& file : files) {
             write_file(file);
@@ -178,6 +185,41 @@ public:
     }
 
 private:
+    /// Two numbers a row: with every so many of the rows of long tables there are not too many.
+    static std::size_t thinned(const std::vector<RecognisedFile>& files) {
+        constexpr std::size_t most = 2500;
+        std::size_t few = 0;
+        std::size_t many = 0;
+        for (const RecognisedFile& file : files) {
+            std::size_t number = 0;
+            for (const io::PlainTable& table : file.file.tables) {
+                if (table.point == 0 && file.tables[number++].kind) {
+                    (table.rows() > long_table ? many : few) += 2 * table.rows();
+                }
+            }
+        }
+        return few + many <= most || few >= most ? 1 : (many + most - few - 1) / (most - few);
+    }
+
+    /// No network flows; what only flows may be an oil.
+    void write_material(const std::vector<RecognisedFile>& files) {
+        bool flows = false;
+        bool oscillates = false;
+        for (const RecognisedFile& file : files) {
+            for (const RecognisedTable& table : file.tables) {
+                flows = flows || table.kind == MeasurementKind::flow_curve;
+                oscillates = oscillates || (table.kind && *table.kind != MeasurementKind::flow_curve);
+            }
+        }
+        const auto mark = [](bool active) { return active ? "" : "# "; };
+        text_ += "\n[material]\n";
+        text_ += std::string(mark(flows && !oscillates)) +
+                 "kind = \"newtonian\"    # an oil, of viscosity = \"1 Pa.s\" where it is known; no structures\n";
+        text_ += std::string(mark(flows && oscillates)) +
+                 "kind = \"smooth\"    # any sample: what the instrument does to it is diagnosed, no structures\n";
+        text_ += flows && oscillates ? "# kind = \"network\"    # of particles: without the flow curves\n" : "";
+    }
+
     /// What the exports say is taken over by itself; the lines are there to be seen and changed.
     void write_instrument(const std::vector<RecognisedFile>& files) {
         std::map<std::string, std::string> lines;
@@ -222,6 +264,10 @@ private:
         text_ += "file = " + quoted(fs::proximate(file.path, folder_).string()) + "\n";
         text_ += (several ? "table = " + std::to_string(table.number) + "    " : "") + comment(name_of_table(table));
         text_ += "sample = " + quoted(sample) + "    # tables of one sample share its name\n";
+        if (every_ > 1 && table.rows() > long_table) {
+            text_ += "rows = [1, " + std::to_string(table.rows()) + ", " + std::to_string(every_) +
+                     "]    # every so many: a diagnosis takes 3000 numbers at most\n";
+        }
         const int order = ++runs_[sample];
         text_ += order > 1 ? "run_order = " + std::to_string(order - 1) + "    # it follows those above\n" : "";
         const std::string known = list_of(understood(table));
@@ -238,6 +284,7 @@ private:
     std::string folder_;
     std::string text_;
     std::map<std::string, int> runs_;  // of a sample so far
+    std::size_t every_ = 1;            // row of a long table is used
 };
 
 }  // namespace

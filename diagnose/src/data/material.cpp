@@ -38,6 +38,20 @@ KnownScale known_scale(const Experiment& experiment) {
     }
 }
 
+void derive_viscosity(Measurement& table) {
+    const Column* rate = find_column(table, "shear_rate");
+    const Column* stress = find_column(table, "stress");
+    if (table.kind != MeasurementKind::flow_curve || rate == nullptr || stress == nullptr ||
+        find_column(table, "viscosity") != nullptr) {
+        return;
+    }
+    Column viscosity{"viscosity", "Pa.s", {}};
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        viscosity.values.push_back(rate->values[row] == 0 ? unset : stress->values[row] / rate->values[row]);
+    }
+    table.columns.push_back(std::move(viscosity));
+}
+
 void check_material(const Experiment& experiment) {
     if (experiment.material.viscosity <= 0) {
         throw InputError("material.viscosity is " + to_text(experiment.material.viscosity) + " Pa.s, but must be > 0");
@@ -46,6 +60,13 @@ void check_material(const Experiment& experiment) {
         throw InputError("material.viscosity_error is " + to_text(error) + ", but must lie between 0 and 1");
     }
     if (experiment.material.kind == MaterialKind::network) {
+        for (const Measurement& table : experiment.measurements) {
+            if (table.kind == MeasurementKind::flow_curve && std::isnan(table.fluid_viscosity)) {
+                throw InputError(table.label +
+                                 " is a flow curve, which no simulated network of particles stands for: set kind in [material] to "
+                                 "newtonian or smooth, or fluid_viscosity of an oil in the measurement");
+            }
+        }
         return;
     }
     if (!experiment.structures.empty() || experiment.recipe) {
@@ -55,7 +76,8 @@ void check_material(const Experiment& experiment) {
         refuse(experiment, "sample.normal_stiffness is given");
     }
     for (const Measurement& table : experiment.measurements) {
-        if (!has_moduli(table.kind) || table.kind == MeasurementKind::structure_series) {
+        const bool flows = table.kind == MeasurementKind::flow_curve;
+        if (!flows && (!has_moduli(table.kind) || table.kind == MeasurementKind::structure_series)) {
             refuse(experiment, table.label + " is a table of kind " + std::string(name_of(table.kind)));
         }
     }

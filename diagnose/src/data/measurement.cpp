@@ -14,12 +14,13 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-constexpr std::array<std::pair<MeasurementKind, std::string_view>, 9> kind_names = {
+constexpr std::array<std::pair<MeasurementKind, std::string_view>, 10> kind_names = {
     {{MeasurementKind::frequency_sweep, "frequency-sweep"},
      {MeasurementKind::amplitude_sweep, "amplitude-sweep"},
      {MeasurementKind::time_sweep, "time-sweep"},
      {MeasurementKind::waveform, "waveform"},
      {MeasurementKind::harmonics, "harmonics"},
+     {MeasurementKind::flow_curve, "flow-curve"},
      {MeasurementKind::gap_series, "gap-series"},
      {MeasurementKind::structure_series, "structure-series"},
      {MeasurementKind::coordinates, "coordinates"},
@@ -56,6 +57,8 @@ constexpr std::array quantities = {
     Quantity{"angular_frequency", "rad/s", 0, true, infinite, "2 pi times the frequency"},
     Quantity{"frequency", "Hz", 0, true, infinite, "cycles per second"},
     Quantity{"complex_viscosity", "Pa.s", 0, false, infinite, "|G*| over the angular frequency"},
+    Quantity{"shear_rate", "1/s", 0, true, infinite, "of steady flow"},
+    Quantity{"viscosity", "Pa.s", 0, true, infinite, "stress over shear rate in steady flow"},
     Quantity{"torque", "N.m", -infinite, false, infinite, "amplitude"},
     Quantity{"deflection", "rad", -infinite, false, infinite, "angle of the tool: amplitude"},
     Quantity{"normal_force", "N", -infinite, false, infinite, "on the tool, pushing is positive"},
@@ -250,6 +253,8 @@ TableRule rule_of(MeasurementKind kind) {
             return {{"time"}, {"strain", "stress"}, 16, true};
         case MeasurementKind::harmonics:
             return {{"strain"}, {"third_harmonic_storage"}, 4, true};
+        case MeasurementKind::flow_curve:
+            return {{"shear_rate"}, {"viscosity"}, 5, true};
         case MeasurementKind::gap_series:
             return {{"gap"}, {"storage_modulus"}, 4, true};
         case MeasurementKind::structure_series:

@@ -133,7 +133,8 @@ void derive_moduli(Measurement& table, const Instrument& instrument, bool raw) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const bool divides = cell(table, polar.divisor, row) != 0;
         const double phase = polar.phase(row);  // an impossible one is left out by the check
-        moduli.push_back(divides && std::abs(phase) <= pi ? std::polar(1.0, phase) * polar.size(row) : std::complex(unset, unset));
+        moduli.push_back(divides && std::abs(phase) <= 2 * pi ? std::polar(1.0, phase) * polar.size(row)
+                                                              : std::complex(unset, unset));
         if (!divides) {
             table.left_out.push_back({polar.divisor, row, "0", "must not be 0: the moduli are divided by it"});
         }

@@ -223,17 +223,24 @@ Eigen::ArrayXd standardised(const Eigen::ArrayXd& values) {
 }  // namespace
 
 std::span<const Coordinate> all_coordinates() {
-    static constexpr std::array all{Coordinate::strain,       Coordinate::angular_frequency, Coordinate::time,
-                                    Coordinate::gap,          Coordinate::plate_radius,      Coordinate::heterogeneity,
-                                    Coordinate::coordination, Coordinate::volume_fraction,   Coordinate::distance,
+    static constexpr std::array all{Coordinate::strain,
+                                    Coordinate::angular_frequency,
+                                    Coordinate::shear_rate,
+                                    Coordinate::time,
+                                    Coordinate::gap,
+                                    Coordinate::plate_radius,
+                                    Coordinate::heterogeneity,
+                                    Coordinate::coordination,
+                                    Coordinate::volume_fraction,
+                                    Coordinate::distance,
                                     Coordinate::pore_radius};
     return all;
 }
 
 const char* name_of(Coordinate coordinate) {
-    constexpr std::array<const char*, 11> names{"strain",       "angular_frequency", "time",         "gap",
-                                                "plate_radius", "heterogeneity",     "coordination", "volume_fraction",
-                                                "distance",     "pore_radius",       "none"};
+    constexpr std::array<const char*, 12> names{
+        "strain",        "angular_frequency", "shear_rate",      "time",     "gap",         "plate_radius",
+        "heterogeneity", "coordination",      "volume_fraction", "distance", "pore_radius", "none"};
     return names.at(static_cast<std::size_t>(coordinate));
 }
 
@@ -243,6 +250,8 @@ double coordinate_of(const Observation& observation, Coordinate coordinate) {
             return observation.strain;
         case Coordinate::angular_frequency:
             return observation.angular_frequency;
+        case Coordinate::shear_rate:
+            return observation.shear_rate;
         case Coordinate::time:
             return observation.time;
         case Coordinate::gap:

@@ -14,6 +14,7 @@ namespace coagula::diagnose {
 enum class Coordinate {
     strain,
     angular_frequency,
+    shear_rate,
     time,
     gap,
     plate_radius,

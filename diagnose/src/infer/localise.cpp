@@ -26,6 +26,8 @@ std::string value_text(double value, Coordinate coordinate) {
             return three_digits(100 * value) + " %";
         case Coordinate::angular_frequency:
             return three_digits(value) + " rad/s";
+        case Coordinate::shear_rate:
+            return three_digits(value) + " 1/s";
         case Coordinate::time:
             return three_digits(value) + " s";
         case Coordinate::gap:
@@ -49,6 +51,9 @@ std::string spoken(const std::string& observable) {
     }
     if (observable.starts_with("third_harmonic")) {
         return observable.ends_with("loss") ? "the viscous part of the third harmonic" : "the elastic part of the third harmonic";
+    }
+    if (observable == "viscosity") {
+        return "the viscosity";
     }
     return observable == "loss_modulus" ? "G''" : "G'";
 }

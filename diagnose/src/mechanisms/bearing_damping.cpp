@@ -11,11 +11,13 @@ Mechanism bearing_damping() {
                 "less under a larger plate",
             .parameters = {{"damping", "N.m.s", 1e-9, 1e-4, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
-                const double frequency = row.angular_frequency;
+                const double frequency = is_steady(row) ? 1 : row.angular_frequency;
                 return std::isfinite(frequency) ? modulus + std::complex<double>(0, values[0] * frequency / row.torque_per_modulus)
                                                 : modulus;
             }},
-            .applies = knows_tool_and_frequencies};
+            .applies = [](const Experiment& experiment) {
+                return knows_tool(experiment) && (knows_frequency(experiment) || flows(experiment));
+            }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -25,6 +25,7 @@
     ENTRY(tool_inertia)             \
     ENTRY(bearing_damping)          \
     ENTRY(phase_offset)             \
+    ENTRY(torque_offset)            \
     ENTRY(numerical)                \
     ENTRY(localisation_error)       \
     ENTRY(polydispersity)           \

@@ -23,7 +23,8 @@ inline bool any_measurement(const Experiment& experiment, bool (*holds)(const Me
 /// Some table has moduli.
 inline bool has_moduli(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) {
-        return find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr;
+        return find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr ||
+               find_column(table, "viscosity") != nullptr;
     });
 }
 
@@ -81,6 +82,10 @@ inline bool knows_frequency(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) {
         return find_column(table, "angular_frequency") != nullptr || find_column(table, "frequency") != nullptr;
     });
+}
+
+inline bool flows(const Experiment& experiment) {
+    return any_measurement(experiment, [](const Measurement& table) { return table.kind == MeasurementKind::flow_curve; });
 }
 
 inline bool knows_tool_and_frequencies(const Experiment& experiment) {

@@ -8,8 +8,8 @@ Mechanism phase_offset() {
             .term = "the instrument reads the phase with an offset",
             .signature = "G'' of a stiff solid is a fixed share of G', of either sign, at all frequencies, strains and times",
             .parameters = {{"phase", "rad", -0.02, 0.02, false}},
-            .effect = ChangesTool{[](std::complex<double> modulus, const Observation&, Values values) {
-                return modulus * std::polar(1.0, values[0]);
+            .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
+                return is_steady(row) ? modulus : modulus * std::polar(1.0, values[0]);
             }},
             .applies = [](const Experiment& experiment) {
                 return any_measurement(experiment,

@@ -8,6 +8,9 @@ Mechanism tool_compliance() {
             .signature = "the apparent storage modulus saturates when the sample is stiff",
             .parameters = {{"compliance", "rad/(N.m)", 5e-4, 1e-2, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
+                if (is_steady(row)) {
+                    return modulus;
+                }
                 return modulus / (1.0 + values[0] * row.torque_per_modulus * modulus);
             }},
             .applies = [](const Experiment& experiment) { return knows_tool(experiment) && shows_geometry(experiment); }};

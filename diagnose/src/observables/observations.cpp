@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -79,6 +80,11 @@ constexpr std::array<Shown, 4> shown{{{"storage_modulus", false, false},
                                       {"loss_modulus", true, false},
                                       {"third_harmonic_storage", false, true},
                                       {"third_harmonic_loss", true, true}}};
+constexpr std::array<Shown, 1> shown_of_flow{{{"viscosity", true, false}}};
+
+std::span<const Shown> shown_in(const Measurement& table) {
+    return table.kind == MeasurementKind::flow_curve ? std::span<const Shown>(shown_of_flow) : std::span<const Shown>(shown);
+}
 
 /// The errors of torque and phase at a row whose table states them: as near as can be, G' has the one and G'' the other.
 void take_polar_errors(const Measurement& table, Observation& one) {
@@ -103,6 +109,7 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
     const Column& column = *find_column(table, what.column);
     const bool series = table.kind == MeasurementKind::structure_series;
     const double gap = cell(table, "gap", row);
+    const bool flows = table.kind == MeasurementKind::flow_curve;
     const bool under_cone = std::isfinite(table.cone_angle);
     const double radius = cell(table, "plate_radius", row);
     Observation one{
@@ -112,10 +119,11 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
         .value = column.values[row],
         .standard_error =
             column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset) : column.standard_errors[row],
-        .of_phase = what.loss,
+        .of_phase = what.loss && !flows,
         .strain = cell(table, "strain", row),
         .angular_frequency = angular_frequency(table, row),
         .time = series ? unset : time_in(table, row),
+        .shear_rate = flows ? cell(table, "shear_rate", row) : unset,
         .gap = under_cone ? unset : (std::isnan(gap) ? experiment.instrument.gap : gap),
         .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
         .torque_per_modulus =
@@ -232,6 +240,9 @@ const char* observable_of(const Observation& observation) {
         constexpr std::array names{"localisation_plane", "localisation_axis", "unmatched_share"};
         return names.at(static_cast<std::size_t>(*observation.difference));
     }
+    if (is_steady(observation)) {
+        return shown_of_flow.front().column;
+    }
     return shown.at((observation.third_harmonic ? 2 : 0) + (observation.loss ? 1 : 0)).column;
 }
 
@@ -267,16 +278,18 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
             const std::vector<Observation> pores = pores_in(experiment, k);
             all.insert(all.end(), pores.begin(), pores.end());
         }
-        if (!has_moduli(table.kind) && table.kind != MeasurementKind::harmonics) {
+        const bool flows = table.kind == MeasurementKind::flow_curve;
+        if (!has_moduli(table.kind) && !flows && table.kind != MeasurementKind::harmonics) {
             continue;
         }
-        for (const Shown& what : shown) {
+        for (const Shown& what : shown_in(table)) {
             const Column* column = find_column(table, what.column);
             // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
             const bool fluid = std::isfinite(table.fluid_viscosity);
             const bool takes_part = column != nullptr && (!fluid || (what.loss && !what.third_harmonic));
             for (std::size_t row = 0; takes_part && row < table.rows(); ++row) {
-                if (!std::isfinite(column->values[row]) || (fluid && std::isnan(angular_frequency(table, row)))) {
+                if (!std::isfinite(column->values[row]) || (fluid && !flows && std::isnan(angular_frequency(table, row))) ||
+                    (flows && std::isnan(cell(table, "shear_rate", row)))) {
                     continue;
                 }
                 all.push_back(observation_at(experiment, k, row, what));

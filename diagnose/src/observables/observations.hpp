@@ -29,6 +29,7 @@ struct Observation {
     double strain = unset;              ///< amplitude
     double angular_frequency = unset;   ///< [rad/s]
     double time = unset;                ///< since the first run on the sample [s]
+    double shear_rate = unset;          ///< of steady flow, where the value is a viscosity [Pa.s]; else NaN
     double gap = unset;                 ///< [m]
     double plate_radius = unset;        ///< [m]
     double torque_per_modulus = unset;  ///< torque per deflection over the modulus [m^3]
@@ -51,9 +52,14 @@ struct Observation {
     double pore_radius = unset;  ///< [m]
 };
 
-/// "storage_modulus", "loss_modulus", "third_harmonic_storage", "third_harmonic_loss", "neighbours", "exclusion_probability",
-/// "localisation_plane", "localisation_axis" or "unmatched_share".
+/// "storage_modulus", "loss_modulus", "viscosity", "third_harmonic_storage", "third_harmonic_loss", "neighbours",
+/// "exclusion_probability", "localisation_plane", "localisation_axis" or "unmatched_share".
 const char* observable_of(const Observation& observation);
+
+/// Of steady flow: a viscosity.
+inline bool is_steady(const Observation& observation) {
+    return std::isfinite(observation.shear_rate);
+}
 
 /// Of a Newtonian fluid in place of the sample.
 inline bool is_fluid(const Observation& observation) {

@@ -25,11 +25,12 @@ Settings of_material(Settings settings) {
     return settings;
 }
 
-/// Of a viscosity of 1 Pa.s.
+/// Of a viscosity of 1 Pa.s; that itself in steady flow.
 Eigen::VectorXcd newtonian_moduli(const std::vector<Observation>& observations) {
     Eigen::VectorXcd moduli(static_cast<Index>(observations.size()));
     for (Index row = 0; row < moduli.size(); ++row) {
-        moduli[row] = Complex(0, observations[static_cast<std::size_t>(row)].angular_frequency);
+        const Observation& one = observations[static_cast<std::size_t>(row)];
+        moduli[row] = Complex(0, is_steady(one) ? 1 : one.angular_frequency);
     }
     return moduli;
 }
@@ -133,7 +134,8 @@ Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
     }
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         if (const Observation& observation = observations_[k]; is_fluid(observation)) {
-            all.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * observation.angular_frequency));
+            const double per_viscosity = is_steady(observation) ? 1 : observation.angular_frequency;
+            all.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * per_viscosity));
         }
     }
     return all;

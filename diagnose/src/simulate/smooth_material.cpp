@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -16,8 +17,8 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double elements_per_decade = 3;
-constexpr int bumps = 7;            ///< along strain, or age
-constexpr double wide = 3;           ///< of a coefficient over what the data have there
+constexpr int bumps = 7;           ///< along strain, or age
+constexpr double wide = 3;         ///< of a coefficient over what the data have there
 constexpr double relative = 0.01;  ///< error of the data for the first estimate
 
 /// A coordinate at every observation; where it is not known, its smallest value.
@@ -46,11 +47,11 @@ Places places_of(const std::vector<Observation>& observations, double Observatio
 class Functions {
 public:
     explicit Functions(const std::vector<Observation>& observations) {
-        values_.resize(static_cast<Index>(observations.size()));
-        for (Index k = 0; k < values_.size(); ++k) {
-            values_[k] = observations[static_cast<std::size_t>(k)].value;
+        Eigen::VectorXd values(static_cast<Index>(observations.size()));
+        for (Index k = 0; k < values.size(); ++k) {
+            values[k] = observations[static_cast<std::size_t>(k)].value;
         }
-        sizes_ = complex_moduli(observations, values_);
+        sizes_ = complex_moduli(observations, values);
         middle_ = median({sizes_.begin(), sizes_.end()});
     }
 
@@ -70,6 +71,15 @@ public:
         add(Complex(0, size / high) * frequencies);
     }
 
+    /// The viscosity along the shear rate, as large as it is there.
+    void add_flow(const Eigen::ArrayXd& rates) {
+        const Eigen::ArrayXd along = places_of_bumps(rates);
+        for (int k = 0; k < bumps; ++k) {
+            const double place = rates.minCoeff() * std::pow(rates.maxCoeff() / rates.minCoeff(), k / (bumps - 1.0));
+            add((Complex(0, size_at(rates, place)) * (-0.5 * (along - k).square()).exp()).eval());
+        }
+    }
+
     /// Two moduli that depend on nothing.
     void add_constants() {
         add(Eigen::ArrayXcd::Constant(sizes_.size(), middle_));
@@ -77,7 +87,7 @@ public:
     }
 
     void add_bumps(const Eigen::ArrayXd& places) {
-        const Eigen::ArrayXd along = (places / places.minCoeff()).log() / std::log(places.maxCoeff() / places.minCoeff()) * (bumps - 1);
+        const Eigen::ArrayXd along = places_of_bumps(places);
         for (int k = 0; k < bumps; ++k) {
             const Eigen::ArrayXd bump = middle_ * (-0.5 * (along - k).square()).exp();
             add(bump.cast<Complex>());
@@ -86,11 +96,13 @@ public:
     }
 
     const Eigen::MatrixXcd& columns() const { return columns_; }
-    const Eigen::VectorXd& values() const { return values_; }
-    /// |G*| at each.
-    const Eigen::ArrayXd& sizes() const { return sizes_; }
 
 private:
+    /// 0 at the first, one more at each.
+    static Eigen::ArrayXd places_of_bumps(const Eigen::ArrayXd& at) {
+        return (at / at.minCoeff()).log() / std::log(at.maxCoeff() / at.minCoeff()) * (bumps - 1);
+    }
+
     void add(const Eigen::ArrayXcd& column) {
         columns_.conservativeResize(sizes_.size(), columns_.cols() + 1);
         columns_.rightCols(1) = wide * column.matrix();
@@ -110,17 +122,19 @@ private:
         return median(std::move(some));
     }
 
-    Eigen::VectorXd values_;
     Eigen::ArrayXd sizes_;
     double middle_ = 1;
     Eigen::MatrixXcd columns_;
 };
 
-}  // namespace
-
-SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, bool ages) {
+/// Of oscillations, or of steady flow.
+Eigen::MatrixXcd functions_of(const std::vector<Observation>& observations, bool ages) {
     Functions functions(observations);
-    if (const Places frequency = places_of(observations, &Observation::angular_frequency); frequency.vary) {
+    const Places frequency = places_of(observations, &Observation::angular_frequency);
+    const Places rate = places_of(observations, &Observation::shear_rate);
+    if (is_steady(observations.front()) && rate.vary) {
+        functions.add_flow(rate.at);
+    } else if (!is_steady(observations.front()) && frequency.vary) {
         functions.add_relaxation(frequency.at);
     } else {
         functions.add_constants();
@@ -131,15 +145,38 @@ SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, boo
     if (const Places age = places_of(observations, &Observation::time); ages && age.vary) {
         functions.add_bumps(age.at);
     }
-    functions_ = functions.columns();
-    values_ = functions.values();
-    weights_ = (relative * functions.sizes()).inverse();
-    Eigen::MatrixXd seen(functions_.rows(), functions_.cols());
-    for (Index row = 0; row < seen.rows(); ++row) {
+    return functions.columns();
+}
+
+}  // namespace
+
+SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, bool ages) {
+    const auto size = static_cast<Index>(observations.size());
+    values_.resize(size);
+    std::array<std::vector<Index>, 2> rows;  // of oscillations and of steady flow
+    std::array<std::vector<Observation>, 2> parts;
+    for (Index k = 0; k < size; ++k) {
+        const Observation& one = observations[static_cast<std::size_t>(k)];
+        values_[k] = one.value;
+        rows.at(is_steady(one) ? 1 : 0).push_back(k);
+        parts.at(is_steady(one) ? 1 : 0).push_back(one);
+    }
+    weights_ = (relative * complex_moduli(observations, values_)).inverse();
+    functions_ = Eigen::MatrixXcd::Zero(size, 0);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        if (!parts.at(part).empty()) {
+            const Eigen::MatrixXcd columns = functions_of(parts.at(part), ages);
+            functions_.conservativeResize(Eigen::NoChange, functions_.cols() + columns.cols());
+            functions_.rightCols(columns.cols()).setZero();
+            functions_(rows.at(part), Eigen::lastN(columns.cols())) = columns;
+        }
+    }
+    Eigen::MatrixXd seen(size, functions_.cols());
+    for (Index row = 0; row < size; ++row) {
         const bool loss = observations[static_cast<std::size_t>(row)].loss;
         seen.row(row) = ((loss ? Complex(0, -1) : Complex(1)) * functions_.row(row)).real();
     }
-    start_ = best(Eigen::VectorXd::Zero(seen.cols()), Eigen::VectorXd::Zero(seen.rows()), seen);
+    start_ = best(Eigen::VectorXd::Zero(seen.cols()), Eigen::VectorXd::Zero(size), seen);
 }
 
 Eigen::MatrixXcd SmoothMaterial::moduli(const Eigen::VectorXd& coefficients) const {

@@ -20,6 +20,7 @@ enum class MeasurementKind {
     time_sweep,        ///< moduli against time at one strain amplitude and frequency
     waveform,          ///< strain and stress against time within an oscillation
     harmonics,         ///< third harmonic of the stress against strain amplitude
+    flow_curve,        ///< viscosity against shear rate in steady flow
     gap_series,        ///< moduli against the gap between the plates
     structure_series,  ///< moduli against what characterises the structure: heterogeneity, coordination, volume fraction
     coordinates,       ///< centres of particles
@@ -178,6 +179,9 @@ struct Experiment {
     std::optional<StructureRecipe> recipe;           ///< otherwise
     std::vector<Measurement> measurements;
 };
+
+/// Adds the viscosity of a flow curve that has stress and shear rate only.
+void derive_viscosity(Measurement& table);
 
 /// Throws InputError when sample, instrument and recipe contradict themselves or each other (gap 0, outer radius below inner ...).
 void check(const Experiment& experiment);
