@@ -69,11 +69,37 @@ class Oil(Tables):
         self.assertTrue(found["remainder"]["detected"])
         self.assertTrue(found["remainder"]["where"].endswith("at gap 1.6 mm to 2.4 mm"), found["remainder"]["where"])
 
+    def test_tells_waves_through_the_sample(self):
+        """rho w^2 u + G* u'' = 0 over the gap, by steps of Runge and Kutta's method."""
+        number = random.Random(4)
+        density, viscosity, steps = 1000, 0.05, 400
+        text = (f'[material]\nkind = "newtonian"\n\n[instrument]\ngeometry = "plate-plate"\nplate_radius = {self.RADIUS}\n'
+                f"gap = 1e-3\n\n{NOISE}")
+        for gap in (0.5e-3, 1e-3, 2e-3):
+            rows = []
+            for frequency in (10**(k / 5) for k in range(12)):
+                modulus = 1j * frequency * viscosity
+                bend, width = -density * frequency**2 / modulus, gap / steps
+                place, slope = 0, 1
+                for _ in range(steps):
+                    a, p = slope, bend * place
+                    b, q = slope + width / 2 * p, bend * (place + width / 2 * a)
+                    c, r = slope + width / 2 * q, bend * (place + width / 2 * b)
+                    d, s = slope + width * r, bend * (place + width * c)
+                    place, slope = place + width / 6 * (a + 2 * b + 2 * c + d), slope + width / 6 * (p + 2 * q + 2 * r + s)
+                shown = read(number, modulus * slope * gap / place)
+                rows.append((frequency, shown.real, shown.imag))
+            self.table(f"waves{gap}.csv", HEADS, rows)
+            text += (f'[[measurement]]\nkind = "frequency-sweep"\nfile = "waves{gap}.csv"\nsample = "oil"\nvalues = {{ gap = {gap} }}\n\n')
+        found = self.named(self.diagnosis(text), "sample-inertia")["density"]
+        self.assertTrue(found["low"] < density < found["high"], found)
+        self.assertLess(found["high"] / found["low"], 1.05)
+
     def test_has_causes_of_the_instrument_only(self):
         found = self.diagnosis(self.gap_series(3e-5, ""))
         members = {name for cause in found["causes"] for name in cause["name"].split(" + ")}
         self.assertLessEqual(members, {"base", "none of the catalogue", "gap-error", "wall-slip", "tool-compliance", "tool-inertia",
-                                       "bearing-damping", "phase-offset", "torque-offset"})
+                                       "bearing-damping", "phase-offset", "torque-offset", "sample-inertia"})
         self.assertFalse((self.folder / "results" / "extended_model.toml").exists())
 
     def test_refusals(self):

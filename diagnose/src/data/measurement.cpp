@@ -236,7 +236,7 @@ std::span<const Quantity> all_quantities() {
 }
 
 const Quantity* find_quantity(std::string_view name) {
-    const auto found =
+    const auto* const found =
         std::find_if(quantities.begin(), quantities.end(), [&](const Quantity& quantity) { return quantity.name == name; });
     return found == quantities.end() ? nullptr : &*found;
 }

@@ -18,6 +18,7 @@
     ENTRY(solvent_drag)             \
     ENTRY(ageing)                   \
     ENTRY(ageing_after_shear)       \
+    ENTRY(sample_inertia)           \
     ENTRY(gap_error)                \
     ENTRY(wall_slip)                \
     ENTRY(volume_fraction_gradient) \

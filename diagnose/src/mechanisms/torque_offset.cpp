@@ -11,8 +11,8 @@ bool flows_as_an_oil(const Experiment& experiment) {
 
 }  // namespace
 
-/// Up to a micronewton metre under plates of 25 mm: friction of the bearing, a rim that the sample wets unevenly (Johnston and Ewoldt
-/// 2013). It does not oscillate, and so drops out of moduli.
+/// Up to a micronewton metre under plates of 25 mm: friction of the bearing, a rim that the sample wets unevenly (Johnston and
+/// Ewoldt 2013). It does not oscillate, and so drops out of moduli.
 Mechanism torque_offset() {
     return {.name = "torque-offset",
             .term = "a torque that does not come from the sample stays however slowly the tool turns",
