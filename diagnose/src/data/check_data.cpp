@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 namespace coagula::diagnose {
 
@@ -25,8 +26,8 @@ std::string factor_text(double factor) {
     return text.str();
 }
 
-std::string part_of(std::size_t count, std::size_t all) {
-    return std::to_string(count) + " of " + std::to_string(all);
+std::string part_of(std::size_t some, std::size_t all) {
+    return std::to_string(some) + " of " + std::to_string(all);
 }
 
 /// Leaves cells out and collects problems.
@@ -57,7 +58,9 @@ private:
     bool is_liquid() const { return options_.liquid || std::isfinite(checked_.measurement.fluid_viscosity); }
     void complain(const std::string& sentence) { checked_.problems.push_back(table().label + ": " + sentence); }
 
-    Column& column(std::string_view name) { return const_cast<Column&>(*find_column(table(), name)); }
+    Column& column(std::string_view name) {
+        return *std::find_if(table().columns.begin(), table().columns.end(), [&](const Column& one) { return one.name == name; });
+    }
 
     void leave_out(Column& from, std::size_t row, const std::string& reason) {
         table().left_out.push_back({from.name, row, to_text(from.values[row]), reason});
@@ -115,7 +118,9 @@ void Checker::check_columns() {
     }
     for (const Column& column : table().columns) {
         const Quantity* quantity = find_quantity(column.name);
-        require(quantity != nullptr, table().label + ": '" + column.name + "' is no quantity");
+        if (quantity == nullptr) {
+            throw std::invalid_argument(table().label + ": '" + column.name + "' is no quantity");
+        }
         require(quantity->unit == column.unit, table().label + ": column '" + column.name + "' is in " + column.unit +
                                                    ", but must be in " + std::string(quantity->unit));
     }
@@ -357,8 +362,9 @@ void Checker::check_what_is_left() {
     const std::vector<std::string> names = required_columns();
     std::size_t usable = 0;
     for (std::size_t row = 0; row < table().rows(); ++row) {
-        usable += std::all_of(names.begin(), names.end(),
-                              [&](const std::string& name) { return std::isfinite(column(name).values[row]); });
+        const bool all = std::all_of(names.begin(), names.end(),
+                                     [&](const std::string& name) { return std::isfinite(column(name).values[row]); });
+        usable += all ? 1 : 0;
     }
     if (usable < rule_.fewest_rows) {
         complain(std::to_string(usable) + " usable rows are too few to say anything: a " + std::string(name_of(table().kind)) +

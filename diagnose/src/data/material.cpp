@@ -22,7 +22,7 @@ std::string_view name_of(MaterialKind kind) {
 }
 
 std::optional<MaterialKind> material_kind(std::string_view name) {
-    const auto found = std::find(names.begin(), names.end(), name);
+    const auto* const found = std::find(names.begin(), names.end(), name);
     return found == names.end() ? std::nullopt : std::optional(static_cast<MaterialKind>(found - names.begin()));
 }
 

@@ -116,6 +116,7 @@ std::vector<Model> over_prior(const Fit& fit, const Mechanism& mechanism) {
     Hypothesis hypothesis = fit.hypothesis;
     hypothesis.push_back(&mechanism);
     std::vector<Model> models;
+    models.reserve(all.size());
     for (const std::vector<double>& values : all) {
         models.emplace_back(hypothesis, values, fit.model.settings.normal_stiffness);
     }
