@@ -42,7 +42,7 @@ std::string noise_section(const std::vector<diagnose::NoiseModel>& noise) {
     for (const diagnose::NoiseModel& model : noise) {
         rows.push_back({symbol_of(model.observable) + ", " + std::string(diagnose::name_of(model.kind)),
                         is_of_phase(model) ? interval(model.relative, 1, "rad") : interval(model.relative, 0.01, "%"),
-                        interval(model.floor, 1, model.unit) + (model.floor_of_stress ? " of the stress" : ""),
+                        interval(model.floor, 1, diagnose::floor_unit(model)) + (model.floor_of_stress ? " of the stress" : ""),
                         is_of_phase(model) ? "" : interval(model.sample, 0.01, "%"), printed(model.autocorrelation),
                         escaped(model.statement)});
         for (const diagnose::SampleEffect& effect : model.sample_effects) {

@@ -184,7 +184,7 @@ void add_noise(Results& results, const DiagnosisRecord& record) {
             results.push_back(io::vector(path + name, Eigen::Vector3d(value.value, value.low, value.high), unit,
                                          meaning + ": value, 95 % interval"));
         };
-        estimate("floor", noise.floor, noise.unit, noise.floor_of_stress ? "floor of the stress" : "floor");
+        estimate("floor", noise.floor, diagnose::floor_unit(noise), noise.floor_of_stress ? "floor of the stress" : "floor");
         estimate("relative", noise.relative, "1", "relative part");
         estimate("sample", noise.sample, "1", "effect of a sample");
         results.push_back(io::scalar(path + "autocorrelation", noise.autocorrelation, "1", "of neighbouring residuals"));

@@ -52,6 +52,11 @@ double factor_of(const std::vector<diagnose::SampleEffect>& effects, const std::
     return found == effects.end() ? 1.0 : 1 + found->effect;
 }
 
+/// The unit that a viscosity is shown in.
+PlotAxis viscosity_axis(double largest) {
+    return largest < 1 ? PlotAxis{.label = "viscosity [mPa s]", .unit = 1e-3} : PlotAxis{.label = "viscosity [Pa s]"};
+}
+
 /// Observables that share a picture: an elastic and a viscous one, or one alone.
 struct Pair {
     std::array<std::string, 2> observables;
@@ -224,7 +229,7 @@ PlotAxis moduli_axis(const Shown& shown) {
     for (const PredictedRow* row : shown.rows) {
         largest = std::max(largest, row->measured);
     }
-    PlotAxis y = shown.pair.label.empty() ? modulus_axis(largest) : PlotAxis{.label = shown.pair.label};
+    PlotAxis y = shown.pair.label.empty() ? modulus_axis(largest) : viscosity_axis(largest);
     for (const PredictedRow* row : shown.rows) {
         const double low = row->measured - row->standard_deviation;
         y.include(low > 0 ? low : row->measured > 0 ? row->measured : not_a_number);

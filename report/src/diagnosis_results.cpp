@@ -114,7 +114,7 @@ Json noise_json(const diagnose::NoiseModel& noise) {
                  {"values", noise.values},
                  {"rows_estimated", noise.rows_estimated},
                  {"sample_estimated", noise.sample_estimated},
-                 {"floor", estimate_json(noise.floor, noise.unit)},
+                 {"floor", estimate_json(noise.floor, diagnose::floor_unit(noise))},
                  {"floor_of_stress", noise.floor_of_stress},
                  {"relative", estimate_json(noise.relative, "1")},
                  {"sample", estimate_json(noise.sample, "1")},

@@ -163,7 +163,7 @@ void add_noise_lines(Table& lines, const NoiseModel& noise) {
         return text(estimate.value) +
                (estimate.low < estimate.high ? " (" + text(estimate.low) + " to " + text(estimate.high) + ")" : "");
     };
-    const auto in_unit = [&](double value) { return with_unit(value, noise.unit); };
+    const auto in_unit = [&](double value) { return with_unit(value, diagnose::floor_unit(noise)); };
     const std::string floor = noise.floor_of_stress ? " and a floor of the stress of " : " and a floor of ";
     lines.emplace_back("noise", noise.observable + " of " + std::string(diagnose::name_of(noise.kind)) + ": " + noise.statement);
     const bool of_phase = diagnose::is_of_phase(noise);

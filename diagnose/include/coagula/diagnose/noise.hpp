@@ -89,6 +89,11 @@ struct NoiseModel {
     std::string statement;  ///< one sentence: where the numbers come from
 };
 
+/// What the floor is in.
+inline std::string floor_unit(const NoiseModel& noise) {
+    return noise.floor_of_stress ? "Pa" : noise.unit;
+}
+
 /// Whether the errors are those of the phase, else those of the torque.
 inline bool is_of_phase(const NoiseModel& noise) {
     return noise.observable == "phase";
