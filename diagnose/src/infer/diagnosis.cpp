@@ -74,6 +74,11 @@ bool in_any(const std::vector<std::vector<bool>>& folds, std::size_t row) {
     return std::any_of(folds.begin(), folds.end(), [&](const std::vector<bool>& held) { return held[row]; });
 }
 
+Eigen::VectorXd fitted_by(const Inference& inference, const Model& model) {
+    const Prediction prediction = inference.forward().prediction(model);
+    return inference.forward().fitted(prediction, inference.errors().effects(prediction));
+}
+
 /// Every row beside both models, and the effects of the samples.
 void predict_rows(const DataSet& data, const Inference& inference, const Model& base, const Model& extended,
                   const std::vector<std::vector<bool>>& folds, Diagnosis& diagnosis) {
@@ -255,7 +260,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
     diagnosis.remainder = {.detected = comparison.p_value <= options.level, .p_value = comparison.p_value, .where = {}};
     if (diagnosis.remainder.detected) {
-        diagnosis.remainder.where = place_of(*winner.remainder, data, forward.predict(winner.fit.model));
+        diagnosis.remainder.where = place_of(*winner.remainder, data, fitted_by(inference, winner.fit.model));
     }
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -17,7 +19,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double elements_per_decade = 3;
-constexpr int bumps = 7;           ///< along strain, or age
+constexpr int fewest_bumps = 4;    ///< along strain, age or shear rate
 constexpr double wide = 3;         ///< of a coefficient over what the data have there
 constexpr double relative = 0.01;  ///< error of the data for the first estimate
 
@@ -73,10 +75,8 @@ public:
 
     /// The viscosity along the shear rate, as large as it is there.
     void add_flow(const Eigen::ArrayXd& rates) {
-        const Eigen::ArrayXd along = places_of_bumps(rates);
-        for (int k = 0; k < bumps; ++k) {
-            const double place = rates.minCoeff() * std::pow(rates.maxCoeff() / rates.minCoeff(), k / (bumps - 1.0));
-            add((Complex(0, size_at(rates, place)) * (-0.5 * (along - k).square()).exp()).eval());
+        for (const auto& [place, bump] : bumps_along(rates)) {
+            add(Complex(0, size_at(rates, place)) * bump);
         }
     }
 
@@ -87,20 +87,27 @@ public:
     }
 
     void add_bumps(const Eigen::ArrayXd& places) {
-        const Eigen::ArrayXd along = places_of_bumps(places);
-        for (int k = 0; k < bumps; ++k) {
-            const Eigen::ArrayXd bump = middle_ * (-0.5 * (along - k).square()).exp();
-            add(bump.cast<Complex>());
-            add(Complex(0, 1) * bump);
+        for (const auto& [place, bump] : bumps_along(places)) {
+            add(middle_ * bump.cast<Complex>());
+            add(Complex(0, middle_) * bump);
         }
     }
 
     const Eigen::MatrixXcd& columns() const { return columns_; }
 
 private:
-    /// 0 at the first, one more at each.
-    static Eigen::ArrayXd places_of_bumps(const Eigen::ArrayXd& at) {
-        return (at / at.minCoeff()).log() / std::log(at.maxCoeff() / at.minCoeff()) * (bumps - 1);
+    /// Where they are, and what they are at every observation: as wide as they are apart.
+    static std::vector<std::pair<double, Eigen::ArrayXd>> bumps_along(const Eigen::ArrayXd& at) {
+        const double low = at.minCoeff();
+        const double range = std::log(at.maxCoeff() / low);
+        const int count =
+            std::max(fewest_bumps, 1 + static_cast<int>(std::lround(elements_per_decade * range / std::numbers::ln10)));
+        const double apart = range / (count - 1);
+        std::vector<std::pair<double, Eigen::ArrayXd>> bumps;
+        for (int k = 0; k < count; ++k) {
+            bumps.emplace_back(low * std::exp(k * apart), (-0.5 * ((at / low).log() / apart - k).square()).exp());
+        }
+        return bumps;
     }
 
     void add(const Eigen::ArrayXcd& column) {
