@@ -176,9 +176,9 @@ class RealExports(Tables):
 
     def test_dhr_with_a_cone(self):
         """25.7 uN.m.s2 is what the instrument corrects by. Its corrected G' then falls at the highest frequencies, which no relaxing
-        material's does; what is found is 3 % larger."""
+        material's does; what is found is 10 % larger, and something of G'' is left over, which is said."""
         inertia = self.inertia("rheodata_toolkit/ta_trios_xls/mixed_test_types/Copy of JeT_5k100-5k100_100mgml_amp_frq_swp_672017 copy.xls")
-        self.assertAlmostEqual(inertia["value"] / 25.7e-6, 1, delta=0.05)
+        self.assertAlmostEqual(inertia["value"] / 25.7e-6, 1.10, delta=0.03)
 
 
 class FlowCurves(Tables):
