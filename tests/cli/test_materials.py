@@ -102,6 +102,19 @@ class Oil(Tables):
                                        "bearing-damping", "phase-offset", "torque-offset", "sample-inertia"})
         self.assertFalse((self.folder / "results" / "extended_model.toml").exists())
 
+    def test_under_a_network_is_said_to_be_a_liquid(self):
+        says = lambda text: [note for note in self.check(text)["notes"] if "is a liquid" in note]
+        text = self.gap_series(0, "")
+        self.assertEqual(says(text), [])
+        self.assertEqual(len(says(text.replace("newtonian", "network"))), len(self.GAPS))
+        for modulus in ((lambda frequency: 100 + (0.1 + 5j) * frequency), (lambda frequency: (0.02 + 1j) * frequency**0.7)):
+            self.table("gap0.csv", HEADS, [(each, modulus(each).real, modulus(each).imag) for each in FREQUENCIES])
+            self.assertEqual(len(says(text.replace("newtonian", "network"))), len(self.GAPS) - 1)
+
+    def check(self, text):
+        self.write("experiment.toml", text)
+        return self.succeed_json("diagnose", "--check", "experiment.toml")
+
     def test_refusals(self):
         text = self.gap_series(0, "")
         self.refuse(text.replace("newtonian", "viscous"), "'viscous' is none of network, newtonian, smooth")
@@ -151,6 +164,37 @@ class SmoothMaterial(Tables):
         # The square root of ten, less what one and the same material leaves open.
         width = sum(one["high"] - one["low"] for one in alone) / 5
         self.assertGreater(width / (together["high"] - together["low"]), 1.8)
+
+    def test_an_oil_beside_it_tells_the_gap(self):
+        """The sample's modulus grows with the gap by itself; what the oil shows is known."""
+        number = random.Random(6)
+        text = (f'[material]\nkind = "smooth"\n\n[instrument]\ngeometry = "plate-plate"\nplate_radius = {self.RADIUS}\n'
+                f"gap = {self.GAP}\n\n" + NOISE)
+        for name, line in (("oil", "fluid_viscosity = 10\n"), ("gel", "")):
+            for place, gap in enumerate((0.2e-3, 0.5e-3, 1e-3, 2e-3)):
+                rows = []
+                for frequency in FREQUENCIES:
+                    modulus = 10j * frequency if line else (500 + 40j) * frequency**0.05
+                    shown = read(number, modulus * gap / (gap + 5e-5))
+                    rows.append((frequency, shown.real, shown.imag))
+                self.table(f"{name}{place}.csv", HEADS, rows)
+                text += (f'[[measurement]]\nkind = "frequency-sweep"\nfile = "{name}{place}.csv"\nsample = "{name}"\n{line}'
+                         f"values = {{ gap = {gap} }}\n\n")
+        found = self.diagnosis(text)
+        self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["gap-error"]))
+        gap = found["causes"][0]["parameters"]["gap_error"]
+        self.assertTrue(gap["low"] < 5e-5 < gap["high"], gap)
+        oil = [row for row in found["rows"] if row["measurement"] <= 4]
+        self.assertTrue(all(0.9 < row["base"] / (10 * FREQUENCIES[row["row"] - 1]) < 1.1 for row in oil))
+
+    def test_a_row_of_zeros_is_no_division_by_zero(self):
+        rows = [(frequency, 100 + frequency, 10 + frequency / 2) for frequency in FREQUENCIES]
+        rows[4] = (rows[4][0], 0, 0)
+        self.table("zero.csv", HEADS, rows)
+        found = self.diagnosis('[material]\nkind = "smooth"\n\n[instrument]\ngeometry = "plate-plate"\nplate_radius = 0.01\ngap = 1e-3\n\n'
+                               "[noise]\nstated_floor = 1\n\n"
+                               '[[measurement]]\nkind = "frequency-sweep"\nfile = "zero.csv"\nvalues = { strain = 1 }\n')
+        self.assertTrue(all(math.isfinite(row["base"]) for row in found["rows"]))
 
     def test_nothing_is_found_without_it(self):
         for count in (1, 10):

@@ -132,13 +132,18 @@ Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
             all = smooth_->moduli(smooth_->start());
             break;
     }
+    return with_fluids(std::move(all));
+}
+
+/// The same with a fluid where one was in place of the sample.
+Eigen::MatrixXcd Forward::with_fluids(Eigen::MatrixXcd moduli) const {
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         if (const Observation& observation = observations_[k]; is_fluid(observation)) {
             const double per_viscosity = is_steady(observation) ? 1 : observation.angular_frequency;
-            all.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * per_viscosity));
+            moduli.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * per_viscosity));
         }
     }
-    return all;
+    return moduli;
 }
 
 /// For a normal stiffness of 1 N/m; third harmonics over the first as they are. The mean over the structures, then with each error
@@ -264,7 +269,7 @@ Prediction Forward::prediction(const Model& model) const {
     Prediction about = prediction_of(model, moduli, SmoothMaterial::degrees);
     for (int round = 0; round < rounds; ++round) {
         place = smooth_->best(place, about.values, about.errors.changes);
-        about = prediction_of(model, smooth_->moduli(place), SmoothMaterial::degrees);
+        about = prediction_of(model, with_fluids(smooth_->moduli(place)), SmoothMaterial::degrees);
     }
     about.values -= about.errors.changes * place;
     return about;

@@ -21,6 +21,7 @@ using Complex = std::complex<double>;
 constexpr double elements_per_decade = 3;
 constexpr int fewest_bumps = 4;    ///< along strain, age or shear rate
 constexpr double wide = 3;         ///< of a coefficient over what the data have there
+constexpr double smallest = 1e-6;  ///< |G*| over the largest, from which on down all errors are the same
 constexpr double relative = 0.01;  ///< error of the data for the first estimate
 
 /// A coordinate at every observation; where it is not known, its smallest value.
@@ -104,6 +105,7 @@ private:
             std::max(fewest_bumps, 1 + static_cast<int>(std::lround(elements_per_decade * range / std::numbers::ln10)));
         const double apart = range / (count - 1);
         std::vector<std::pair<double, Eigen::ArrayXd>> bumps;
+        bumps.reserve(static_cast<std::size_t>(count));
         for (int k = 0; k < count; ++k) {
             bumps.emplace_back(low * std::exp(k * apart), (-0.5 * ((at / low).log() / apart - k).square()).exp());
         }
@@ -168,7 +170,8 @@ SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, boo
         rows.at(is_steady(one) ? 1 : 0).push_back(k);
         parts.at(is_steady(one) ? 1 : 0).push_back(one);
     }
-    weights_ = (relative * complex_moduli(observations, values_)).inverse();
+    const Eigen::ArrayXd sizes = complex_moduli(observations, values_);
+    weights_ = (relative * sizes.max(smallest * sizes.maxCoeff())).inverse();
     functions_ = Eigen::MatrixXcd::Zero(size, 0);
     for (std::size_t part = 0; part < parts.size(); ++part) {
         if (!parts.at(part).empty()) {
