@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -60,7 +61,12 @@ Departures departures_of(const Inference& inference, const Fit& fit) {
     return all;
 }
 
-Eigen::VectorXd departures_from_base(const Forward& forward, const DataSet& data) {
+RowCorrelations correlations_by_base(const Forward& forward, const DataSet& data) {
+    const bool uncertain = std::any_of(data.observations.begin(), data.observations.end(),
+                                       [](const Observation& one) { return one.errors.correlation_error > 0; });
+    if (!uncertain) {
+        return {};
+    }
     const ErrorModel errors(data);
     const Inference inference(forward, errors);
     const Prediction base = forward.prediction(inference.fit({}).model);
@@ -70,7 +76,7 @@ Eigen::VectorXd departures_from_base(const Forward& forward, const DataSet& data
         const Index sample = data.sample[static_cast<std::size_t>(row)];
         left[row] -= sample >= 0 ? base.level_slope[row] * effects[sample] : 0.0;
     }
-    return left;
+    return correlations_shown(data, left);
 }
 
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {

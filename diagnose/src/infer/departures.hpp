@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hypothesis.hpp"
+#include "noise/row_correlation.hpp"
 
 #include <Eigen/Core>
 
@@ -16,8 +17,8 @@ struct Departures {
 };
 Departures departures_of(const Inference& inference, const Fit& fit);
 
-/// Of the data from the fitted base model with its most probable effects and errors, in their own units.
-Eigen::VectorXd departures_from_base(const Forward& forward, const DataSet& data);
+/// What departures from the fitted base model, its most probable effects and errors taken out, show of the correlation of rows.
+RowCorrelations correlations_by_base(const Forward& forward, const DataSet& data);
 
 /// Orthonormal columns that span those given.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);

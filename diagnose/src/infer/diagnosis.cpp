@@ -6,7 +6,6 @@
 #include "gain.hpp"
 #include "hypothesis.hpp"
 #include "localise.hpp"
-#include "noise/row_correlation.hpp"
 #include "noise/weights.hpp"
 #include "proposal.hpp"
 
@@ -74,11 +73,6 @@ bool in_any(const std::vector<std::vector<bool>>& folds, std::size_t row) {
     return std::any_of(folds.begin(), folds.end(), [&](const std::vector<bool>& held) { return held[row]; });
 }
 
-Eigen::VectorXd fitted_by(const Inference& inference, const Model& model) {
-    const Prediction prediction = inference.forward().prediction(model);
-    return inference.forward().fitted(prediction, inference.errors().effects(prediction));
-}
-
 /// Every row beside both models, and the effects of the samples.
 void predict_rows(const DataSet& data, const Inference& inference, const Model& base, const Model& extended,
                   const std::vector<std::vector<bool>>& folds, Diagnosis& diagnosis) {
@@ -94,8 +88,8 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
     const Eigen::VectorXd deviation = data.noise.marginal_deviation();
     diagnosis.base_effects = effects_of(errors, by_base);
     diagnosis.extended_effects = effects_of(errors, by_extended);
-    by_base.values = forward.fitted(by_base, errors.effects(by_base));
-    by_extended.values = forward.fitted(by_extended, errors.effects(by_extended));
+    by_base.values = inference.fitted(by_base);
+    by_extended.values = inference.fitted(by_extended);
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);
@@ -230,7 +224,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     DataSet data = data_set_of(experiment, options.noise);
     const Forward forward(experiment, data.observations, simulator);
     data.noise.widen(forward.structure_deviation(data.values));
-    set_correlations(correlations_shown(data, departures_from_base(forward, data)), data);
+    set_correlations(correlations_by_base(forward, data), data);
     const ErrorModel errors(data);
     const Inference inference(forward, errors);
     const std::vector<std::vector<bool>> folds = choose_folds(experiment, data.observations, options.held_out_part);
@@ -260,7 +254,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
     diagnosis.remainder = {.detected = comparison.p_value <= options.level, .p_value = comparison.p_value, .where = {}};
     if (diagnosis.remainder.detected) {
-        diagnosis.remainder.where = place_of(*winner.remainder, data, fitted_by(inference, winner.fit.model));
+        diagnosis.remainder.where = place_of(*winner.remainder, data, inference.fitted(forward.prediction(winner.fit.model)));
     }
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);

@@ -4,7 +4,6 @@
 #include "departures.hpp"
 #include "flexible.hpp"
 #include "fold_errors.hpp"
-#include "noise/row_correlation.hpp"
 #include "noise/weights.hpp"
 
 #include <coagula/common/random.hpp>
@@ -210,7 +209,7 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
         const std::vector<Index> held_rows = rows_where(held_out, true);
         DataSet known = data.part(known_rows);
         const Forward forward(experiment, known.observations, simulator);
-        const RowCorrelations correlations = correlations_shown(known, departures_from_base(forward, known));
+        const RowCorrelations correlations = correlations_by_base(forward, known);
         set_correlations(correlations, known);
         set_correlations(correlations, data);
         const DataSet held = data.part(held_rows);

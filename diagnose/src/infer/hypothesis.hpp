@@ -67,6 +67,9 @@ public:
     /// Largest log density of the data by the base model, whatever the stiffness.
     double density_of_free_level() const;
 
+    /// A prediction with those of its own errors that the data ask for, where it is nothing else (Forward::fitted).
+    Eigen::VectorXd fitted(const Prediction& prediction) const { return forward_.fitted(prediction, errors_.effects(prediction)); }
+
     const Forward& forward() const { return forward_; }
     const ErrorModel& errors() const { return errors_; }
 

@@ -121,7 +121,7 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
              .from = stiffness,
              .departure = stiffness / known - 1,
              .sentence =
-                 "the level of " + std::string(newtonian ? "G'' asks for a viscosity of " : "G' asks for a normal stiffness of ") +
+                 std::string(newtonian ? "the level asks for a viscosity of " : "the level of G' asks for a normal stiffness of ") +
                  three_digits(stiffness) + unit + ", " + deviations_text(score) + " the known " + three_digits(known) + unit});
     }
     const DataSet& data = inference.errors().data();
@@ -242,7 +242,7 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
 std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection) {
     const std::vector<Observation>& observations = inference.errors().data().observations;
     const Prediction fitted = inference.forward().prediction(base.model);
-    const Eigen::VectorXd prediction = inference.forward().fitted(fitted, inference.errors().effects(fitted));
+    const Eigen::VectorXd prediction = inference.fitted(fitted);
     const Eigen::VectorXd residual = inference.errors().residual(fitted);
     std::vector<const MisfitStatistic*> along;
     for (const MisfitStatistic& statistic : detection.statistics) {

@@ -81,8 +81,7 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const
     const ErrorModel& errors = inference.errors();
     const Start start = start_of(inference, fit);
     const double alone = errors.log_density(start.prediction, start.following);
-    const Eigen::VectorXd level =
-        complex_moduli(errors.data().observations, inference.forward().fitted(start.prediction, errors.effects(start.prediction)));
+    const Eigen::VectorXd level = complex_moduli(errors.data().observations, inference.fitted(start.prediction));
     SmoothRemainder found;
     double best = -std::numeric_limits<double>::infinity();
     Eigen::MatrixXd best_factor;
