@@ -1,4 +1,5 @@
 #include <coagula/diagnose/outliers.hpp>
+#include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/stated_errors.hpp>
 #include <coagula/diagnose/waveform.hpp>
 #include <coagula/experiment/checked_experiment.hpp>
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace coagula::experiment {
 
@@ -73,6 +76,25 @@ std::vector<diagnose::CheckedMeasurement> check_tables(const ExperimentFile& fil
     return checked;
 }
 
+/// Gap and plate radius of the instrument, written into the tables that inherit them, where others state their own: what is the
+/// same is told by that alone.
+void state_inherited(diagnose::Experiment& experiment) {
+    for (const auto& [name, value] :
+         {std::pair{"gap", experiment.instrument.gap}, std::pair{"plate_radius", experiment.instrument.plate_radius}}) {
+        const auto states = [&, name = name](const auto& table) { return diagnose::find_column(table, name) != nullptr; };
+        if (std::isnan(value) || std::none_of(experiment.measurements.begin(), experiment.measurements.end(), states)) {
+            continue;
+        }
+        for (diagnose::Measurement& table : experiment.measurements) {
+            const bool under_cone = std::isfinite(table.cone_angle);  // where there is no gap
+            const bool shears = diagnose::has_moduli(table.kind) || table.kind == diagnose::MeasurementKind::flow_curve;
+            if (shears && !states(table) && !(under_cone && std::string_view(name) == "gap")) {
+                table.columns.push_back({name, "m", std::vector<double>(table.rows(), value)});
+            }
+        }
+    }
+}
+
 /// A network cannot show what a liquid does.
 void note_liquids(ExperimentFile& file) {
     const bool network = file.experiment.material.kind == diagnose::MaterialKind::network;
@@ -99,12 +121,15 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(experiment.measurements)) {
         found.file.notes.push_back(outlier.sentence);
     }
+    state_inherited(experiment);
     found.noise = diagnose::noise_of_tables(experiment.measurements, noise);
     found.options.stated_noise = noise;
     diagnose::state_errors(experiment, found.noise);
     diagnose::state_sample_effect(found.noise, noise.stated_sample, found.options.noise);
     diagnose::reduce_waveforms(experiment, noise.stated_relative, noise.stated_phase);
     naming(path, [&] {
+        const std::vector<std::string> clocks = diagnose::notes_on_clocks(experiment);
+        found.file.notes.insert(found.file.notes.end(), clocks.begin(), clocks.end());
         found.structures = check_structures(experiment);
         if (experiment.structure_sizes.empty() && experiment.material.kind == diagnose::MaterialKind::network) {
             found.file.notes.emplace_back("the experiment names no structures yet, which a diagnosis needs");

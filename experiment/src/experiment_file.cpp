@@ -4,6 +4,7 @@
 #include "material_keys.hpp"
 #include "planned_table.hpp"
 #include "table_selection.hpp"
+#include "table_setting.hpp"
 #include "toml_keys.hpp"
 
 #include <coagula/common/checks.hpp>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <numbers>
 
 namespace coagula::experiment {
@@ -125,16 +125,6 @@ void ExperimentReader::read_instrument() {
     keys.refuse_other_keys();
 }
 
-int small_count(TomlKeys& keys, const std::string& key, std::int64_t low) {
-    const std::int64_t value = keys.whole(key).value_or(low);
-    constexpr std::int64_t high = std::numeric_limits<int>::max();
-    if (value < low || value > high) {
-        keys.fail(key, "is " + std::to_string(value) + ", but must be a whole number " +
-                           (value < low ? ">= " + std::to_string(low) : "<= " + std::to_string(high)));
-    }
-    return static_cast<int>(value);
-}
-
 void ExperimentReader::read_structures() {
     TomlKeys keys(part("structures"), where("structures"));
     for (const std::string& file : keys.texts("files")) {
@@ -154,8 +144,8 @@ void ExperimentReader::read_structures() {
         if (*generator != "vem" && *generator != "brownian") {
             keys.fail("generator", "'" + *generator + "' is neither vem nor brownian");
         }
-        diagnose::StructureRecipe recipe{*generator, small_count(keys, "particles", 1), 0, unset, unset, {}};
-        recipe.voids = *generator == "vem" ? small_count(keys, "voids", 0) : 0;
+        diagnose::StructureRecipe recipe{*generator, keys.small_count("particles", 1), 0, unset, unset, {}};
+        recipe.voids = *generator == "vem" ? keys.small_count("voids", 0) : 0;
         if (*generator == "brownian") {
             recipe.surface_potential = keys.quantity("surface_potential", "V").value_or(unset);
         }
@@ -266,38 +256,6 @@ ColumnRules ExperimentReader::column_rules(TomlKeys& keys) {
     return rules;
 }
 
-/// What all tables of one [[measurement]] share.
-struct TableSetting {
-    std::string sample;
-    int run_order;
-    bool rough_plates;
-    double cone_angle;
-    double fluid_viscosity;
-    int oscillations;
-
-    void give_to(diagnose::Measurement& measurement) const {
-        measurement.sample = sample;
-        measurement.run_order = run_order;
-        measurement.rough_plates = rough_plates;
-        measurement.cone_angle = cone_angle;
-        measurement.fluid_viscosity = fluid_viscosity;
-        measurement.oscillations = oscillations;
-    }
-};
-
-TableSetting read_setting(TomlKeys& keys, std::size_t number) {
-    TableSetting setting{.sample = keys.text("sample").value_or("measurement " + std::to_string(number)),
-                         .run_order = small_count(keys, "run_order", 0),
-                         .rough_plates = keys.flag("rough_plates"),
-                         .cone_angle = keys.quantity("cone_angle", "rad").value_or(unset),
-                         .fluid_viscosity = keys.quantity("fluid_viscosity", "Pa.s").value_or(unset),
-                         .oscillations = small_count(keys, "oscillations", 1)};
-    if (setting.fluid_viscosity <= 0) {
-        keys.fail("fluid_viscosity", "must be > 0 Pa.s");
-    }
-    return setting;
-}
-
 /// Once the tool is known, to which exports may contribute.
 void ExperimentReader::derive_moduli() {
     std::vector<diagnose::Measurement>& tables = result_.experiment.measurements;
@@ -351,12 +309,11 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         }
         keys.fail("kind", "'" + kind_name + "' is none of " + names);
     }
-    const TableSetting setting = read_setting(keys, number);
+    const diagnose::Measurement setting = read_setting(keys, number);
     if (table.contains("planned")) {
         diagnose::Measurement measurement = planned_table(keys, *kind, number, column_rules(keys).constants);
         keys.refuse_other_keys();
-        setting.give_to(measurement);
-        result_.experiment.measurements.push_back(std::move(measurement));
+        result_.experiment.measurements.push_back(in_setting(setting, std::move(measurement)));
         return;
     }
     const std::string name = keys.required_text("file");
@@ -370,9 +327,8 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
     for (const io::PlainTable* chosen : tables) {
         const std::string label = label_of(file, *chosen, name);
         const io::PlainTable named = with_names(keys, *chosen, rules, label);
-        diagnose::Measurement measurement = to_measurement(named, *kind, label, rules);
-        setting.give_to(measurement);
-        measurement.run_order += chosen->number - tables.front()->number;  // of a range
+        diagnose::Measurement measurement = in_setting(setting, to_measurement(named, *kind, label, rules));
+        place_in_range(measurement, *chosen, *tables.front());
         select(measurement, selection);
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +

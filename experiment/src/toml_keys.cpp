@@ -1,10 +1,12 @@
 #include "toml_keys.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/date_time.hpp>
 #include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace coagula::experiment {
 
@@ -62,12 +64,40 @@ std::optional<double> TomlKeys::quantity(const std::string& key, const std::stri
     return node == nullptr ? std::nullopt : std::optional(quantity_of(*node, key, unit));
 }
 
+std::optional<double> TomlKeys::moment(const std::string& key) {
+    const toml::node* node = take(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (const auto* date = node->as_date_time()) {
+        const auto& [day, time, offset] = date->get();
+        return io::seconds_of_date(day.year, day.month, day.day, time.hour, time.minute, time.second);
+    }
+    if (const auto written = node->is_string() ? io::seconds_of_date(node->ref<std::string>()) : std::nullopt) {
+        return written;
+    }
+    if (node->is_date() || node->is_time()) {
+        fail(key, "must have both a date and a time of day, such as 2022-11-14T16:32:00");
+    }
+    return quantity_of(*node, key, "s");
+}
+
 std::optional<std::int64_t> TomlKeys::whole(const std::string& key) {
     const toml::node* node = take(key);
     if (node != nullptr && !node->is_integer()) {
         fail(key, "must be a whole number");
     }
     return node == nullptr ? std::nullopt : node->value<std::int64_t>();
+}
+
+int TomlKeys::small_count(const std::string& key, std::int64_t low) {
+    const std::int64_t value = whole(key).value_or(low);
+    constexpr std::int64_t high = std::numeric_limits<int>::max();
+    if (value < low || value > high) {
+        fail(key, "is " + std::to_string(value) + ", but must be a whole number " +
+                      (value < low ? ">= " + std::to_string(low) : "<= " + std::to_string(high)));
+    }
+    return static_cast<int>(value);
 }
 
 bool TomlKeys::flag(const std::string& key) {

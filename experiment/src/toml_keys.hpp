@@ -23,7 +23,11 @@ public:
     std::optional<std::string> text(const std::string& key);
     /// A number in `unit`, or a text with a unit of its own.
     std::optional<double> quantity(const std::string& key, const std::string& unit);
+    /// Seconds: of a date and time (2022-11-14T16:32:00, "2022-11-14 16:32"), or a quantity of time.
+    std::optional<double> moment(const std::string& key);
     std::optional<std::int64_t> whole(const std::string& key);
+    /// A whole number from `low` on that an int holds; `low` without the key.
+    int small_count(const std::string& key, std::int64_t low);
     /// True or false; false without the key.
     bool flag(const std::string& key);
     /// A list of texts, or one text.

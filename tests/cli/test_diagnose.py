@@ -69,6 +69,43 @@ class Check(ProgramTest):
         effects = noise["sample_effects"]
         self.assertAlmostEqual((1 + effects["batch 2"]) / (1 + effects["batch 0"]), 0.7, delta=0.03)
 
+    def test_a_plate_that_is_inherited_counts_like_one_that_is_stated(self):
+        """Tables are replicates only where everything that acts is equal."""
+        for name, scale in (("a", 1.0), ("b", 1.1), ("c", 0.9)):
+            self.write(f"{name}.csv", sweep(12, scale, 0.02))
+        plates = '[instrument]\ngeometry = "plate-plate"\nplate_radius = "25 mm"\ngap = "1 mm"\n'
+        tables = [f'kind = "amplitude-sweep"\nfile = "{name}.csv"\n' for name in "abc"]
+
+        def pooled(*stated, before=plates):
+            texts = [table + (f'values = {{ {value} }}' if value else "") for table, value in zip(tables, stated)]
+            noise = self.found(experiment(*texts, before=before))["noise"]
+            return sorted(each["tables"] for each in noise if each["observable"] == "complex_modulus")
+
+        self.assertEqual(pooled("", "", ""), [3])
+        self.assertEqual(pooled("", 'plate_radius = "25 mm"', 'plate_radius = "12.5 mm"'), [1, 2])
+        self.assertEqual(pooled("", 'gap = "1 mm"', 'gap = "0.5 mm"'), [1, 2])
+        self.assertEqual(pooled('gap = "0.5 mm"', 'gap = "0.5 mm"', ""), [1, 2])
+        self.assertEqual(pooled("", 'gap = "1 mm"', 'gap = "1 mm"', before=""), [1, 2])  # nobody says the gap of the first
+
+    def test_times_of_runs(self):
+        """When runs took place: start, pause, pre-shear and clock; what nobody says is said to be unknown."""
+        rows = "".join(f"{10 * k},{100 + k}\n" for k in range(1, 7))
+        self.write("first.csv", "time [s],storage modulus [Pa]\n" + rows)
+        self.write("second.csv", "time [s],storage modulus [Pa]\n" + "".join(f"{400 + 10 * k},{99 + k}\n" for k in range(1, 7)))
+        run = lambda name, words: f'kind = "time-sweep"\nfile = "{name}.csv"\nsample = "A"\n{words}'
+        notes = lambda *texts: self.found(experiment(*[run(name, text) for name, text in zip(("first", "second"), texts)]))["notes"]
+        unknown = [note for note in notes("", "") if "ageing cannot be told from noise" in note]
+        self.assertEqual(len(unknown), 2)
+        self.assertIn("as those of one clock", " ".join(notes("", "run_order = 1")))
+        dated = ('start = 2022-11-14T16:32:00', 'start = "2022-11-14 16:45"\nclock = "run"')
+        for second in (dated[1], 'run_order = 1\npause = "10 min"\npreshear = "2 min"\nclock = "run"'):
+            self.assertNotIn("clock", " ".join(notes(dated[0], second)))
+        for text, says in (("pause = -1", "'pause': must be >= 0 s"), ('clock = "mine"', "neither run nor sample"),
+                           ('start = "1 min"\npause = "1 min"', "leave one of them out"), ("start = 2022-11-14", "time of day"),
+                           ('run_order = 1\npause = "1 min"', "run on"), ('start = "2022-11-13 16:32"\nrun_order = 1', "a year apart")):
+            self.write("experiment.toml", experiment(run("first", "start = 0"), run("second", text)))
+            self.refuse_experiment(says)
+
     def test_columns_by_heading_and_standard_errors(self):
         self.write("s.csv", "a,modulus [MPa],error [MPa]\n" + "".join(f"{0.37 + 0.05 * i},{1 + 0.1 * i},0.1\n" for i in range(6)))
         found = self.found(experiment('kind = "structure-series"\nfile = "s.csv"\n'

@@ -3,15 +3,22 @@
 
 #include "text_reader.hpp"
 
+#include <coagula/io/date_time.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <optional>
+#include <utility>
 
 namespace coagula::io {
 
 namespace {
 
 constexpr std::size_t longest_title = 1000;  ///< every table of a result carries it, and every line of a group
+
+/// Of the line that says when a measurement began: TRIOS, RheoPlus in English and Japanese, RheoWin.
+constexpr std::array<std::string_view, 4> date_keys = {"run date", "measuring date/time", "測定日/時間", "date / time / version"};
 
 std::string key_of(std::string_view cell) {
     cell = trim(cell);
@@ -68,6 +75,7 @@ private:
     char find_separator() const;
     void read_line(std::size_t line);
     void begin_section(std::size_t line, const std::vector<std::string>& values);
+    void add_metadata(const std::string& key, const std::string& value);
     std::size_t read_table(const TableHead& head);
     bool ends_table(const std::vector<std::string>& row, const TableHead& head) const;
     void check_row(std::size_t line, const TableHead& head, const std::vector<std::string>& cells) const;
@@ -83,6 +91,7 @@ private:
     std::string title_;
     int section_ = 1;
     int announced_ = 0;
+    double date_ = unset;                               ///< of the next table
     bool in_section_ = false;                           ///< a section has begun whose headings are still to come
     std::optional<std::size_t> step_without_headings_;  ///< line
 };
@@ -144,9 +153,16 @@ void ExportReader::read_line(std::size_t line) {
         title_ = cells.front();
     } else if (!cells.front().empty() && !values.empty()) {
         const std::string& key = cells.front();
-        file_.metadata.push_back({group_, key.ends_with(':') ? key.substr(0, key.size() - 1) : key, joined(values)});
+        add_metadata(key.ends_with(':') ? key.substr(0, key.size() - 1) : key, joined(values));
     } else if (const std::size_t colon = cells.front().find(": "); colon != std::string::npos) {
-        file_.metadata.push_back({group_, cells.front().substr(0, colon), cells.front().substr(colon + 2)});
+        add_metadata(cells.front().substr(0, colon), cells.front().substr(colon + 2));
+    }
+}
+
+void ExportReader::add_metadata(const std::string& key, const std::string& value) {
+    file_.metadata.push_back({group_, key, value});
+    if (std::find(date_keys.begin(), date_keys.end(), lower_case(key)) != date_keys.end()) {
+        date_ = seconds_of_date(value).value_or(unset);
     }
 }
 
@@ -185,6 +201,7 @@ void ExportReader::keep(TableRows& rows, std::size_t first_line) {
         table.section = section_;
         table.announced_points = table.point == 0 ? announced_ : 0;
         table.first_line = first_line + 1;
+        table.date = std::exchange(date_, unset);
         file_.tables.push_back(std::move(table));
     }
 }

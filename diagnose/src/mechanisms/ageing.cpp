@@ -16,7 +16,7 @@ Mechanism ageing() {
             .signature = "follows the order of the runs and the time, not the strain",
             .parameters = {{"per_decade", "1", 0.02, 0.3, true}},
             .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample&) -> std::complex<double> {
-                return std::isfinite(row.time) ? 1 + values[0] * std::log10(1 + row.time / start) : 1;
+                return std::isfinite(row.age) ? 1 + values[0] * std::log10(1 + row.age / start) : 1;
             }},
             .applies = takes_time,
             .in_contact = true,

@@ -5,7 +5,8 @@ namespace coagula::diagnose::mechanisms {
 namespace {
 
 bool sheared_before(const Experiment& experiment) {
-    return experiment.sample.sheared_before;
+    return experiment.sample.sheared_before ||
+           any_measurement(experiment, [](const Measurement& table) { return std::isfinite(table.preshear); });
 }
 
 }  // namespace
@@ -18,7 +19,7 @@ Mechanism ageing_after_shear() {
             .signature = "follows the time since the shear, not the strain, over orders of magnitude",
             .parameters = {{"build_up_exponent", "1", 0.1, 3, true}, {"build_up_time", "s", 1, 1000, true}},
             .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample&) -> std::complex<double> {
-                return std::isfinite(row.time) ? std::pow(1 + row.time / values[1], values[0]) : 1;
+                return std::isfinite(row.age) ? std::pow(1 + row.age / values[1], values[0]) : 1;
             }},
             .applies = sheared_before};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coagula/diagnose/mechanism.hpp>
+#include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/tool_constants.hpp>
 
 #include "observables/observations.hpp"
@@ -43,11 +44,16 @@ inline bool knows_walls(const Experiment& experiment) {
     return knows_gap(experiment) || (experiment.instrument.geometry == Geometry::cone_plate && knows_tool(experiment));
 }
 
-/// Some table has moduli that were measured one after the other.
+/// Some table has moduli that were measured one after the other, and it is known when.
 inline bool takes_time(const Experiment& experiment) {
-    return any_measurement(experiment, [](const Measurement& table) {
-        return find_column(table, "storage_modulus") != nullptr && table.kind != MeasurementKind::structure_series;
-    });
+    const std::vector<RunTime> times = run_times(experiment);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        const Measurement& table = experiment.measurements[k];
+        if (times[k].known && table.kind != MeasurementKind::structure_series && find_column(table, "storage_modulus") != nullptr) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /// Something was measured that shows what structures look like, or how stiff they are when their contacts are known.

@@ -1,5 +1,6 @@
 #include "observations.hpp"
 
+#include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/tool_constants.hpp>
 
 #include "data/table_cells.hpp"
@@ -24,37 +25,6 @@ constexpr Index fewest_centres = 20;
 
 /// Standard deviation of a third harmonic over the first where the table states none.
 constexpr double unstated_error = 5e-3;
-
-/// How long a row takes where the table has no times [s].
-constexpr double row_duration = 10;
-
-/// Time since the first row of its table; rows without a time follow each other.
-double time_in(const Measurement& table, std::size_t row) {
-    const double given = cell(table, "time", row);
-    return std::isnan(given) ? row_duration * static_cast<double>(row) : given;
-}
-
-double duration(const Measurement& table) {
-    double longest = 0;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        longest = std::max(longest, time_in(table, row));
-    }
-    return longest + row_duration;
-}
-
-/// When each table begins: the runs on one sample follow each other in their order.
-std::vector<double> starts(const Experiment& experiment) {
-    std::vector<double> start(experiment.measurements.size(), 0);
-    for (std::size_t k = 0; k < start.size(); ++k) {
-        for (const Measurement& other : experiment.measurements) {
-            const Measurement& table = experiment.measurements[k];
-            const bool before = other.sample == table.sample && other.run_order < table.run_order;
-            // Waveforms were recorded during the sweeps.
-            start[k] += before && other.kind != MeasurementKind::harmonics ? duration(other) : 0.0;
-        }
-    }
-    return start;
-}
 
 /// The group of structures that stands for a row of a structure series: its number, else its place in the table.
 std::size_t group_of(const Measurement& table, std::size_t row) {
@@ -266,7 +236,7 @@ std::vector<Observation> planned_images(std::size_t measurement, double centres)
 }
 
 std::vector<Observation> observations_of(const Experiment& experiment) {
-    const std::vector<double> start = starts(experiment);
+    const std::vector<RunTime> times = run_times(experiment);
     std::vector<Observation> all;
     for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
         const Measurement& table = experiment.measurements[k];
@@ -293,7 +263,8 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
                     continue;
                 }
                 all.push_back(observation_at(experiment, k, row, what));
-                all.back().time += start[k];
+                all.back().time += times[k].known ? times[k].origin : unset;
+                all.back().age = all.back().time - times[k].sheared;
             }
         }
     }

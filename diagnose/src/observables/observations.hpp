@@ -28,8 +28,9 @@ struct Observation {
     // Where and when; NaN where the table does not say.
     double strain = unset;              ///< amplitude
     double angular_frequency = unset;   ///< [rad/s]
-    double time = unset;                ///< since the first run on the sample [s]
-    double shear_rate = unset;          ///< of steady flow, where the value is a viscosity [Pa.s]; else NaN
+    double time = unset;                ///< on the clock of the sample (run_clock.hpp) [s]
+    double age = unset;                 ///< the same since the last shear that destroyed the structure [s]
+    double shear_rate = unset;          ///< of steady flow [1/s], where the value is a viscosity [Pa.s]; else NaN
     double gap = unset;                 ///< [m]
     double plate_radius = unset;        ///< [m]
     double torque_per_modulus = unset;  ///< torque per deflection over the modulus [m^3]

@@ -1,6 +1,8 @@
 // Exports of real instruments as their programs wrote them (datasets/).
 #include "instrument_exports.hpp"
 
+#include <coagula/io/date_time.hpp>
+
 #include "support/reference_data.hpp"
 
 #include <numbers>
@@ -126,6 +128,8 @@ TEST_F(InstrumentExports, AModulusThatCameOutNegativeIsNoValue) {
 
 TEST_F(InstrumentExports, RheoPlusInJapaneseIsReadInBothEncodings) {
     const MeasuredFile utf8 = read_measured_file(testing::dataset("rheoplus_japanese/datafile.csv"));
+    EXPECT_EQ(utf8.tables[0].date, seconds_of_date("2022-11-14 16:32"));
+    EXPECT_EQ(utf8.tables[1].date, seconds_of_date("2022-11-14 16:17"));
     const MeasuredFile escapes = read_measured_file(testing::dataset("rheoplus_japanese/datafile2.csv"));
     EXPECT_EQ(utf8.format, MeasuredFormat::rheoplus);
     ASSERT_EQ(utf8.tables.size(), 25U);

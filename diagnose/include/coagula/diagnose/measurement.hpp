@@ -85,9 +85,14 @@ struct LeftOutCell {
 /// One table: one sweep on one sample.
 struct Measurement {
     MeasurementKind kind = MeasurementKind::frequency_sweep;
-    std::string label;               ///< names the table in messages: file, section, point
-    std::string sample;              ///< tables of one sample share its random effect
-    int run_order = 0;               ///< position in the sequence of runs on this sample
+    std::string label;        ///< names the table in messages: file, section, point
+    std::string sample;       ///< tables of one sample share its random effect
+    int run_order = 0;        ///< position in the sequence of runs on this sample
+    double start = unset;     ///< of the run, on one clock for all tables [s]; NaN: not known
+    double pause = unset;     ///< between the run before it, or the filling, and this run or its pre-shear [s]
+    double preshear = unset;  ///< how long a shear right before the run took that destroyed the structure [s]; NaN: none
+    /// Whether its times are those of a clock that all runs on the sample share; without a word the times themselves tell.
+    std::optional<bool> shared_clock = {};
     bool rough_plates = false;       ///< nothing slips there
     double cone_angle = unset;       ///< of a cone in place of the upper one of two plates [rad]
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]; it does not slip, either

@@ -36,6 +36,7 @@ struct PlainTable {
     int section = 1;             ///< number that the file gives it: interval of its result, series, step
     int point = 0;               ///< > 0: this is the waveform of that point of the section
     int announced_points = 0;    ///< how many the file says there are; 0: it does not say
+    double date = unset;         ///< when the export says it began, as seconds_of_date() [s]; NaN where it does not
     bool has_headings = true;    ///< otherwise the columns are "column 1", ... until name_columns() names them
     std::size_t first_line = 0;  ///< of its rows in the file, from 1; 0: unknown
     std::vector<PlainColumn> columns;

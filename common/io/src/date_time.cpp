@@ -1,0 +1,62 @@
+#include <coagula/io/date_time.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <initializer_list>
+#include <regex>
+#include <string>
+
+namespace coagula::io {
+
+namespace {
+
+constexpr std::size_t longest = 100;  ///< characters of a text that is looked at
+
+bool holds_one_of(const std::string& text, std::initializer_list<const char*> marks) {
+    return std::any_of(marks.begin(), marks.end(), [&](const char* mark) { return text.find(mark) != std::string::npos; });
+}
+
+}  // namespace
+
+std::optional<double> seconds_of_date(int year, int month, int day, int hour, int minute, double second) {
+    using namespace std::chrono;
+    const year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                              std::chrono::day(static_cast<unsigned>(day))};
+    const bool in_day = hour >= 0 && hour < 24 && minute >= 0 && minute < 60 && second >= 0 && second < 61;
+    if (!date.ok() || !in_day) {
+        return std::nullopt;
+    }
+    const auto days = static_cast<double>(sys_days(date).time_since_epoch().count());
+    return ((days * 24 + hour) * 60 + minute) * 60 + second;
+}
+
+std::optional<double> seconds_of_date(std::string_view text) {
+    const std::string start(text.substr(0, longest));
+    static const std::regex date_form(R"((\d{1,4})([-/.])(\d{1,2})\2(\d{1,4}))");
+    static const std::regex time_form(R"((\d{1,2}):(\d{2})(?::(\d{2}))?)");
+    std::smatch date;
+    std::smatch time;
+    if (!std::regex_search(start, date, date_form)) {
+        return std::nullopt;
+    }
+    const std::string behind = date.suffix();
+    if (!std::regex_search(behind, time, time_form)) {
+        return std::nullopt;
+    }
+    const int first = std::stoi(date[1]);
+    const int second = std::stoi(date[3]);
+    const int third = std::stoi(date[4]);
+    const bool year_first = date[1].length() == 4;
+    const bool month_first = !year_first && date[2] == "/" && first <= 12;
+    const int year = year_first ? first : third;
+    const int month = year_first ? second : (month_first ? first : second);
+    const int day = year_first ? third : (month_first ? second : first);
+    const int hour = std::stoi(time[1]);
+    const std::string rest = time.suffix();
+    const int noon = holds_one_of(rest, {"PM", "pm", "p.m.", "午後"}) && hour < 12    ? 12
+                     : holds_one_of(rest, {"AM", "am", "a.m.", "午前"}) && hour == 12 ? -12
+                                                                                      : 0;
+    return seconds_of_date(year, month, day, hour + noon, std::stoi(time[2]), time[3].matched ? std::stoi(time[3]) : 0);
+}
+
+}  // namespace coagula::io

@@ -1,0 +1,32 @@
+// When the runs on a sample took place: ageing, drying and settling go on between them.
+#pragma once
+
+#include <coagula/diagnose/measurement.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// On the clock of the sample, which begins with its first run, or with the rest before that where one is stated.
+struct RunTime {
+    double origin = 0;        ///< of the times of the table [s]
+    double sheared = 0;       ///< end of the last shear that destroyed the structure, else 0 [s]
+    bool known = true;        ///< otherwise nothing says which of several runs on the sample came first
+    bool runs_on = false;     ///< its times go on from those of the run before it: one clock
+    std::size_t before = -1;  ///< the run before it on the sample; of the first run -1
+};
+
+/// Of every table. A run that states its start, or whose clock runs on from the run before it, is where these say; every other
+/// follows the run before it after its pause, 10 s where none is stated, and its pre-shear. Throws InputError where a table
+/// states its time twice in different ways, or begins more than a minute before the run before it has ended.
+std::vector<RunTime> run_times(const Experiment& experiment);
+
+/// Time of a row on the clock of its table [s]; rows of a table without times follow each other every 10 s.
+double time_in(const Measurement& table, std::size_t row);
+
+/// What is worth knowing of them, in sentences: clocks that run on, and runs whose order nobody says.
+std::vector<std::string> notes_on_clocks(const Experiment& experiment);
+
+}  // namespace coagula::diagnose
