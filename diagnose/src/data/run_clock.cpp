@@ -20,9 +20,10 @@ constexpr std::size_t none = RunTime{}.before;
 
 /// Whether a table is of a run on the sample. Waveforms were recorded during the sweeps.
 bool is_run(const Measurement& table) {
-    const bool moduli = table.kind == MeasurementKind::frequency_sweep || table.kind == MeasurementKind::amplitude_sweep ||
-                        table.kind == MeasurementKind::time_sweep || table.kind == MeasurementKind::gap_series;
-    return moduli && std::isnan(table.fluid_viscosity);
+    const bool shears = table.kind == MeasurementKind::frequency_sweep || table.kind == MeasurementKind::amplitude_sweep ||
+                        table.kind == MeasurementKind::time_sweep || table.kind == MeasurementKind::gap_series ||
+                        table.kind == MeasurementKind::flow_curve;
+    return shears && std::isnan(table.fluid_viscosity);
 }
 
 std::pair<double, double> first_and_last(const Measurement& table) {
@@ -160,6 +161,7 @@ std::vector<RunTime> run_times(const Experiment& experiment) {
     std::vector<RunTime> times(tables.size());
     std::map<std::string, std::vector<std::size_t>> samples;
     for (std::size_t k = 0; k < tables.size(); ++k) {
+        times[k].order = tables[k].run_order;
         if (is_run(tables[k])) {
             samples[tables[k].sample].push_back(k);
         }
@@ -169,6 +171,8 @@ std::vector<RunTime> run_times(const Experiment& experiment) {
         SampleClock clock(experiment, times);
         for (const std::size_t run : runs) {
             clock.add(run);
+            const std::size_t before = times[run].before;
+            times[run].order = before == none ? 0 : times[before].order + (are_ordered(tables[before], tables[run]) ? 1 : 0);
             times[run].known = std::all_of(runs.begin(), runs.end(), [&, run = run](std::size_t other) {
                 return other == run || are_ordered(tables[run], tables[other]);
             });

@@ -18,10 +18,18 @@
     ENTRY(solvent_drag)             \
     ENTRY(ageing)                   \
     ENTRY(ageing_after_shear)       \
+    ENTRY(ageing_power)             \
+    ENTRY(ageing_saturating)        \
+    ENTRY(temperature_drift)        \
+    ENTRY(evaporation)              \
+    ENTRY(sedimentation)            \
     ENTRY(sample_inertia)           \
     ENTRY(gap_error)                \
     ENTRY(wall_slip)                \
     ENTRY(volume_fraction_gradient) \
+    ENTRY(radius_error)             \
+    ENTRY(edge_fracture)            \
+    ENTRY(drying_rim)               \
     ENTRY(tool_compliance)          \
     ENTRY(tool_inertia)             \
     ENTRY(bearing_damping)          \
@@ -64,7 +72,9 @@ std::span<const Mechanism> catalogue() {
 bool can_act(const Mechanism& mechanism, const Experiment& experiment) {
     const bool of_instrument =
         std::holds_alternative<ChangesGeometry>(mechanism.effect) || std::holds_alternative<ChangesTool>(mechanism.effect);
-    return (of_instrument || experiment.material.kind == MaterialKind::network) && mechanism.applies(experiment);
+    const MaterialKind kind = experiment.material.kind;
+    const bool can = of_instrument || kind == MaterialKind::network || (kind == MaterialKind::newtonian && mechanism.in_any_fluid);
+    return can && mechanism.applies(experiment);
 }
 
 const Mechanism* find_mechanism(const std::string& name) {

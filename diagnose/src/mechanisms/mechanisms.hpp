@@ -5,6 +5,7 @@
 #include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/tool_constants.hpp>
 
+#include "data/table_cells.hpp"
 #include "observables/observations.hpp"
 
 #include <algorithm>
@@ -44,16 +45,25 @@ inline bool knows_walls(const Experiment& experiment) {
     return knows_gap(experiment) || (experiment.instrument.geometry == Geometry::cone_plate && knows_tool(experiment));
 }
 
-/// Some table has moduli that were measured one after the other, and it is known when.
+/// Some table has moduli or viscosities that were measured one after the other, and it is known when.
 inline bool takes_time(const Experiment& experiment) {
     const std::vector<RunTime> times = run_times(experiment);
     for (std::size_t k = 0; k < times.size(); ++k) {
         const Measurement& table = experiment.measurements[k];
-        if (times[k].known && table.kind != MeasurementKind::structure_series && find_column(table, "storage_modulus") != nullptr) {
+        const bool shows = find_column(table, "storage_modulus") != nullptr || find_column(table, "viscosity") != nullptr;
+        if (times[k].known && table.kind != MeasurementKind::structure_series && shows) {
             return true;
         }
     }
     return false;
+}
+
+/// The plates are there, with a rim: their radius is known.
+inline bool knows_radius(const Experiment& experiment) {
+    const auto states = [](const Measurement& table) { return find_column(table, "plate_radius") != nullptr; };
+    const bool cylinders = experiment.instrument.geometry == Geometry::concentric_cylinders;
+    return has_moduli(experiment) && !cylinders &&
+           (std::isfinite(experiment.instrument.plate_radius) || any_measurement(experiment, states));
 }
 
 /// Something was measured that shows what structures look like, or how stiff they are when their contacts are known.
@@ -65,23 +75,58 @@ inline bool sees_structure(const Experiment& experiment) {
            (has_moduli(experiment) && std::isfinite(experiment.sample.normal_stiffness));
 }
 
-/// What changes every row alike is told from a material that nobody has a model of only where tables differ in gap or plate.
-inline bool shows_geometry(const Experiment& experiment) {
-    if (experiment.material.kind != MaterialKind::smooth) {
-        return true;
-    }
+/// Whether what `of_row` says of the rows of all tables differs by more than a twentieth.
+template <class OfRow>
+bool differs(const Experiment& experiment, const OfRow& of_row) {
     std::set<double> all;
     for (const Measurement& table : experiment.measurements) {
         for (std::size_t row = 0; row < table.rows(); ++row) {
-            const auto in_row = [&](const char* name) {
-                const Column* column = find_column(table, name);
-                return column == nullptr ? unset : column->values[row];
-            };
-            all.insert(tool_constants(experiment.instrument, in_row("gap"), in_row("plate_radius"), table.cone_angle)
-                           .torque_per_modulus());
+            if (const double value = of_row(table, row); std::isfinite(value)) {
+                all.insert(value);
+            }
         }
     }
     return !all.empty() && *all.rbegin() > 1.05 * *all.begin();
+}
+
+/// What changes every row alike is told from a material that nobody has a model of only where tables differ in gap or plate.
+inline bool shows_geometry(const Experiment& experiment) {
+    const auto torque_per_modulus = [&](const Measurement& table, std::size_t row) {
+        return tool_constants(experiment.instrument, cell(table, "gap", row), cell(table, "plate_radius", row), table.cone_angle)
+            .torque_per_modulus();
+    };
+    return experiment.material.kind != MaterialKind::smooth || differs(experiment, torque_per_modulus);
+}
+
+inline bool differ_in_radius(const Experiment& experiment) {
+    return differs(experiment, [&](const Measurement& table, std::size_t row) {
+        const double own = cell(table, "plate_radius", row);
+        return std::isnan(own) ? experiment.instrument.plate_radius : own;
+    });
+}
+
+/// The modulus that particles or an oil should have is known, and not its course alone.
+inline bool knows_level(const Experiment& experiment) {
+    return std::isfinite(known_scale(experiment).value) ||
+           any_measurement(experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
+}
+
+/// What the layers of a sample that has settled, in series, do to the modulus of a row; 1 where nobody knows the gap.
+/// @param difference of the volume fraction between the plates at the gap of the instrument, 1 mm where that is not known.
+std::complex<double> settled_layers(const Observation& row, double difference, const SimulatedSample& sample);
+
+/// Layers between plates are in series; what the modulus of a layer is, structures of other volume fractions say.
+bool can_settle_between_plates(const Experiment& experiment);
+
+/// Every run follows a shear that destroyed the structure, or some does.
+inline bool is_sheared_before(const Experiment& experiment) {
+    return experiment.sample.sheared_before ||
+           any_measurement(experiment, [](const Measurement& table) { return std::isfinite(table.preshear); });
+}
+
+/// (1 + age / time)^exponent, of an exponent and a time [s].
+inline std::complex<double> power_of_age(const Observation& row, Values values, const SimulatedSample&) {
+    return std::isfinite(row.age) ? std::pow(1 + row.age / values[1], values[0]) : 1;
 }
 
 inline bool knows_frequency(const Experiment& experiment) {

@@ -1,4 +1,3 @@
-#include "data/table_cells.hpp"
 #include "mechanisms.hpp"
 
 namespace coagula::diagnose::mechanisms {

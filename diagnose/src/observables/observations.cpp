@@ -14,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -197,6 +198,47 @@ std::vector<Observation> seen_in_images(const Experiment& experiment, std::size_
     return all;
 }
 
+/// The largest strain of each run, and of those before it on the sample.
+double largest_strain_before(const Experiment& experiment, const std::vector<RunTime>& times, std::size_t run) {
+    double largest = unset;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        const Measurement& other = experiment.measurements[k];
+        const Column* strain = find_column(other, "strain");
+        if (strain != nullptr && other.sample == experiment.measurements[run].sample && times[k].order < times[run].order) {
+            largest = std::accumulate(strain->values.begin(), strain->values.end(), largest,
+                                      [](double a, double b) { return std::fmax(a, b); });
+        }
+    }
+    return largest;
+}
+
+/// What a table shows of a response to shear.
+void add_sheared(std::vector<Observation>& all, const Experiment& experiment, const std::vector<RunTime>& times, std::size_t run) {
+    const Measurement& table = experiment.measurements[run];
+    const bool flows = table.kind == MeasurementKind::flow_curve;
+    const double largest_before = largest_strain_before(experiment, times, run);
+    for (const Shown& what : shown_in(table)) {
+        double largest_strain = largest_before;
+        const Column* column = find_column(table, what.column);
+        // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
+        const bool fluid = std::isfinite(table.fluid_viscosity);
+        const bool takes_part = column != nullptr && (!fluid || (what.loss && !what.third_harmonic));
+        for (std::size_t row = 0; takes_part && row < table.rows(); ++row) {
+            largest_strain = std::fmax(largest_strain, cell(table, "strain", row));
+            if (!std::isfinite(column->values[row]) || (fluid && !flows && std::isnan(angular_frequency(table, row))) ||
+                (flows && std::isnan(cell(table, "shear_rate", row)))) {
+                continue;
+            }
+            all.push_back(observation_at(experiment, run, row, what));
+            Observation& one = all.back();
+            one.run = times[run].order;
+            one.time += times[run].known ? times[run].origin : unset;
+            one.age = one.time - times[run].sheared;
+            one.largest_strain = largest_strain;
+        }
+    }
+}
+
 }  // namespace
 
 const char* observable_of(const Observation& observation) {
@@ -248,24 +290,8 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
             const std::vector<Observation> pores = pores_in(experiment, k);
             all.insert(all.end(), pores.begin(), pores.end());
         }
-        const bool flows = table.kind == MeasurementKind::flow_curve;
-        if (!has_moduli(table.kind) && !flows && table.kind != MeasurementKind::harmonics) {
-            continue;
-        }
-        for (const Shown& what : shown_in(table)) {
-            const Column* column = find_column(table, what.column);
-            // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
-            const bool fluid = std::isfinite(table.fluid_viscosity);
-            const bool takes_part = column != nullptr && (!fluid || (what.loss && !what.third_harmonic));
-            for (std::size_t row = 0; takes_part && row < table.rows(); ++row) {
-                if (!std::isfinite(column->values[row]) || (fluid && !flows && std::isnan(angular_frequency(table, row))) ||
-                    (flows && std::isnan(cell(table, "shear_rate", row)))) {
-                    continue;
-                }
-                all.push_back(observation_at(experiment, k, row, what));
-                all.back().time += times[k].known ? times[k].origin : unset;
-                all.back().age = all.back().time - times[k].sheared;
-            }
+        if (has_moduli(table.kind) || table.kind == MeasurementKind::flow_curve || table.kind == MeasurementKind::harmonics) {
+            add_sheared(all, experiment, times, k);
         }
     }
     return all;

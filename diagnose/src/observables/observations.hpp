@@ -27,7 +27,9 @@ struct Observation {
     double other_error = 0;  ///< of the other part of G*, as turned [Pa]
     // Where and when; NaN where the table does not say.
     double strain = unset;              ///< amplitude
+    double largest_strain = unset;      ///< that the sample has seen up to this row
     double angular_frequency = unset;   ///< [rad/s]
+    int run = 0;                        ///< its place among those on the sample (run_clock.hpp)
     double time = unset;                ///< on the clock of the sample (run_clock.hpp) [s]
     double age = unset;                 ///< the same since the last shear that destroyed the structure [s]
     double shear_rate = unset;          ///< of steady flow [1/s], where the value is a viscosity [Pa.s]; else NaN

@@ -3,6 +3,7 @@
 
 #include "plate_field.hpp"
 
+#include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/waveform.hpp>
 
 #include <algorithm>
@@ -72,12 +73,12 @@ std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, 
 /// The strains of the runs that were made on the sample before this table, in their order.
 std::vector<double> Forward::strains_before(std::size_t table) const {
     const std::vector<Measurement>& tables = experiment_.measurements;
+    const std::vector<RunTime> times = run_times(experiment_);
     std::vector<std::pair<int, double>> earlier;
     for (const Observation& observation : observations_) {
         const Measurement& other = tables[observation.measurement];
-        if (other.sample == tables[table].sample && other.run_order < tables[table].run_order &&
-            std::isfinite(observation.strain)) {
-            earlier.emplace_back(other.run_order, observation.strain);
+        if (other.sample == tables[table].sample && observation.run < times[table].order && std::isfinite(observation.strain)) {
+            earlier.emplace_back(observation.run, observation.strain);
         }
     }
     std::stable_sort(earlier.begin(), earlier.end(), [](const auto& one, const auto& two) { return one.first < two.first; });

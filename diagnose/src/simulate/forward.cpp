@@ -132,7 +132,21 @@ Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
             all = smooth_->moduli(smooth_->start());
             break;
     }
+    scale(all, model, exact);
     return with_fluids(std::move(all));
+}
+
+/// By what changes the material in a row.
+void Forward::scale(Eigen::MatrixXcd& moduli, const Model& model, bool exact) const {
+    const Settings settings = of_material(model.simulated());
+    const SimulatedSample sample{experiment_, simulator_, settings, exact};
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        if (is_modulus(observations_[k])) {
+            model.for_each<ScalesMaterial>([&](const ScalesMaterial& effect, Values values) {
+                moduli.row(static_cast<Index>(k)) *= effect.factor(observations_[k], values, sample);
+            });
+        }
+    }
 }
 
 /// The same with a fluid where one was in place of the sample.
@@ -150,7 +164,6 @@ Eigen::MatrixXcd Forward::with_fluids(Eigen::MatrixXcd moduli) const {
 /// in how they yield and are dragged on.
 Eigen::MatrixXcd Forward::network(const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
-    const SimulatedSample sample{experiment_, simulator_, settings, exact};
     const std::map<std::size_t, double> linear = linear_moduli(settings, exact);
     Eigen::VectorXcd moduli = Eigen::VectorXcd::Zero(static_cast<Index>(observations_.size()));
     for (std::size_t k = 0; k < observations_.size(); ++k) {
@@ -160,8 +173,6 @@ Eigen::MatrixXcd Forward::network(const Model& model, bool exact) const {
             modulus = third_harmonic(settings, observation, largest_strains_before_[k]);
         } else if (is_modulus(observation) && !is_fluid(observation)) {
             modulus = linear.at(observation.structures) * linear_response(settings, observation, exact);
-            model.for_each<ScalesMaterial>(
-                [&](const ScalesMaterial& effect, Values values) { modulus *= effect.factor(observation, values, sample); });
         }
     }
     Eigen::MatrixXcd all = moduli.asDiagonal() * amplitude_factors(settings, exact);

@@ -82,6 +82,7 @@ private:
     std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
     Eigen::MatrixXcd material(const Model& model, bool exact) const;
     Eigen::MatrixXcd network(const Model& model, bool exact) const;
+    void scale(Eigen::MatrixXcd& moduli, const Model& model, bool exact) const;
     Eigen::MatrixXcd with_fluids(Eigen::MatrixXcd moduli) const;
     Eigen::MatrixXcd moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const;
     Prediction prediction_of(const Model& model, const Eigen::MatrixXcd& moduli, double degrees) const;

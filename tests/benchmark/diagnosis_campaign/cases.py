@@ -6,7 +6,8 @@ import numpy
 
 from material import CONTACTS, KNOWN, LOADS, SWEEP_ROWS
 from series import Series
-from session import Hidden, Noise, Session, full_day, gap_day, level_day, one_sample, yield_day, GAP, PLATE
+from session import (Hidden, Noise, Session, full_day, gap_day, level_day, long_day, one_sample, plates_day, wide_strains, yield_day,
+                     GAP, PLATE)
 
 LEAST_GAIN, LARGEST_GAIN = 25, 400
 KNOWN_THAT_BREAK = 4  # structures of the diagnosis where bonds break, drawn of those that there are
@@ -48,8 +49,16 @@ def effects(generator, session):
     """Function of 0 .. 1 that makes each effect stronger."""
     exponent = round(float(generator.uniform(0.015, 0.1)), 3)
     load = float(generator.choice([4.0, 8.0]))
+    sign = float(generator.choice([-1, 1]))
+    begin = float(numpy.exp(generator.uniform(numpy.log(100), numpy.log(2000))))
+    fracture = (float(generator.uniform(0.1, 1.0)), float(generator.uniform(0.5, 4.0)))
+    power = float(generator.uniform(2.5, 5.5))
+    build_up = (float(numpy.exp(generator.uniform(numpy.log(0.4), numpy.log(2.5)))), begin)
+    setting = (float(numpy.exp(generator.uniform(numpy.log(0.5), numpy.log(500)))), begin)
     within = {"contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
-              "tool-inertia": logarithmic(1e-8, 0.9e-4), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
+              "tool-inertia": logarithmic(1e-8, 0.9e-4), "overfill": logarithmic(1e-5, 1e-3), "skin": logarithmic(1e-7, 1.0),
+              "cooling": logarithmic(1e-3, 0.3),
+              "drying": logarithmic(1e-7, 2e-5), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
     return {
         "contact-loss": lambda place: Hidden("contact-loss", loss=(float(f"{within['contact-loss'](place):.3g}"), exponent)),
         "ageing": lambda place: Hidden("ageing", ageing=within["ageing"](place)),
@@ -58,6 +67,13 @@ def effects(generator, session):
         "wall-slip": lambda place: Hidden("wall-slip", slip=within["wall-slip"](place)),
         "gap-error": lambda place: Hidden("gap-error", gap_error=within["gap-error"](place)),
         "bond-strength": lambda place: Hidden("bond-strength", loads=(load,)),
+        "ageing-power": lambda place: Hidden("ageing-power", power=build_up),
+        "ageing-saturating": lambda place: Hidden("ageing-saturating", setting=setting),
+        "temperature-drift": lambda place: Hidden("temperature-drift", cooling=(sign * within["cooling"](place), begin)),
+        "evaporation": lambda place: Hidden("evaporation", drying=(within["drying"](place), power)),
+        "drying-rim": lambda place: Hidden("drying-rim", skin=within["skin"](place)),
+        "radius-error": lambda place: Hidden("radius-error", overfill=sign * within["overfill"](place)),
+        "edge-fracture": lambda place: Hidden("edge-fracture", fracture=fracture),
     }
 
 
@@ -86,6 +102,19 @@ def of_effect(name):
             load = strengths(1).loads[0]
             return replace(session, tables=full_day(load * CRITICAL_STRAIN, SWEEP_ROWS), hidden=strengths(1),
                            known_structures=known_that_break(generator))
+        return scaled(session, material, wanted, strengths)
+    return draw
+
+
+DAYS = {"edge-fracture": wide_strains, "radius-error": plates_day}
+
+
+def of_rim_or_time(name):
+    """Effects at the rim and in time, on days that can show them: of a gain that is drawn, or as large as they are."""
+    def draw(generator, material):
+        session = draw_session(generator, material, tables=DAYS.get(name, long_day)())
+        strengths = effects(generator, session)[name]
+        wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
         return scaled(session, material, wanted, strengths)
     return draw
 
@@ -219,3 +248,5 @@ ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlat
         "null-one-sample": null_one_sample, "drag": drag, "contacts-removed": misstated("contacts-removed"),
         "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})
+ROWS.update({name: of_rim_or_time(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim",
+                                                     "radius-error", "edge-fracture")})

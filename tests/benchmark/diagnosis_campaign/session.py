@@ -46,6 +46,13 @@ class Hidden:
     contact: tuple = ()     # cause, value; or "contacts-removed", share; "volume-fraction", true one
     viscosity: float = 0.0  # of the solvent, felt by the particles [Pa.s]
     bump: tuple = ()        # size, place [Hz], width in decades: of G'' over G'
+    power: tuple = ()       # exponent, time [s]: stiffness as a power of the age
+    setting: tuple = ()     # growth, time [s]: stiffness towards an end
+    cooling: tuple = ()     # difference at the start, time [s]
+    drying: tuple = ()      # volume lost under a wide plate [1/s], exponent of the modulus in the volume fraction
+    skin: float = 0.0       # growth of the stiffness of a skin around the rim [N/(m s)]
+    fracture: tuple = ()    # strain at a gap of 1 mm, power of the torque that is left
+    overfill: float = 0.0   # by which the sample is wider than its plate [m]
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
 
 
@@ -186,6 +193,29 @@ def yield_day(largest_strain, rows):
     return list(placed([sweep("amplitude-sweep", name, 0, largest_strain * numpy.arange(1, rows + 1) / rows, 1.0, 10) for name in "ABC"]))
 
 
+def wide_strains():
+    """Far up and down again, at two gaps."""
+    strains = numpy.geomspace(0.01, 3, 14)
+    return list(placed([sweep("amplitude-sweep", name, order, each, 1.0, 10, gap=gap)
+                        for name, gap in zip("ABCDE", [0.5e-3] * 3 + [2e-3] * 2) for order, each in ((0, strains), (1, strains[::-1]))]))
+
+
+def plates_day():
+    """Samples under a small, a middle and a wide plate."""
+    return list(placed([sweep("time-sweep", f"{name}{count}", 0, numpy.full(10, SMALL_STRAIN), 1.0, 60, plate=plate)
+                        for name, plate in (("S", 4e-3), ("M", 12.5e-3), ("W", 30e-3)) for count in range(4)]))
+
+
+def long_day():
+    """Times from seconds to hours, before and after which other things are varied."""
+    tables = []
+    for name, plate in (("A", PLATE), ("B", PLATE), ("C", 2 * PLATE), ("D", 2 * PLATE)):
+        tables += [sweep("time-sweep", name, 0, numpy.full(12, SMALL_STRAIN), 1.0, 5, plate=plate),
+                   sweep("frequency-sweep", name, 1, SMALL_STRAIN, numpy.geomspace(0.1, 30, 8), 20, plate=plate),
+                   sweep("time-sweep", name, 2, numpy.full(16, SMALL_STRAIN), 1.0, 450, plate=plate)]
+    return list(placed(tables))
+
+
 def follow_up(session, what):
     """The tables that a proposal asks for, on a fresh sample."""
     gaps = numpy.geomspace(GAP / 3, 3 * GAP, 8)
@@ -228,10 +258,30 @@ def true_modulus(material, session, table):
     if hidden.bump:
         size, place, width = hidden.bump
         modulus += 1j * size * abs(modulus) * numpy.exp(-0.5 * (numpy.log10(table.frequency / place) / width)**2)
+    clock = table.start + table.time
+    if hidden.power:
+        exponent, begin = hidden.power
+        modulus *= ((begin + clock) / begin)**exponent
+    if hidden.setting:
+        growth, begin = hidden.setting
+        modulus *= 1 + growth - growth / numpy.exp(clock / begin)
+    if hidden.cooling:
+        difference, settling = hidden.cooling
+        modulus *= numpy.exp(difference / numpy.exp(clock / settling))
+    if hidden.drying:
+        rate, exponent = hidden.drying
+        lost = rate * clock * 2 * PLATE / table.plate  # of all the solvent: rim over volume is 2 / R
+        modulus /= (1 - lost)**exponent
     if hidden.warmth:
         size, period = hidden.warmth
-        modulus *= 1 + size * numpy.sin(2 * numpy.pi * (table.start + table.time) / period)
+        modulus *= 1 + size * numpy.sin(2 * numpy.pi * clock / period)
     return modulus
+
+
+def worst_so_far(session, table):
+    """The largest strain that the sample has seen, row by row."""
+    earlier = [each.strain.max() for each in session.tables if each.sample == table.sample and each.order < table.order]
+    return numpy.maximum.accumulate(numpy.maximum(table.strain, max(earlier, default=0.0)))
 
 
 def reading(material, session, table, level=1.0):
@@ -246,7 +296,13 @@ def reading(material, session, table, level=1.0):
         torque = 2 * numpy.pi * numpy.sum(at_radius * radius**2, axis=0) * table.plate / 400
         return 3 * torque / (2 * numpy.pi * table.plate**3) / (table.strain + hidden.compliance * torque / CONE)
     true_gap = table.gap + hidden.gap_error
-    torque = numpy.pi * table.plate**3 / 2 * stress
+    torque = numpy.pi * table.plate**3 / 2 * stress * ((table.plate + hidden.overfill) / table.plate)**4
+    if hidden.fracture:
+        strain, power = hidden.fracture
+        torque = torque / numpy.maximum(1, worst_so_far(session, table) / (strain * numpy.sqrt(1e-3 / table.gap)))**power
+    if hidden.skin:
+        # A ring of this height and circumference that is strained as the rim is.
+        torque = torque + hidden.skin * (table.start + table.time) * 2 * numpy.pi * table.plate**2 * table.strain
     angle = (true_gap * table.strain + 2 * slip * stress) / table.plate + hidden.compliance * torque
     torque = torque - hidden.inertia * (2 * numpy.pi * table.frequency)**2 * angle
     if hidden.resonance:

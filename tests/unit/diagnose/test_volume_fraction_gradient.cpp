@@ -250,5 +250,50 @@ TEST(VolumeFractionGradient, IsTiedWithAgeingWhereTheGapNarrows) {
     EXPECT_TRUE(in_set(found, "ageing"));
 }
 
+/// Samples at two gaps for five hours, whose layers settle within one, in stacks of hidden structures.
+Experiment settling_samples(double difference, std::uint64_t seed) {
+    constexpr double settling_time = 3000;
+    Experiment made = gap_series(0, {nominal_gap}, 0.01, seed);
+    made.measurements.clear();
+    for (const double gap : {1e-3, 3e-3}) {
+        Measurement table;
+        table.kind = MeasurementKind::time_sweep;
+        table.label = table.sample = to_text(gap);
+        table.columns = {{"time", "s", {}}, {"gap", "m", std::vector<double>(20, gap)}, {"storage_modulus", "Pa", {}}};
+        for (int k = 1; k <= 20; ++k) {
+            const double now = difference * (1 - std::pow(2, -900.0 * k / (settling_time * std::log(2))));
+            const double shown = hidden().stacked(gap, now / nominal_gap);
+            table.columns[0].values.push_back(900.0 * k);
+            table.columns[2].values.push_back(shown * (1 + 0.01 * drawn_normal(seed + made.measurements.size(), table.rows())));
+            table.columns[2].standard_errors.push_back(0.01 * shown);
+        }
+        made.measurements.push_back(table);
+    }
+    return made;
+}
+
+TEST(Sedimentation, EndsAsTheGradientThatItLeadsTo) {
+    const Experiment experiment = settling_samples(0, 1);
+    const std::vector<double> settled =
+        predicted(experiment, Model({find_mechanism("volume-fraction-gradient")}, std::array{0.03}));
+    const std::vector<double> half = predicted(experiment, Model({find_mechanism("volume-fraction-gradient")}, std::array{0.015}));
+    const std::vector<double> fast = predicted(experiment, Model({find_mechanism("sedimentation")}, std::array{0.03, 300.0}));
+    const double half_life = 900 / std::log(2);
+    const std::vector<double> slow = predicted(experiment, Model({find_mechanism("sedimentation")}, std::array{0.03, half_life}));
+    EXPECT_NEAR(fast[19] / settled[19], 1, 1e-9);
+    EXPECT_NEAR(slow[0] / half[0], 1, 1e-9);
+    EXPECT_NEAR(slow[20] / half[20], 1, 1e-9);
+}
+
+TEST(Sedimentation, IsNamedWhereTheWiderGapFallsMore) {
+    DiagnosisOptions options;
+    options.bootstrap = 199;
+    const Diagnosis found = diagnose(settling_samples(0.03, 4), *known().simulator, options);
+    ASSERT_TRUE(found.detected);
+    EXPECT_EQ(found.verdict, Verdict::named);
+    EXPECT_EQ(found.credible_set, std::vector<std::string>{"sedimentation"});
+    EXPECT_FALSE(diagnose(settling_samples(0, 4), *known().simulator, options).detected);
+}
+
 }  // namespace
 }  // namespace coagula::diagnose

@@ -76,6 +76,8 @@ struct Mechanism {
     Effect effect;
     /// Whether an experiment says what the mechanism needs (a gap, a plate radius), so that it can be a cause at all.
     bool (*applies)(const Experiment& experiment);
+    /// A change of the material that needs no particles: a Newtonian fluid shows it, too.
+    bool in_any_fluid = false;
     bool in_contact = false;  ///< `coagula shear --model` can run it
     /// Its term in the model of the contact, where `effect` alone does not say it.
     void (*contact)(ContactModel& model, Values values) = nullptr;

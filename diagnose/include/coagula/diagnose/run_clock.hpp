@@ -15,6 +15,7 @@ struct RunTime {
     double sheared = 0;       ///< end of the last shear that destroyed the structure, else 0 [s]
     bool known = true;        ///< otherwise nothing says which of several runs on the sample came first
     bool runs_on = false;     ///< its times go on from those of the run before it: one clock
+    int order = 0;            ///< of the run among those on the sample; equal where nothing says which came first
     std::size_t before = -1;  ///< the run before it on the sample; of the first run -1
 };
 

@@ -1,0 +1,24 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// 1 + growth (1 - exp(-age / time)).
+std::complex<double> saturating(const Observation& row, Values values, const SimulatedSample&) {
+    return std::isfinite(row.age) ? 1 - values[0] * std::expm1(-row.age / values[1]) : 1;
+}
+
+}  // namespace
+
+/// A reaction of first order in what is left to bond: gelation, setting.
+Mechanism ageing_saturating() {
+    return {.name = "ageing-saturating",
+            .term = "the sample sets: its stiffness grows towards an end, exponentially in its age",
+            .signature = "follows the order of the runs and the time, not the strain, and comes to rest",
+            .parameters = {{"growth", "1", 0.3, 1000, true}, {"setting_time", "s", 10, 1e5, true}},
+            .effect = ScalesMaterial{saturating},
+            .applies = takes_time};
+}
+
+}  // namespace coagula::diagnose::mechanisms

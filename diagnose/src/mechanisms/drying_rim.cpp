@@ -1,0 +1,34 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// A skin of this stiffness around the rim shears with the sample: its torque is 2 pi S R^3 / h per angle between plates, and
+/// 2 pi S R^2 / angle under a cone.
+std::complex<double> with_skin(std::complex<double> modulus, const Observation& row, Values values) {
+    if (!std::isfinite(row.time) || !std::isfinite(row.plate_radius) || is_fluid(row) || is_steady(row)) {
+        return modulus;
+    }
+    const double moment = std::isfinite(row.cone_angle) ? 3 : 4;
+    return modulus + moment * values[0] * row.time / row.plate_radius;
+}
+
+bool has_open_rim(const Experiment& experiment) {
+    return knows_radius(experiment) && takes_time(experiment);
+}
+
+}  // namespace
+
+/// From films that a water-based sample shows within an hour (0.01 N/m) to crusts of a slurry.
+Mechanism drying_rim() {
+    return {.name = "drying-rim",
+            .term = "a skin dries at the rim and shears with the sample",
+            .signature = "the storage modulus grows by the same amount in time at all frequencies, strains and gaps, more under a smaller "
+                         "plate, and the loss modulus does not; gone under a solvent trap",
+            .parameters = {{"skin_growth", "N/(m.s)", 1e-7, 1, true}},
+            .effect = ChangesGeometry{with_skin},
+            .applies = has_open_rim};
+}
+
+}  // namespace coagula::diagnose::mechanisms

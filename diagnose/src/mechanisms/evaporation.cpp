@@ -1,0 +1,38 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+constexpr double usual_radius = 25e-3;  // m
+constexpr double least_volume = 0.2;    // that is left: particles fill the rest
+
+/// The rim loses solvent, in proportion to its area, from the whole volume: 2 / R of it, whatever the gap.
+std::complex<double> concentrated(const Observation& row, Values values, const SimulatedSample&) {
+    if (!std::isfinite(row.time)) {
+        return 1;
+    }
+    const double radius = std::isfinite(row.plate_radius) ? row.plate_radius : usual_radius;
+    const double left = std::max(1 - values[0] * row.time * usual_radius / radius, least_volume);
+    return std::pow(left, -values[1]);
+}
+
+bool dries(const Experiment& experiment) {
+    return takes_time(experiment) && experiment.instrument.geometry != Geometry::concentric_cylinders;
+}
+
+}  // namespace
+
+/// An open rim of water in a dry room loses 1e-5 to 1e-4 kg/(m2 s): 1e-6 to 1e-5 of the volume a second under plates of 25 mm.
+/// G' of colloidal gels grows as the volume fraction to a power of 2 to 6 (Buscall and others 1988).
+Mechanism evaporation() {
+    return {.name = "evaporation",
+            .term = "solvent evaporates from the rim, and the volume fraction of the whole sample grows",
+            .signature = "all moduli grow with the time since the filling, faster and faster, more under a smaller plate, whatever the "
+                         "gap; gone under a solvent trap",
+            .parameters = {{"solvent_loss", "1/s", 1e-7, 1e-4, true}, {"exponent", "1", 2, 6, false}},
+            .effect = ScalesMaterial{concentrated},
+            .applies = dries};
+}
+
+}  // namespace coagula::diagnose::mechanisms

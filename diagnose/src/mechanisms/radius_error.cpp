@@ -1,0 +1,31 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// Of what fills R + e where R is stated, the torque is that of another radius.
+std::complex<double> filled(std::complex<double> modulus, const Observation& row, Values values) {
+    const double power = std::isfinite(row.cone_angle) ? 3 : 4;
+    return std::isfinite(row.plate_radius) ? modulus * std::pow(1 + values[0] / row.plate_radius, power) : modulus;
+}
+
+/// Alone it is a level: plates of several radii show it, or a modulus that is known.
+bool shows_radius(const Experiment& experiment) {
+    return knows_radius(experiment) && (differ_in_radius(experiment) || knows_level(experiment));
+}
+
+}  // namespace
+
+/// A sample trimmed too little or too much, by up to a millimetre.
+Mechanism radius_error() {
+    return {.name = "radius-error",
+            .term = "the sample reaches farther out than the rim of the plates, or less far",
+            .signature = "all moduli higher or lower by one factor, also in an oil, whatever the gap, more under a smaller plate; it "
+                         "differs from filling to filling",
+            .parameters = {{"radius_error", "m", -1e-3, 1e-3, false}},
+            .effect = ChangesGeometry{filled},
+            .applies = shows_radius};
+}
+
+}  // namespace coagula::diagnose::mechanisms

@@ -1,0 +1,26 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+std::complex<double> settling(const Observation& row, Values values, const SimulatedSample& sample) {
+    return std::isfinite(row.time) ? settled_layers(row, -values[0] * std::expm1(-row.time / values[1]), sample) : 1;
+}
+
+bool settles_in_time(const Experiment& experiment) {
+    return can_settle_between_plates(experiment) && takes_time(experiment);
+}
+
+}  // namespace
+
+Mechanism sedimentation() {
+    return {.name = "sedimentation",
+            .term = "the sample settles while it is measured, towards a volume fraction that grows downwards between the plates",
+            .signature = "all moduli fall with the time since the filling and come to rest, by the square of the gap",
+            .parameters = {{"volume_fraction_difference", "1", 0, 0.05, false}, {"settling_time", "s", 300, 1e5, true}},
+            .effect = ScalesMaterial{settling},
+            .applies = settles_in_time};
+}
+
+}  // namespace coagula::diagnose::mechanisms

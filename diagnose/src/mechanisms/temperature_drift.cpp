@@ -1,0 +1,25 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// exp(difference exp(-time / settling)).
+std::complex<double> drifting(const Observation& row, Values values, const SimulatedSample&) {
+    return std::isfinite(row.time) ? std::exp(values[0] * std::exp(-row.time / values[1])) : 1;
+}
+
+}  // namespace
+
+/// The viscosity of water falls by 2 % a kelvin, that of oils by up to 10 %; plates need minutes to reach their temperature.
+Mechanism temperature_drift() {
+    return {.name = "temperature-drift",
+            .term = "the sample was filled at another temperature than that of the plates, which it takes on with time",
+            .signature = "all moduli, also of an oil, start off by one factor, up or down, which decays with the time since the filling",
+            .parameters = {{"start_difference", "1", -0.3, 0.3, false}, {"settling_time", "s", 30, 3000, true}},
+            .effect = ScalesMaterial{drifting},
+            .applies = takes_time,
+            .in_any_fluid = true};
+}
+
+}  // namespace coagula::diagnose::mechanisms
