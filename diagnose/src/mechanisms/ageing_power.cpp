@@ -14,8 +14,9 @@ bool builds_up_unsheared(const Experiment& experiment) {
 Mechanism ageing_power() {
     return {.name = "ageing-power",
             .term = "the sample sets: its stiffness grows as a power of its age",
-            .signature = "follows the order of the runs and the time, not the strain, over more than a factor of two; slower and "
-                         "slower as 'ageing-saturating' has it or on and on, which the latest times tell",
+            .signature =
+                "follows the order of the runs and the time, not the strain, over more than a factor of two; slower and "
+                "slower as 'ageing-saturating' has it or on and on, which the latest times tell",
             .parameters = {{"build_up_exponent", "1", 0.3, 3, true}, {"build_up_time", "s", 1, 1e4, true}},
             .effect = ScalesMaterial{power_of_age},
             .applies = builds_up_unsheared};

@@ -11,12 +11,13 @@ std::complex<double> saturating(const Observation& row, Values values, const Sim
 
 }  // namespace
 
-/// A reaction of first order in what is left to bond: gelation, setting.
+/// A reaction of first order in what is left to bond: gelation, setting. One that took less than a minute would be over before the
+/// first row; and a sweep down in frequency, of rows of equal duration, would show the inertia of the tool as the same exponential.
 Mechanism ageing_saturating() {
     return {.name = "ageing-saturating",
             .term = "the sample sets: its stiffness grows towards an end, exponentially in its age",
             .signature = "follows the order of the runs and the time, not the strain, and comes to rest",
-            .parameters = {{"growth", "1", 0.3, 1000, true}, {"setting_time", "s", 10, 1e5, true}},
+            .parameters = {{"growth", "1", 0.3, 1000, true}, {"setting_time", "s", 60, 1e5, true}},
             .effect = ScalesMaterial{saturating},
             .applies = takes_time};
 }

@@ -24,8 +24,9 @@ bool has_open_rim(const Experiment& experiment) {
 Mechanism drying_rim() {
     return {.name = "drying-rim",
             .term = "a skin dries at the rim and shears with the sample",
-            .signature = "the storage modulus grows by the same amount in time at all frequencies, strains and gaps, more under a smaller "
-                         "plate, and the loss modulus does not; gone under a solvent trap",
+            .signature =
+                "the storage modulus grows by the same amount in time at all frequencies, strains and gaps, more under a smaller "
+                "plate, and the loss modulus does not; gone under a solvent trap",
             .parameters = {{"skin_growth", "N/(m.s)", 1e-7, 1, true}},
             .effect = ChangesGeometry{with_skin},
             .applies = has_open_rim};

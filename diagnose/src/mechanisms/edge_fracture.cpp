@@ -4,9 +4,9 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-constexpr double usual_gap = 1e-3;       // m
-constexpr double least_strain = 0.05;    // at which a sample may be driven out of its gap
-constexpr double least_share = 1e-6;     // of the torque that is left
+constexpr double usual_gap = 1e-3;     // m
+constexpr double least_strain = 0.05;  // at which a sample may be driven out of its gap
+constexpr double least_share = 1e-6;   // of the torque that is left
 
 /// The second normal stress, in proportion to the square of the strain, against surface tension over the gap.
 std::complex<double> fractured(std::complex<double> modulus, const Observation& row, Values values) {
@@ -21,8 +21,8 @@ std::complex<double> fractured(std::complex<double> modulus, const Observation& 
 bool strains_far(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) {
         const Column* strain = find_column(table, "strain");
-        return strain != nullptr && std::any_of(strain->values.begin(), strain->values.end(),
-                                                [](double value) { return value > least_strain; });
+        return strain != nullptr &&
+               std::any_of(strain->values.begin(), strain->values.end(), [](double value) { return value > least_strain; });
     });
 }
 
@@ -34,8 +34,9 @@ bool strains_far(const Experiment& experiment) {
 Mechanism edge_fracture() {
     return {.name = "edge-fracture",
             .term = "beyond a strain the sample is driven out of the gap and cracks open at its rim",
-            .signature = "torque is lost beyond a strain and does not come back on the way down; the strain is lower at a wider gap, by "
-                         "the root of it, where the yield of bonds is not",
+            .signature =
+                "torque is lost beyond a strain and does not come back on the way down; the strain is lower at a wider gap, by "
+                "the root of it, where the yield of bonds is not",
             .parameters = {{"critical_strain", "1", 0.05, 20, true}, {"penetration", "1", 0.3, 6, true}},
             .effect = ChangesGeometry{fractured},
             .applies = strains_far};

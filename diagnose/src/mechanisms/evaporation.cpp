@@ -28,8 +28,9 @@ bool dries(const Experiment& experiment) {
 Mechanism evaporation() {
     return {.name = "evaporation",
             .term = "solvent evaporates from the rim, and the volume fraction of the whole sample grows",
-            .signature = "all moduli grow with the time since the filling, faster and faster, more under a smaller plate, whatever the "
-                         "gap; gone under a solvent trap",
+            .signature =
+                "all moduli grow with the time since the filling, faster and faster, more under a smaller plate, whatever the "
+                "gap; gone under a solvent trap",
             .parameters = {{"solvent_loss", "1/s", 1e-7, 1e-4, true}, {"exponent", "1", 2, 6, false}},
             .effect = ScalesMaterial{concentrated},
             .applies = dries};

@@ -21,8 +21,9 @@ bool shows_radius(const Experiment& experiment) {
 Mechanism radius_error() {
     return {.name = "radius-error",
             .term = "the sample reaches farther out than the rim of the plates, or less far",
-            .signature = "all moduli higher or lower by one factor, also in an oil, whatever the gap, more under a smaller plate; it "
-                         "differs from filling to filling",
+            .signature =
+                "all moduli higher or lower by one factor, also in an oil, whatever the gap, more under a smaller plate; it "
+                "differs from filling to filling",
             .parameters = {{"radius_error", "m", -1e-3, 1e-3, false}},
             .effect = ChangesGeometry{filled},
             .applies = shows_radius};

@@ -15,8 +15,9 @@ std::complex<double> drifting(const Observation& row, Values values, const Simul
 Mechanism temperature_drift() {
     return {.name = "temperature-drift",
             .term = "the sample was filled at another temperature than that of the plates, which it takes on with time",
-            .signature = "all moduli, also of an oil, start off by one factor, up or down, which decays with the time since the filling",
-            .parameters = {{"start_difference", "1", -0.3, 0.3, false}, {"settling_time", "s", 30, 3000, true}},
+            .signature =
+                "all moduli, also of an oil, start off by one factor, up or down, which decays with the time since the filling",
+            .parameters = {{"start_difference", "1", -0.3, 0.3, false}, {"settling_time", "s", 60, 3000, true}},
             .effect = ScalesMaterial{drifting},
             .applies = takes_time,
             .in_any_fluid = true};

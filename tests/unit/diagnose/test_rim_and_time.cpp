@@ -115,7 +115,7 @@ TEST(EdgeFracture, DoesNotHealAndComesEarlierAtAWiderGap) {
     const std::array up{1.0, 1.0, 0.25, std::pow(0.5 / 3, 2)};
     for (std::size_t k = 0; k < 4; ++k) {
         EXPECT_NEAR(share(k), up[k], 1e-12);
-        EXPECT_NEAR(share(4 + k), up[3], 1e-12);                           // nothing comes back
+        EXPECT_NEAR(share(4 + k), up[3], 1e-12);  // nothing comes back
         EXPECT_NEAR(share(8 + k), std::min(1.0, std::pow(0.25 / std::array{0.1, 0.3, 1.0, 3.0}[k], 2)), 1e-12);
     }
     EXPECT_TRUE(cause("edge-fracture").applies(experiment));
@@ -141,7 +141,9 @@ TEST(AgeingLaws, BeginAtOneAndKeepTheirLaws) {
         EXPECT_EQ(factor(name, row_at(0), {2, 100}), Complex(1)) << name;
         EXPECT_EQ(factor(name, row_at(unset), {2, 100}), Complex(1)) << name;
     }
-    const auto grown = [](const char* name, double age, double strength) { return factor(name, row_at(age), {strength, 100}).real(); };
+    const auto grown = [](const char* name, double age, double strength) {
+        return factor(name, row_at(age), {strength, 100}).real();
+    };
     // Far on, each decade multiplies by the same; an end that is reached is three times the start.
     EXPECT_NEAR(grown("ageing-power", 1e9, 2.9) / grown("ageing-power", 1e8, 2.9), std::pow(10, 2.9), 1e-2);
     EXPECT_NEAR(grown("ageing-saturating", 1e5, 2), 3, 1e-12);
