@@ -23,7 +23,7 @@ class Oil(Tables):
     """An oil of 1 Pa.s at some gaps, from torque and angle; no structures."""
 
     GAPS = (0.1e-3, 0.2e-3, 0.4e-3, 0.8e-3, 1.6e-3)
-    MORE_GAPS = (0.1e-3, 0.15e-3, 0.2e-3, 0.3e-3, 0.4e-3, 0.6e-3, 0.8e-3, 1.2e-3, 1.6e-3, 2.4e-3)
+    MORE_GAPS = (0.4e-3, 1.6e-3, 0.15e-3, 0.8e-3, 2.4e-3, 0.2e-3, 1.2e-3, 0.1e-3, 0.6e-3, 0.3e-3)  # in no order, so that time is apart
     RADIUS = 25e-3
 
     def gap_series(self, error, material, inertia=0.0, apart=1.0, gaps=GAPS, seed=1):
@@ -65,7 +65,7 @@ class Oil(Tables):
     def test_leaves_over_what_only_wide_gaps_show(self):
         found = self.diagnosis(self.gap_series(3e-5, "viscosity = 1\n", apart=0.95, gaps=self.MORE_GAPS))
         gap = self.named(found, "gap-error")["gap_error"]
-        self.assertAlmostEqual(gap["value"], 3e-5, delta=6e-6)  # fitted without the remainder
+        self.assertTrue(gap["low"] < 3e-5 < gap["high"], gap)
         self.assertTrue(found["remainder"]["detected"])
         self.assertTrue(found["remainder"]["where"].endswith("at gap 1.6 mm to 2.4 mm"), found["remainder"]["where"])
 
@@ -99,7 +99,8 @@ class Oil(Tables):
         found = self.diagnosis(self.gap_series(3e-5, ""))
         members = {name for cause in found["causes"] for name in cause["name"].split(" + ")}
         self.assertLessEqual(members, {"base", "none of the catalogue", "gap-error", "wall-slip", "tool-compliance", "tool-inertia",
-                                       "bearing-damping", "phase-offset", "torque-offset", "sample-inertia"})
+                                       "bearing-damping", "phase-offset", "torque-offset", "sample-inertia", "temperature-drift",
+                                       "drying-rim", "sudden-loss"})
         self.assertFalse((self.folder / "results" / "extended_model.toml").exists())
 
     def test_under_a_network_is_said_to_be_a_liquid(self):
@@ -204,25 +205,31 @@ class SmoothMaterial(Tables):
 class RealExports(Tables):
     """The inertia of real instruments, from torque and raw phase alone."""
 
-    def inertia(self, file, instrument=""):
+    def inertias(self, file, instrument, causes):
+        """Of these causes, of which each is among the most probable."""
         shutil.copy(Path(os.environ["COAGULA_DATASETS"]) / file, self.folder / Path(file).name)
         found = self.diagnosis(f'[material]\nkind = "smooth"\n\n{instrument}[[measurement]]\nkind = "frequency-sweep"\n'
                                f'file = "{Path(file).name}"\ntable = 2\nmoduli = "raw"\n')
         self.assertIn(found["verdict"], ("named", "tied"))
         for cause in found["credible_set"]:  # none counts where the phase offset is at the end of its range
             self.assertTrue("tool-inertia" in cause or cause.startswith("none"), found["credible_set"])
-        return found["causes"][0]["parameters"]["inertia"]
+        probable = {cause["name"]: cause for cause in found["causes"] if cause["posterior"] > 0.1}
+        return [probable[name]["parameters"]["inertia"] for name in causes]
 
     def test_dhr_of_an_anonymous_tool(self):
-        """Stress over torque and strain over deflection stand in the export; 24.2 uN.m.s2 by its torque of the sample."""
-        inertia = self.inertia("trios_lims_json/multi_technique.txt", "[instrument]\nstress_constant = 325950\nstrain_constant = 12.4993\n\n")
-        self.assertTrue(inertia["low"] < 24.2e-6 < inertia["high"], inertia)
+        """Stress over torque and strain over deflection stand in the export; 24.2 uN.m.s2 by its torque of the sample. The data leave
+        open whether the phase is off by a degree; where it is, the inertia is that, and else 7 % larger."""
+        plain, with_offset = self.inertias("trios_lims_json/multi_technique.txt",
+                                           "[instrument]\nstress_constant = 325950\nstrain_constant = 12.4993\n\n",
+                                           ("tool-inertia", "tool-inertia + phase-offset"))
+        self.assertTrue(with_offset["low"] < 24.2e-6 < with_offset["high"], with_offset)
+        self.assertAlmostEqual(plain["value"] / 24.2e-6, 1.07, delta=0.03)
 
     def test_dhr_with_a_cone(self):
-        """25.7 uN.m.s2 is what the instrument corrects by. Its corrected G' then falls at the highest frequencies, which no relaxing
-        material's does; what is found is 10 % larger, and something of G'' is left over, which is said."""
-        inertia = self.inertia("rheodata_toolkit/ta_trios_xls/mixed_test_types/Copy of JeT_5k100-5k100_100mgml_amp_frq_swp_672017 copy.xls")
-        self.assertAlmostEqual(inertia["value"] / 25.7e-6, 1.10, delta=0.03)
+        """25.7 uN.m.s2 is what the instrument corrects by; beside it G' grows with time by a few pascals, as a skin would make it."""
+        name = "rheodata_toolkit/ta_trios_xls/mixed_test_types/Copy of JeT_5k100-5k100_100mgml_amp_frq_swp_672017 copy.xls"
+        inertia, = self.inertias(name, "", ("tool-inertia + drying-rim",))
+        self.assertTrue(inertia["low"] < 25.7e-6 < inertia["high"], inertia)
 
 
 class FlowCurves(Tables):

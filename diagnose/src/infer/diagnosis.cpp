@@ -162,10 +162,11 @@ void rank_causes(const Comparison& comparison, const Inference& inference, const
     logarithms.push_back(log_weight_of_none(comparison, priors, diagnosis.level_alone));
     const std::vector<double> posterior = probabilities_of(std::move(logarithms));
     for (std::size_t k = 0; k < comparison.all.size(); ++k) {
-        diagnosis.causes.push_back(cause_of(comparison.all[k].fit, inference));
+        const Compared& one = comparison.all[k];
+        const bool leaves_remainder = one.log_weight_with_remainder(priors) > one.log_weight();
+        diagnosis.causes.push_back(cause_of(leaves_remainder ? one.remainder->fit : one.fit, inference));
         diagnosis.causes.back().posterior = posterior[k];
-        diagnosis.causes.back().leaves_remainder =
-            comparison.all[k].log_weight_with_remainder(priors) > comparison.all[k].log_weight();
+        diagnosis.causes.back().leaves_remainder = leaves_remainder;
     }
     diagnosis.causes.push_back({.name = none_name,
                                 .words = "a smooth departure that no mechanism of the catalogue makes",
@@ -254,7 +255,8 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
     diagnosis.remainder = {.detected = comparison.p_value <= options.level, .p_value = comparison.p_value, .where = {}};
     if (diagnosis.remainder.detected) {
-        diagnosis.remainder.where = place_of(*winner.remainder, data, inference.fitted(forward.prediction(winner.fit.model)));
+        diagnosis.remainder.where =
+            place_of(*winner.remainder, data, inference.fitted(forward.prediction(winner.remainder->fit.model)));
     }
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);

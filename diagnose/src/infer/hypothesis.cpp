@@ -135,7 +135,7 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
 
 /// Newton's method for the logarithm of the stiffness, with the density as a whole near its end only. @param least log weight from
 /// which on the node counts.
-Node Inference::best_stiffness(const Model& model, double start, double least) const {
+Node Inference::best_stiffness(const Model& model, double start, double least, Accuracy accuracy) const {
     if (!scales_) {
         const double density = errors_.log_density(forward_.prediction(model));
         return {start, 0, density, density};
@@ -143,7 +143,6 @@ Node Inference::best_stiffness(const Model& model, double start, double least) c
     constexpr int most_steps = 40;
     constexpr double near = 0.1;       // standard deviations, from where a parabola is exact enough
     constexpr double inaccurate = 20;  // logarithms that the density at the middle of the deviations may be off
-    Accuracy accuracy = Accuracy::middle;
     double place = start;
     double longest = 1;  // step; shorter each time that the slope turns, for the density has long tails
     AlongStiffness along{0, 0, 0};
@@ -258,6 +257,14 @@ PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
         return node;
     };
     PosteriorGrid grid = grid_along_axes(axes, evaluate);
+    if (axes == 0) {
+        // Where part of the rows lies far off, the density at the middle of the deviations may lead to another maximum.
+        const Node whole = best_stiffness(model_at(hypothesis, grid.places.front(), 1), log_level_,
+                                          -std::numeric_limits<double>::infinity(), Accuracy::whole);
+        if (whole.log_weight > grid.nodes.front().log_weight) {
+            grid.nodes.front() = whole;
+        }
+    }
     if (axes > 1) {
         // A narrow ridge between the axes: the grid along these misses its crest, or sees it at few nodes. At the edge of the prior
         // the grid about the mode may see less.

@@ -87,7 +87,8 @@ private:
     double log_prior(double log_stiffness) const;
     struct AlongStiffness;
     AlongStiffness density_along(Model model, double log_stiffness, Accuracy accuracy) const;
-    Node best_stiffness(const Model& model, double start, double least = -std::numeric_limits<double>::infinity()) const;
+    Node best_stiffness(const Model& model, double start, double least = -std::numeric_limits<double>::infinity(),
+                        Accuracy accuracy = Accuracy::middle) const;
 
     const Forward& forward_;
     const ErrorModel& errors_;

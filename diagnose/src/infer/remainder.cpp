@@ -3,19 +3,28 @@
 #include "noise/low_rank.hpp"
 #include "noise/weights.hpp"
 
+#include <coagula/common/random.hpp>
+
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
+#include <vector>
 
 namespace coagula::diagnose {
 
 namespace {
 
-constexpr double free_deviation = 1e3;  ///< of what follows freely, in standard errors of the numbers together
+constexpr double normal_half_width = 1.645;  ///< of 90 %, in standard deviations
+constexpr double edge = 1e-3;                ///< of a prior, from which a fit stays away
+constexpr double free_deviation = 1e3;       ///< of what follows freely, in standard errors of the numbers together
 
-/// The fit with all that follows a remainder.
+/// A model about which a remainder is looked for, with all that follows one along straight lines.
 struct Start {
-    Prediction prediction;
-    Eigen::MatrixXd following;  ///< whitened directions of stiffness and parameters, of unit deviation
+    Fit fit;
+    Prediction prediction{Eigen::VectorXd{}};
+    std::vector<Index> follow;   ///< 0: the logarithm of the stiffness; from 1 on the places of the parameters
+    Eigen::VectorXd deviations;  ///< of these
+    Eigen::MatrixXd following;   ///< what they do to the whitened numbers, of unit deviation
 };
 
 /// The prediction at the known stiffness, about which it may differ by its error, as far as a straight line from that of the fit
@@ -34,24 +43,28 @@ Prediction about_known_stiffness(const Inference& inference, const Model& model)
     return prediction;
 }
 
+/// About another fit of the same, with the deviations that it has already.
+void move_to(Start& start, const Inference& inference, Fit fit) {
+    start.fit = std::move(fit);
+    start.prediction = about_known_stiffness(inference, start.fit.model);
+    start.following = inference.jacobian(start.fit)(Eigen::all, start.follow) * start.deviations.asDiagonal();
+}
+
 Start start_of(const Inference& inference, const Fit& fit) {
     const double error = inference.stiffness_error();
     const Eigen::MatrixXd slopes = inference.jacobian(fit);
-    const auto parameters = static_cast<Index>(fit.active_end.size());
-    std::vector<Eigen::VectorXd> columns;
-    for (Index column = 0; column <= parameters; ++column) {
-        const Eigen::VectorXd slope = slopes.col(column);
+    Start start;
+    std::vector<double> deviations;
+    for (Index column = 0; column <= static_cast<Index>(fit.active_end.size()); ++column) {
+        const double slope = slopes.col(column).norm();
         const bool stays = column > 0 && fit.active_end[static_cast<std::size_t>(column) - 1];
-        if (stays || slope.norm() == 0) {
-            continue;
+        if (!stays && slope > 0) {
+            start.follow.push_back(column);
+            deviations.push_back(column == 0 && std::isfinite(error) ? error : free_deviation / slope);
         }
-        columns.emplace_back(column == 0 && std::isfinite(error) ? Eigen::VectorXd(error * slope)
-                                                                 : Eigen::VectorXd(free_deviation / slope.norm() * slope));
     }
-    Start start{about_known_stiffness(inference, fit.model), Eigen::MatrixXd(slopes.rows(), static_cast<Index>(columns.size()))};
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-        start.following.col(static_cast<Index>(k)) = columns[k];
-    }
+    start.deviations = Eigen::Map<const Eigen::VectorXd>(deviations.data(), static_cast<Index>(deviations.size()));
+    move_to(start, inference, fit);
     return start;
 }
 
@@ -61,10 +74,17 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& first, const Eigen::MatrixXd& seco
     return both;
 }
 
-/// Most probable departure along some directions beside what follows.
-Eigen::VectorXd departure_along(const ErrorModel& errors, const Start& start, const Eigen::MatrixXd& factor) {
+/// Most probable values, with their covariance, of what follows and of a departure along some directions.
+struct Followed {
+    Eigen::VectorXd moved;       ///< of what follows, in its own units
+    Eigen::MatrixXd covariance;  ///< of these
+    Eigen::VectorXd departure;   ///< of every number
+};
+
+Followed followed(const ErrorModel& errors, const Start& start, const Eigen::MatrixXd& factor) {
     const Eigen::MatrixXd directions = errors.directions(start.prediction);
     const Index samples = errors.data().samples();
+    const Index follow = start.following.cols();
     const Eigen::MatrixXd others =
         beside(beside(directions.rightCols(directions.cols() - samples), start.following), errors.data().noise.whitened(factor));
     const Eigen::VectorXd level = directions.leftCols(samples).rowwise().sum();
@@ -72,19 +92,78 @@ Eigen::VectorXd departure_along(const ErrorModel& errors, const Start& start, co
     const std::vector<std::size_t> together(static_cast<std::size_t>(plain.size()), 0);
     NormalEffects effects(plain, level, errors.data().sample, samples, others, together, 1);
     effects.solve(errors.data().effect, Eigen::VectorXd::Ones(others.cols()), {1.0});
-    return factor * effects.most_probable().tail(factor.cols());
+    const Index first = directions.cols();
+    return {
+        start.deviations.cwiseProduct(effects.most_probable().segment(first, follow)),
+        start.deviations.asDiagonal() * effects.covariance().block(first, first, follow, follow) * start.deviations.asDiagonal(),
+        factor * effects.most_probable().tail(factor.cols())};
 }
 
-}  // namespace
+/// Stiffness and parameters, in their order, where what follows has moved by so much.
+Eigen::VectorXd values_at(const Inference& inference, const Start& start, const Eigen::VectorXd& moved) {
+    constexpr double longest = 2;  // of the logarithm of the stiffness
+    const std::vector<MechanismParameter> parameters = parameters_of(start.fit.hypothesis);
+    const double known = known_scale(inference.forward().experiment()).value;
+    Eigen::VectorXd values(static_cast<Index>(parameters.size()) + 1);
+    values << start.fit.model.settings.normal_stiffness, Eigen::VectorXd::Map(start.fit.values().data(), values.size() - 1);
+    for (std::size_t k = 0; k < start.follow.size(); ++k) {
+        const double change = moved[static_cast<Index>(k)];
+        double& value = values[start.follow[k]];
+        if (start.follow[k] == 0) {
+            value = (std::isfinite(known) ? known : value) * std::exp(std::clamp(change, -longest, longest));
+        } else {
+            const MechanismParameter& parameter = parameters[static_cast<std::size_t>(start.follow[k]) - 1];
+            value = parameter.at(std::clamp(parameter.place_of(value) + change, edge, 1 - edge));
+        }
+    }
+    return values;
+}
 
-SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const SmoothDepartures& departures) {
+/// The fit where the model beside a departure would have it, and how well it is determined there.
+Fit moved_fit(const Inference& inference, const Start& start, const Followed& beside) {
+    const Eigen::VectorXd half = normal_half_width * beside.covariance.diagonal().cwiseSqrt();
+    const Eigen::VectorXd middle = values_at(inference, start, beside.moved);
+    const Eigen::VectorXd low = values_at(inference, start, beside.moved - half);
+    const Eigen::VectorXd high = values_at(inference, start, beside.moved + half);
+    const Eigen::VectorXd rest = middle.tail(middle.size() - 1);
+    Fit fit = start.fit;
+    fit.model = Model(fit.hypothesis, Values(rest.data(), static_cast<std::size_t>(rest.size())), middle[0]);
+    fit.stiffness = {middle[0], low[0], high[0]};
+    for (Index k = 0; k < rest.size(); ++k) {
+        fit.parameters[static_cast<std::size_t>(k)] = {rest[k], low[k + 1], high[k + 1]};
+    }
+    return fit;
+}
+
+/// Equally probable draws from the normal posterior of what follows.
+Eigen::MatrixXd draws_of(const Inference& inference, const Start& start, const Followed& beside) {
+    const Eigen::MatrixXd root = beside.covariance.llt().matrixL();
+    Eigen::MatrixXd draws = start.fit.draws;
+    for (Index draw = 0; draw < draws.cols(); ++draw) {
+        Eigen::VectorXd normal(beside.moved.size());
+        for (Index k = 0; k < normal.size(); ++k) {
+            normal[k] =
+                random_normal(0, RandomPurpose::diagnosis, static_cast<std::uint64_t>(draw), static_cast<std::uint64_t>(k))[0];
+        }
+        draws.col(draw) = values_at(inference, start, beside.moved + root * normal);
+    }
+    return draws;
+}
+
+/// Of the data without a remainder. The integral over what follows may find a lower maximum than the fit has found, where part of
+/// the data lies far off; then it is that about the fit.
+double density_alone(const ErrorModel& errors, const Start& start) {
+    const Index follow = start.following.cols();
+    const Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(follow, follow) + start.following.transpose() * start.following;
+    const double log_width = -precision.llt().matrixLLT().diagonal().array().log().sum();
+    return std::max(errors.log_density(start.prediction, start.following), errors.log_density(start.prediction) + log_width);
+}
+
+/// Of all departures at a start.
+SmoothRemainder remainder_at(const Inference& inference, const Start& start, const SmoothDepartures& departures, double alone) {
     const ErrorModel& errors = inference.errors();
-    const Start start = start_of(inference, fit);
-    const double alone = errors.log_density(start.prediction, start.following);
     const Eigen::VectorXd level = complex_moduli(errors.data().observations, inference.fitted(start.prediction));
-    SmoothRemainder found;
-    double best = -std::numeric_limits<double>::infinity();
-    Eigen::MatrixXd best_factor;
+    SmoothRemainder found{.fit = start.fit};
     std::vector<double> all;
     for (const std::vector<SmoothDeparture>& group : departures) {
         std::vector<double> members;
@@ -93,26 +172,51 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const
             const Eigen::MatrixXd white = errors.data().noise.whitened(factor);
             for (const double amplitude : smooth_amplitudes) {
                 members.push_back(errors.log_density(start.prediction, beside(start.following, amplitude * white)) - alone);
-                if (members.back() > best) {
-                    best = members.back();
+                if (members.back() > found.best) {
+                    found.best = members.back();
                     found.along = departure.along;
-                    best_factor = amplitude * factor;
+                    found.factor = amplitude * factor;
                 }
             }
         }
         all.push_back(log_mean(members));
     }
     found.log_factor = log_mean(all);
-    found.directions = errors.data().noise.whitened(best_factor);
-    found.departure = departure_along(errors, start, best_factor);
+    return found;
+}
+
+}  // namespace
+
+SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const SmoothDepartures& departures) {
+    const ErrorModel& errors = inference.errors();
+    Start start = start_of(inference, fit);
+    const double alone = density_alone(errors, start);
+    SmoothRemainder found = remainder_at(inference, start, departures, alone);
+    Followed at_best = followed(errors, start, found.factor);
+    // Far from there neither the lines nor the amplitudes, shares of the level, are right.
+    constexpr int rounds = 2;
+    for (int round = 0; round < rounds; ++round) {
+        Start moved = start;
+        move_to(moved, inference, moved_fit(inference, start, at_best));
+        SmoothRemainder there = remainder_at(inference, moved, departures, alone);
+        if (!(there.best > found.best)) {
+            break;
+        }
+        start = std::move(moved);
+        found = std::move(there);
+        at_best = followed(errors, start, found.factor);
+    }
+    found.fit = moved_fit(inference, start, at_best);
+    found.fit.draws = draws_of(inference, start, at_best);
+    found.directions = errors.data().noise.whitened(found.factor);
+    found.departure = at_best.departure;
     return found;
 }
 
 double log_factor_along(const Inference& inference, const Fit& fit, const Eigen::MatrixXd& directions) {
     const ErrorModel& errors = inference.errors();
     const Start start = start_of(inference, fit);
-    return errors.log_density(start.prediction, beside(start.following, directions)) -
-           errors.log_density(start.prediction, start.following);
+    return errors.log_density(start.prediction, beside(start.following, directions)) - density_alone(errors, start);
 }
 
 }  // namespace coagula::diagnose

@@ -1,20 +1,27 @@
 // What a model leaves over: a smooth departure on top of it (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425).
 #pragma once
 
+#include "hypothesis.hpp"
 #include "smooth.hpp"
 
 #include <Eigen/Core>
 
+#include <limits>
+
 namespace coagula::diagnose {
 
 struct SmoothRemainder {
-    double log_factor = 0;          ///< on the evidence of the fit, averaged over coordinates, amplitudes and lengths
-    std::vector<Coordinate> along;  ///< those of the best one
-    Eigen::MatrixXd directions;     ///< whitened ones of that, of unit deviation
-    Eigen::VectorXd departure;      ///< most probable one along them, of every number
+    double log_factor = 0;  ///< on the evidence of the fit, averaged over coordinates, amplitudes and lengths
+    Fit fit = {};           ///< most probable beside the best one; intervals are those of a normal posterior
+    double best = -std::numeric_limits<double>::infinity();  ///< logarithm of the factor of the best one
+    std::vector<Coordinate> along = {};                      ///< those of the best one
+    Eigen::MatrixXd factor = {};                             ///< its directions, of unit deviation, of every number
+    Eigen::MatrixXd directions = {};                         ///< the same, whitened
+    Eigen::VectorXd departure = {};                          ///< most probable one along them, of every number
 };
 
-/// At a fit, whose stiffness and parameters follow (linearised there; those at an active end of their prior stay).
+/// At a fit, whose stiffness and parameters follow: linearised there, and again where they are led to. Those at an active end of
+/// their prior stay.
 SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const SmoothDepartures& departures);
 
 /// Factor on the evidence of the fit by a remainder along these directions alone, as a logarithm.

@@ -29,6 +29,7 @@
     ENTRY(volume_fraction_gradient) \
     ENTRY(radius_error)             \
     ENTRY(edge_fracture)            \
+    ENTRY(sudden_loss)              \
     ENTRY(drying_rim)               \
     ENTRY(tool_compliance)          \
     ENTRY(tool_inertia)             \

@@ -212,11 +212,47 @@ double largest_strain_before(const Experiment& experiment, const std::vector<Run
     return largest;
 }
 
+/// Where the rows of a run are among those of all runs, 0 .. 1: one sample after the other, its runs in their order.
+struct RunPlace {
+    double sample = 0;  ///< of the first row of the sample
+    double first = 0;   ///< of the first row of the run
+    double per_row = 0;
+};
+
+std::vector<RunPlace> run_places(const Experiment& experiment, const std::vector<RunTime>& times) {
+    const auto& tables = experiment.measurements;
+    std::map<std::string, std::vector<std::size_t>> samples;
+    double rows = 0;
+    for (std::size_t run = 0; run < tables.size(); ++run) {
+        samples[tables[run].sample].push_back(run);
+        rows += static_cast<double>(tables[run].rows());
+    }
+    std::vector<RunPlace> places(tables.size());
+    double next = 0;
+    for (auto& [sample, runs] : samples) {
+        std::stable_sort(runs.begin(), runs.end(), [&](std::size_t a, std::size_t b) { return times[a].order < times[b].order; });
+        const double first = next;
+        for (const std::size_t run : runs) {
+            places[run] = {first / rows, next / rows, 1 / rows};
+            next += static_cast<double>(tables[run].rows());
+        }
+    }
+    return places;
+}
+
+/// When and where the runs of an experiment were made.
+struct Runs {
+    std::vector<RunTime> times;
+    std::vector<RunPlace> places;
+};
+
 /// What a table shows of a response to shear.
-void add_sheared(std::vector<Observation>& all, const Experiment& experiment, const std::vector<RunTime>& times, std::size_t run) {
+void add_sheared(std::vector<Observation>& all, const Experiment& experiment, const Runs& runs, std::size_t run) {
     const Measurement& table = experiment.measurements[run];
+    const RunTime& time = runs.times[run];
+    const RunPlace& place = runs.places[run];
     const bool flows = table.kind == MeasurementKind::flow_curve;
-    const double largest_before = largest_strain_before(experiment, times, run);
+    const double largest_before = largest_strain_before(experiment, runs.times, run);
     for (const Shown& what : shown_in(table)) {
         double largest_strain = largest_before;
         const Column* column = find_column(table, what.column);
@@ -231,9 +267,11 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
             }
             all.push_back(observation_at(experiment, run, row, what));
             Observation& one = all.back();
-            one.run = times[run].order;
-            one.time += times[run].known ? times[run].origin : unset;
-            one.age = one.time - times[run].sheared;
+            one.run = time.order;
+            one.time += time.known ? time.origin : unset;
+            one.age = one.time - time.sheared;
+            one.sample_place = place.sample;
+            one.place = place.first + static_cast<double>(row) * place.per_row;
             one.largest_strain = largest_strain;
         }
     }
@@ -278,7 +316,8 @@ std::vector<Observation> planned_images(std::size_t measurement, double centres)
 }
 
 std::vector<Observation> observations_of(const Experiment& experiment) {
-    const std::vector<RunTime> times = run_times(experiment);
+    Runs runs{run_times(experiment), {}};
+    runs.places = run_places(experiment, runs.times);
     std::vector<Observation> all;
     for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
         const Measurement& table = experiment.measurements[k];
@@ -291,7 +330,7 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
             all.insert(all.end(), pores.begin(), pores.end());
         }
         if (has_moduli(table.kind) || table.kind == MeasurementKind::flow_curve || table.kind == MeasurementKind::harmonics) {
-            add_sheared(all, experiment, times, k);
+            add_sheared(all, experiment, runs, k);
         }
     }
     return all;

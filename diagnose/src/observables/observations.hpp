@@ -32,6 +32,8 @@ struct Observation {
     int run = 0;                        ///< its place among those on the sample (run_clock.hpp)
     double time = unset;                ///< on the clock of the sample (run_clock.hpp) [s]
     double age = unset;                 ///< the same since the last shear that destroyed the structure [s]
+    double place = unset;               ///< among all rows of all runs, 0 .. 1, sample by sample in their order
+    double sample_place = unset;        ///< where the first row of its sample is
     double shear_rate = unset;          ///< of steady flow [1/s], where the value is a viscosity [Pa.s]; else NaN
     double gap = unset;                 ///< [m]
     double plate_radius = unset;        ///< [m]

@@ -53,6 +53,7 @@ def effects(generator, session):
     begin = float(numpy.exp(generator.uniform(numpy.log(100), numpy.log(2000))))
     fracture = (float(generator.uniform(0.1, 1.0)), float(generator.uniform(0.5, 4.0)))
     power = float(generator.uniform(2.5, 5.5))
+    where = (str(generator.choice(list("ABCD"))), int(generator.integers(4, 32)))
     build_up = (float(numpy.exp(generator.uniform(numpy.log(0.4), numpy.log(2.5)))), begin)
     setting = (float(numpy.exp(generator.uniform(numpy.log(0.5), numpy.log(500)))), begin)
     within = {"contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
@@ -73,6 +74,7 @@ def effects(generator, session):
         "evaporation": lambda place: Hidden("evaporation", drying=(within["drying"](place), power)),
         "drying-rim": lambda place: Hidden("drying-rim", skin=within["skin"](place)),
         "radius-error": lambda place: Hidden("radius-error", overfill=sign * within["overfill"](place)),
+        "sudden-loss": lambda place: Hidden("sudden-loss", loss_of_hold=(where[0], where[1], 0.98 - 0.9 * place)),
         "edge-fracture": lambda place: Hidden("edge-fracture", fracture=fracture),
     }
 
@@ -248,5 +250,5 @@ ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlat
         "null-one-sample": null_one_sample, "drag": drag, "contacts-removed": misstated("contacts-removed"),
         "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})
-ROWS.update({name: of_rim_or_time(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim",
+ROWS.update({name: of_rim_or_time(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "sudden-loss",
                                                      "radius-error", "edge-fracture")})

@@ -52,6 +52,7 @@ class Hidden:
     drying: tuple = ()      # volume lost under a wide plate [1/s], exponent of the modulus in the volume fraction
     skin: float = 0.0       # growth of the stiffness of a skin around the rim [N/(m s)]
     fracture: tuple = ()    # strain at a gap of 1 mm, power of the torque that is left
+    loss_of_hold: tuple = ()  # sample, row among all its rows, share of the torque that remains
     overfill: float = 0.0   # by which the sample is wider than its plate [m]
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
 
@@ -300,6 +301,11 @@ def reading(material, session, table, level=1.0):
     if hidden.fracture:
         strain, power = hidden.fracture
         torque = torque / numpy.maximum(1, worst_so_far(session, table) / (strain * numpy.sqrt(1e-3 / table.gap)))**power
+    if hidden.loss_of_hold:
+        sample, row, share = hidden.loss_of_hold
+        before = sum(len(each.strain) for each in session.tables if each.sample == sample and each.order < table.order)
+        if table.sample == sample:
+            torque = torque * numpy.where(before + numpy.arange(len(torque)) >= row, share, 1)
     if hidden.skin:
         # A ring of this height and circumference that is strained as the rim is.
         torque = torque + hidden.skin * (table.start + table.time) * 2 * numpy.pi * table.plate**2 * table.strain

@@ -79,13 +79,15 @@ TEST(Remainder, IsPlacedBesideACauseThatStaysNamed) {
         return with_inertia(frequency) + std::complex<double>(0, bump);
     };
     const Diagnosis found = diagnosed(sweeps_of(bumped, 100));
-    ASSERT_EQ(found.verdict, Verdict::named) << found.credible_set.front();
-    EXPECT_EQ(found.credible_set.front(), "tool-inertia");
+    ASSERT_TRUE(found.verdict == Verdict::named || found.verdict == Verdict::tied);
+    for (const std::string& cause : found.credible_set) {  // a damping that makes a part of the bump may stand beside it
+        EXPECT_TRUE(cause.starts_with("tool-inertia")) << cause;
+    }
     EXPECT_TRUE(found.causes.front().leaves_remainder);
     EXPECT_TRUE(found.remainder.detected);
     EXPECT_NE(found.remainder.where.find("G'' lies above the model"), std::string::npos) << found.remainder.where;
     EXPECT_NE(found.remainder.where.find("angular frequency"), std::string::npos) << found.remainder.where;
-    const EstimatedParameter& inertia = found.causes.front().parameters.back();
+    const EstimatedParameter& inertia = found.causes.front().parameters[1];
     EXPECT_LT(inertia.low, 3.05e-5);
     EXPECT_GT(inertia.high, 2.95e-5);
 }

@@ -152,6 +152,23 @@ TEST(AgeingLaws, BeginAtOneAndKeepTheirLaws) {
     EXPECT_NEAR(factor("temperature-drift", row_at(300 * std::log(2)), {-0.2, 300}).real(), std::exp(-0.1), 1e-12);
 }
 
+/// Two runs on one sample, then another sample: only what comes later on that sample is lower.
+TEST(SuddenLoss, StaysWithItsSampleAndLeavesTheOthers) {
+    Experiment experiment;
+    experiment.measurements = up_and_down(1e-3, "a");
+    for (Measurement& table : up_and_down(1e-3, "b")) {
+        experiment.measurements.push_back(std::move(table));
+    }
+    std::swap(experiment.measurements[0], experiment.measurements[1]);  // the clock counts, not the order of the tables
+    const std::vector<Observation> rows = observations_of(experiment);
+    const auto share = [&](std::size_t row) { return shown("sudden-loss", 1, rows.at(row), {2.5 / 16, 0.6}).real(); };
+    for (std::size_t k = 0; k < 16; ++k) {
+        const bool later_run = k < 4;
+        const bool behind = k == 7;
+        EXPECT_EQ(share(k), later_run || behind ? 0.6 : 1.0) << k;
+    }
+}
+
 /// Filled cold, an oil shows less and less viscosity, which moduli and flow curves tell alike.
 TEST(TemperatureDrift, ActsOnAnOilAndOnNoMaterialThatNobodyHasAModelOf) {
     Experiment oil;
