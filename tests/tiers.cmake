@@ -16,6 +16,7 @@ set(coagula_slow_tests
   "Prestress[.].*"
   "StructureError[.].*"
   "StructureSeries[.].*"
+  "Sedimentation[.].*"
   "SolventDrag[.]IsNamed.*"
   "SurfacePotential[.].*"
   "ThirdHarmonic[.](Of|Hertz).*"

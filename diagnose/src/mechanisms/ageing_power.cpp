@@ -17,7 +17,7 @@ Mechanism ageing_power() {
             .signature =
                 "follows the order of the runs and the time, not the strain, over more than a factor of two; slower and "
                 "slower as 'ageing-saturating' has it or on and on, which the latest times tell",
-            .parameters = {{"build_up_exponent", "1", 0.3, 3, true}, {"build_up_time", "s", 1, 1e4, true}},
+            .parameters = {{"power_of_age", "1", 0.3, 3, true}, {"power_time", "s", 1, 1e4, true}},
             .effect = ScalesMaterial{power_of_age},
             .applies = builds_up_unsheared};
 }

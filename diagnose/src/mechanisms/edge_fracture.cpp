@@ -37,7 +37,7 @@ Mechanism edge_fracture() {
             .signature =
                 "torque is lost beyond a strain and does not come back on the way down; the strain is lower at a wider gap, by "
                 "the root of it, where the yield of bonds is not",
-            .parameters = {{"critical_strain", "1", 0.05, 20, true}, {"penetration", "1", 0.3, 6, true}},
+            .parameters = {{"fracture_strain", "1", 0.05, 20, true}, {"penetration", "1", 0.3, 6, true}},
             .effect = ChangesGeometry{fractured},
             .applies = strains_far};
 }

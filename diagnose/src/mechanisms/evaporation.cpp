@@ -31,7 +31,7 @@ Mechanism evaporation() {
             .signature =
                 "all moduli grow with the time since the filling, faster and faster, more under a smaller plate, whatever the "
                 "gap; gone under a solvent trap",
-            .parameters = {{"solvent_loss", "1/s", 1e-7, 1e-4, true}, {"exponent", "1", 2, 6, false}},
+            .parameters = {{"solvent_loss", "1/s", 1e-7, 1e-4, true}, {"modulus_exponent", "1", 2, 6, false}},
             .effect = ScalesMaterial{concentrated},
             .applies = dries};
 }

@@ -18,7 +18,7 @@ Mechanism sedimentation() {
     return {.name = "sedimentation",
             .term = "the sample settles while it is measured, towards a volume fraction that grows downwards between the plates",
             .signature = "all moduli fall with the time since the filling and come to rest, by the square of the gap",
-            .parameters = {{"volume_fraction_difference", "1", 0, 0.05, false}, {"settling_time", "s", 300, 1e5, true}},
+            .parameters = {{"settled_difference", "1", 0, 0.05, false}, {"sedimentation_time", "s", 300, 1e5, true}},
             .effect = ScalesMaterial{settling},
             .applies = settles_in_time};
 }

@@ -14,7 +14,8 @@ std::complex<double> lost(std::complex<double> modulus, const Observation& row, 
 bool has_many_rows(const Experiment& experiment) {
     constexpr std::size_t enough = 8;
     return any_measurement(experiment, [](const Measurement& table) {
-        return table.rows() >= enough && (find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr);
+        return table.rows() >= enough &&
+               (find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr);
     });
 }
 
@@ -24,8 +25,9 @@ bool has_many_rows(const Experiment& experiment) {
 Mechanism sudden_loss() {
     return {.name = "sudden-loss",
             .term = "within a run a sample loses a part of its hold on the plates at once",
-            .signature = "all moduli of one sample are lower by one factor from one row on, whatever varies; its other runs, if they "
-                         "come later, and no other sample",
+            .signature =
+                "all moduli of one sample are lower by one factor from one row on, whatever varies; its other runs, if they "
+                "come later, and no other sample",
             .parameters = {{"place_of_loss", "1", 0, 1, false}, {"remaining_share", "1", 0.05, 0.99, false}},
             .effect = ChangesGeometry{lost},
             .applies = has_many_rows};
