@@ -36,6 +36,7 @@ diagnose::Measurement read_setting(TomlKeys& keys, std::size_t number) {
     setting.preshear = duration(keys, "preshear");
     setting.shared_clock = shares_clock(keys);
     setting.rough_plates = keys.flag("rough_plates");
+    setting.solvent_trap = keys.flag("solvent_trap");
     setting.cone_angle = keys.quantity("cone_angle", "rad").value_or(unset);
     setting.fluid_viscosity = keys.quantity("fluid_viscosity", "Pa.s").value_or(unset);
     setting.oscillations = keys.small_count("oscillations", 1);

@@ -15,6 +15,9 @@ std::string conditions_of(const diagnose::Measurement& table) {
     if (table.rough_plates) {
         text += " · between rough plates";
     }
+    if (table.solvent_trap) {
+        text += " · under a solvent trap";
+    }
     if (std::isfinite(table.cone_angle)) {
         text += " · under a cone of " + printed(table.cone_angle * 180 / std::numbers::pi) + "°";
     }

@@ -16,7 +16,6 @@ constexpr double row_duration = 10;           // s, where the table has no times
 constexpr double usual_pause = row_duration;  // s
 constexpr double same_minute = 60;            // s; exports give no seconds
 constexpr double longest_session = 366 * 86400.0;
-constexpr std::size_t none = RunTime{}.before;
 
 /// Whether a table is of a run on the sample. Waveforms were recorded during the sweeps.
 bool is_run(const Measurement& table) {
@@ -57,11 +56,11 @@ public:
         const auto [first, last] = first_and_last(table);
         time.before = before_;
         const bool stated = table.shared_clock.value_or(false);
-        time.runs_on = stated || (!table.shared_clock && before_ != none && runs_on(experiment_.measurements[before_], table));
+        time.runs_on = stated || (!table.shared_clock && before_ != no_run && runs_on(experiment_.measurements[before_], table));
         time.origin = start_of(table);
         const double step = (last - first) / static_cast<double>(std::max<std::size_t>(table.rows(), 2) - 1);
         if (time.runs_on) {
-            const double clock = stated || before_ == none ? 0 : times_[before_].origin;
+            const double clock = stated || before_ == no_run ? 0 : times_[before_].origin;
             refuse_second_clock(table, clock + first - step - time.origin);
             time.origin = clock;
         }
@@ -90,7 +89,7 @@ private:
     }
 
     double start_of(const Measurement& table) {
-        const double rest = std::isfinite(table.pause) ? table.pause : (before_ == none ? 0 : usual_pause);
+        const double rest = std::isfinite(table.pause) ? table.pause : (before_ == no_run ? 0 : usual_pause);
         const double follows = end_ + rest + (std::isfinite(table.preshear) ? table.preshear : 0);
         if (std::isnan(table.start)) {
             return follows;
@@ -113,7 +112,7 @@ private:
 
     const Experiment& experiment_;
     std::vector<RunTime>& times_;
-    std::size_t before_ = none;
+    std::size_t before_ = no_run;
     double end_ = 0;  // of the run before
     double sheared_ = 0;
     double first_start_ = unset;  // where the clock of the sample stands at zero
@@ -172,7 +171,7 @@ std::vector<RunTime> run_times(const Experiment& experiment) {
         for (const std::size_t run : runs) {
             clock.add(run);
             const std::size_t before = times[run].before;
-            times[run].order = before == none ? 0 : times[before].order + (are_ordered(tables[before], tables[run]) ? 1 : 0);
+            times[run].order = before == no_run ? 0 : times[before].order + (are_ordered(tables[before], tables[run]) ? 1 : 0);
             times[run].known = std::all_of(runs.begin(), runs.end(), [&, run = run](std::size_t other) {
                 return other == run || are_ordered(tables[run], tables[other]);
             });

@@ -40,8 +40,9 @@ inline bool identical(double a, double b) {
 
 /// Whether two tables of the same kind and axis are of the same measurement but for sample and order.
 inline bool measured_alike(const Measurement& a, const Measurement& b) {
-    return a.rough_plates == b.rough_plates && a.oscillations == b.oscillations && identical(a.cone_angle, b.cone_angle) &&
-           identical(a.fluid_viscosity, b.fluid_viscosity) && std::isnan(a.preshear) == std::isnan(b.preshear);
+    return a.rough_plates == b.rough_plates && a.solvent_trap == b.solvent_trap && a.oscillations == b.oscillations &&
+           identical(a.cone_angle, b.cone_angle) && identical(a.fluid_viscosity, b.fluid_viscosity) &&
+           std::isnan(a.preshear) == std::isnan(b.preshear);
 }
 
 }  // namespace coagula::diagnose

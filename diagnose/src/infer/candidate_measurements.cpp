@@ -67,6 +67,7 @@ public:
     }
     Plan& strain(std::vector<double> values) { return strain_ = std::move(values), *this; }
     Plan& frequency(std::vector<double> values) { return frequency_ = std::move(values), *this; }
+    Plan& time(std::vector<double> values) { return time_ = std::move(values), *this; }
     Plan& gap(std::vector<double> values) { return gap_ = std::move(values), *this; }
 
     /// An amplitude sweep with the third harmonics of its waveforms.
@@ -131,12 +132,23 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
         candidates.back().experiment.measurements = {measurement...};
     };
     add("a run at constant small strain and frequency over the same time", plan.table(MeasurementKind::time_sweep));
+    const std::string steady = "a run at constant small strain and frequency ";
+    const Measurement longer =
+        Plan(plan).time(logarithmic_steps(0.01 * habits.duration, 10 * habits.duration, rows)).table(MeasurementKind::time_sweep);
+    Measurement trapped = longer;
+    trapped.solvent_trap = true;
+    add(steady + "over ten times as long, with the first rows close together", longer);
+    add(steady + "over ten times as long under a solvent trap", trapped);
     add("a frequency sweep over four decades at the smallest strain",
         Plan(plan).frequency(frequencies(100)).table(MeasurementKind::frequency_sweep));
     const Plan sweep = Plan(plan).strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows));
     add("an amplitude sweep on a fresh sample", sweep.table(MeasurementKind::amplitude_sweep));
     add("an amplitude sweep on a fresh sample with its waveforms", sweep.with_waveforms());
     add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
+    if (std::isfinite(gap)) {
+        add("an amplitude sweep on a fresh sample at a quarter of the gap" + millimetres({0.25 * gap}),
+            Plan(sweep).gap(std::vector<double>(rows, 0.25 * gap)).table(MeasurementKind::amplitude_sweep));
+    }
     if (experiment.instrument.geometry == Geometry::plate_plate) {
         Measurement cone = Plan(habits, unset, rows)
                                .strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows))

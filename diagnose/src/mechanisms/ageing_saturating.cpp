@@ -5,7 +5,7 @@ namespace coagula::diagnose::mechanisms {
 namespace {
 
 /// 1 + growth (1 - exp(-age / time)).
-std::complex<double> saturating(const Observation& row, Values values, const SimulatedSample&) {
+std::complex<double> saturating(const Observation& row, Values values, const SimulatedSample& /*sample*/) {
     return std::isfinite(row.age) ? 1 - values[0] * std::expm1(-row.age / values[1]) : 1;
 }
 

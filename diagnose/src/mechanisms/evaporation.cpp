@@ -8,8 +8,8 @@ constexpr double usual_radius = 25e-3;  // m
 constexpr double least_volume = 0.2;    // that is left: particles fill the rest
 
 /// The rim loses solvent, in proportion to its area, from the whole volume: 2 / R of it, whatever the gap.
-std::complex<double> concentrated(const Observation& row, Values values, const SimulatedSample&) {
-    if (!std::isfinite(row.time)) {
+std::complex<double> concentrated(const Observation& row, Values values, const SimulatedSample& /*sample*/) {
+    if (!std::isfinite(row.time) || row.solvent_trap) {
         return 1;
     }
     const double radius = std::isfinite(row.plate_radius) ? row.plate_radius : usual_radius;

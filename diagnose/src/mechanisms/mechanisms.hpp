@@ -125,7 +125,7 @@ inline bool is_sheared_before(const Experiment& experiment) {
 }
 
 /// (1 + age / time)^exponent, of an exponent and a time [s].
-inline std::complex<double> power_of_age(const Observation& row, Values values, const SimulatedSample&) {
+inline std::complex<double> power_of_age(const Observation& row, Values values, const SimulatedSample& /*sample*/) {
     return std::isfinite(row.age) ? std::pow(1 + row.age / values[1], values[0]) : 1;
 }
 

@@ -5,7 +5,7 @@ namespace coagula::diagnose::mechanisms {
 namespace {
 
 /// exp(difference exp(-time / settling)).
-std::complex<double> drifting(const Observation& row, Values values, const SimulatedSample&) {
+std::complex<double> drifting(const Observation& row, Values values, const SimulatedSample& /*sample*/) {
     return std::isfinite(row.time) ? std::exp(values[0] * std::exp(-row.time / values[1])) : 1;
 }
 

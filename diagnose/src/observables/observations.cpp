@@ -99,10 +99,11 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
         .plate_radius = std::isnan(radius) ? experiment.instrument.plate_radius : radius,
         .torque_per_modulus =
             tool_constants(experiment.instrument, cell(table, "gap", row), radius, table.cone_angle).torque_per_modulus(),
+        .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
         .errors = column.errors,
         .third_harmonic = what.third_harmonic,
-        .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
         .rough_plates = table.rough_plates,
+        .solvent_trap = table.solvent_trap,
         .fluid_viscosity = table.fluid_viscosity,
         .structures = series && !experiment.structure_groups.empty() ? group_of(table, row) : 0,
         .heterogeneity = cell(table, "heterogeneity", row),

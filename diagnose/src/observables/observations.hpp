@@ -29,7 +29,6 @@ struct Observation {
     double strain = unset;              ///< amplitude
     double largest_strain = unset;      ///< that the sample has seen up to this row
     double angular_frequency = unset;   ///< [rad/s]
-    int run = 0;                        ///< its place among those on the sample (run_clock.hpp)
     double time = unset;                ///< on the clock of the sample (run_clock.hpp) [s]
     double age = unset;                 ///< the same since the last shear that destroyed the structure [s]
     double place = unset;               ///< among all rows of all runs, 0 .. 1, sample by sample in their order
@@ -38,10 +37,12 @@ struct Observation {
     double gap = unset;                 ///< [m]
     double plate_radius = unset;        ///< [m]
     double torque_per_modulus = unset;  ///< torque per deflection over the modulus [m^3]
+    double cone_angle = unset;          ///< [rad]; NaN where there is no cone
     ErrorLaw errors = {};               ///< of the errors, torque or phase
     bool third_harmonic = false;        ///< of the stress over the first, elastic or viscous part, in place of a modulus
-    double cone_angle = unset;          ///< [rad]; NaN where there is no cone
     bool rough_plates = false;
+    bool solvent_trap = false;
+    int run = 0;                     ///< its place among those on the sample (run_clock.hpp)
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]
     // Of a structure series.
     std::size_t structures = 0;  ///< group that stands for the row; 0: all structures

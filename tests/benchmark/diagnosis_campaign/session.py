@@ -24,6 +24,7 @@ class Table:
     gap: numpy.ndarray
     plate: float
     start: float = 0.0
+    trap: bool = False                 # under which nothing dries
     rough: bool = False                # plates at which nothing slips
     viscosity: float = float("nan")    # of an oil in place of the sample
     cone: bool = False                 # in place of the upper plate
@@ -114,7 +115,7 @@ class Session:
             (folder / f"table{number}.csv").write_text("\n".join(rows) + "\n")
             lines += ["[[measurement]]", f'kind = "{table.kind}"', f'file = "table{number}.csv"', f'sample = "{table.sample}"',
                       f"run_order = {table.order}", f"values = {{ plate_radius = {table.plate} }}"]
-            lines += ["rough_plates = true"] * table.rough + [f"fluid_viscosity = {table.viscosity:.9g}"] * bool(numpy.isfinite(table.viscosity))
+            lines += ["rough_plates = true"] * table.rough + ["solvent_trap = true"] * table.trap + [f"fluid_viscosity = {table.viscosity:.9g}"] * bool(numpy.isfinite(table.viscosity))
             lines += [f"cone_angle = {CONE:.9g}"] * table.cone + [""]
         path = folder / "experiment.toml"
         path.write_text("\n".join(lines))
@@ -231,6 +232,13 @@ def follow_up(session, what):
         return [sweep("frequency-sweep", "N", 0, SMALL_STRAIN, frequencies, 20, plate=PLATE / 2)]
     if "frequency sweep" in what:
         return [sweep("frequency-sweep", "N", 0, SMALL_STRAIN, numpy.geomspace(0.01, 100, 20), 20)]
+    if "ten times as long" in what:
+        longest = max(table.start + table.time[-1] for table in session.tables)
+        long = sweep("time-sweep", "N", 0, numpy.full(20, SMALL_STRAIN), 1.0, 1)
+        return [replace(long, time=numpy.geomspace(0.01, 10, 20) * longest, trap="trap" in what)]
+    if "quarter of the gap" in what:
+        return [sweep("amplitude-sweep", "N", 0, numpy.geomspace(SMALL_STRAIN, max(table.strain.max() for table in session.tables), 20),
+                      1.0, 10, gap=GAP / 4)]
     if "constant small strain" in what:
         return [sweep("time-sweep", "N", 0, numpy.full(20, SMALL_STRAIN), 1.0, 60)]
     if session.hidden.loads:  # the bank has that sweep only, without waveforms
@@ -269,7 +277,7 @@ def true_modulus(material, session, table):
     if hidden.cooling:
         difference, settling = hidden.cooling
         modulus *= numpy.exp(difference / numpy.exp(clock / settling))
-    if hidden.drying:
+    if hidden.drying and not table.trap:
         rate, exponent = hidden.drying
         lost = rate * clock * 2 * PLATE / table.plate  # of all the solvent: rim over volume is 2 / R
         modulus /= (1 - lost)**exponent
@@ -306,7 +314,7 @@ def reading(material, session, table, level=1.0):
         before = sum(len(each.strain) for each in session.tables if each.sample == sample and each.order < table.order)
         if table.sample == sample:
             torque = torque * numpy.where(before + numpy.arange(len(torque)) >= row, share, 1)
-    if hidden.skin:
+    if hidden.skin and not table.trap:
         # A ring of this height and circumference that is strained as the rim is.
         torque = torque + hidden.skin * (table.start + table.time) * 2 * numpy.pi * table.plate**2 * table.strain
     angle = (true_gap * table.strain + 2 * slip * stress) / table.plate + hidden.compliance * torque

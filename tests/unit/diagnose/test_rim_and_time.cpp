@@ -73,6 +73,10 @@ TEST(DryingRim, AddsTheTorqueOfARingThatIsStrainedAsTheRimIs) {
             EXPECT_NEAR(std::abs(seen - by_rings(modulus, growth * 600, radius, angle)), 0, 1e-6 * std::abs(seen));
         }
     }
+    Observation trapped = row_at(600);
+    trapped.solvent_trap = true;
+    EXPECT_EQ(shown("drying-rim", Complex(500, 30), trapped, {growth}), Complex(500, 30));
+    EXPECT_EQ(factor("evaporation", trapped, {1e-5, 4.5}), Complex(1));
     Observation oil = row_at(600);
     oil.fluid_viscosity = 1;
     EXPECT_EQ(shown("drying-rim", Complex(0, 4), oil, {growth}), Complex(0, 4));

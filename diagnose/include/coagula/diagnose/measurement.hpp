@@ -94,6 +94,7 @@ struct Measurement {
     /// Whether its times are those of a clock that all runs on the sample share; without a word the times themselves tell.
     std::optional<bool> shared_clock = {};
     bool rough_plates = false;       ///< nothing slips there
+    bool solvent_trap = false;       ///< nothing dries there
     double cone_angle = unset;       ///< of a cone in place of the upper one of two plates [rad]
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]; it does not slip, either
     int oscillations = 1;            ///< at the strain of a row, of which the last is measured; >= 1

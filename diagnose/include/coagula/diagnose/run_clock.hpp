@@ -4,19 +4,23 @@
 #include <coagula/diagnose/measurement.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace coagula::diagnose {
 
+/// Before the first run on a sample.
+inline constexpr std::size_t no_run = std::numeric_limits<std::size_t>::max();
+
 /// On the clock of the sample, which begins with its first run, or with the rest before that where one is stated.
 struct RunTime {
-    double origin = 0;        ///< of the times of the table [s]
-    double sheared = 0;       ///< end of the last shear that destroyed the structure, else 0 [s]
-    bool known = true;        ///< otherwise nothing says which of several runs on the sample came first
-    bool runs_on = false;     ///< its times go on from those of the run before it: one clock
-    int order = 0;            ///< of the run among those on the sample; equal where nothing says which came first
-    std::size_t before = -1;  ///< the run before it on the sample; of the first run -1
+    double origin = 0;            ///< of the times of the table [s]
+    double sheared = 0;           ///< end of the last shear that destroyed the structure, else 0 [s]
+    bool known = true;            ///< otherwise nothing says which of several runs on the sample came first
+    bool runs_on = false;         ///< its times go on from those of the run before it: one clock
+    int order = 0;                ///< of the run among those on the sample; equal where nothing says which came first
+    std::size_t before = no_run;  ///< the one before it on the sample
 };
 
 /// Of every table. A run that states its start, or whose clock runs on from the run before it, is where these say; every other
