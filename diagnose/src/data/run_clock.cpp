@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    std::string place_of(const Measurement& table) const { return table.label + ", sample '" + table.sample + "'"; }
+    static std::string place_of(const Measurement& table) { return table.label + ", sample '" + table.sample + "'"; }
 
     /// @param difference by which the run begins later on its clock than it would by its start [s].
     void refuse_second_clock(const Measurement& table, double difference) const {
