@@ -1,5 +1,8 @@
 #include "table_setting.hpp"
 
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/run_clock.hpp>
+
 #include <cmath>
 #include <utility>
 
@@ -7,11 +10,13 @@ namespace coagula::experiment {
 
 namespace {
 
-/// A duration that is not negative.
 double duration(TomlKeys& keys, const std::string& key) {
     const double value = keys.quantity(key, "s").value_or(unset);
     if (value < 0) {
         keys.fail(key, "must be >= 0 s");
+    }
+    if (value > diagnose::longest_session) {
+        keys.fail(key, "is " + to_text(value) + " s, but must be at most a year");
     }
     return value;
 }

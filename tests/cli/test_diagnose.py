@@ -100,7 +100,7 @@ class Check(ProgramTest):
         dated = ('start = 2022-11-14T16:32:00', 'start = "2022-11-14 16:45"\nclock = "run"')
         for second in (dated[1], 'run_order = 1\npause = "10 min"\npreshear = "2 min"\nclock = "run"'):
             self.assertNotIn("clock", " ".join(notes(dated[0], second)))
-        for text, says in (("pause = -1", "'pause': must be >= 0 s"), ('clock = "mine"', "neither run nor sample"),
+        for text, says in (("pause = -1", "'pause': must be >= 0 s"), ("preshear = 1e300", "at most a year"), ('clock = "mine"', "neither run nor sample"),
                            ('start = "1 min"\npause = "1 min"', "leave one of them out"), ("start = 2022-11-14", "time of day"),
                            ('run_order = 1\npause = "1 min"', "run on"), ('start = "2022-11-13 16:32"\nrun_order = 1', "a year apart")):
             self.write("experiment.toml", experiment(run("first", "start = 0"), run("second", text)))

@@ -15,7 +15,6 @@ namespace {
 constexpr double row_duration = 10;           // s, where the table has no times
 constexpr double usual_pause = row_duration;  // s
 constexpr double same_minute = 60;            // s; exports give no seconds
-constexpr double longest_session = 366 * 86400.0;
 
 /// Whether a table is of a run on the sample. Waveforms were recorded during the sweeps.
 bool is_run(const Measurement& table) {

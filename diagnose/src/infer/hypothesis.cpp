@@ -1,6 +1,5 @@
 #include "hypothesis.hpp"
 
-#include "data/median.hpp"
 #include "departures.hpp"
 #include "noise/weights.hpp"
 #include "simulate/quiet_log.hpp"
@@ -8,7 +7,6 @@
 #include <ceres/ceres.h>
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +22,6 @@ using std::numbers::pi;
 
 constexpr double log_stiffness_range = 18.42;  ///< of eight decades
 constexpr int posterior_draws = 64;
-constexpr double edge = 1e-3;  ///< of the prior, from which a least-squares fit stays away
 
 /// Logarithm of the density, for each axis, that a grid lacks at its best node where it misses the crest of a ridge; one along the
 /// axes lies beside the mode by half a cell of each at most, which is less.
@@ -82,23 +79,6 @@ double Inference::log_prior(double log_stiffness) const {
                                  : -0.5 * departure * departure - std::log(stiffness_error() * std::sqrt(2 * pi));
 }
 
-double Inference::log_level() const {
-    const std::vector<Observation>& observations = errors_.data().observations;
-    Model model;
-    for (int round = 0; round < 2; ++round) {  // an instrument does not scale
-        const Eigen::VectorXd predicted = forward_.predict(model);
-        std::vector<double> ratios;
-        for (std::size_t k = 0; k < observations.size(); ++k) {
-            const double ratio = observations[k].value / predicted[static_cast<Index>(k)];
-            if (forward_.scales(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
-                ratios.push_back(ratio);
-            }
-        }
-        model.settings.normal_stiffness *= ratios.empty() ? 1.0 : median(std::move(ratios));
-    }
-    return std::log(model.settings.normal_stiffness);
-}
-
 /// A function along the logarithm of the stiffness: its value, slope and curvature downwards, by differences.
 struct Inference::AlongStiffness {
     double value;
@@ -135,7 +115,7 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
 
 /// Newton's method for the logarithm of the stiffness, with the density as a whole near its end only. @param least log weight from
 /// which on the node counts.
-Node Inference::best_stiffness(const Model& model, double start, double least, Accuracy accuracy) const {
+Node Inference::best_stiffness(const Model& model, double start, double least) const {
     if (!scales_) {
         const double density = errors_.log_density(forward_.prediction(model));
         return {start, 0, density, density};
@@ -143,6 +123,7 @@ Node Inference::best_stiffness(const Model& model, double start, double least, A
     constexpr int most_steps = 40;
     constexpr double near = 0.1;       // standard deviations, from where a parabola is exact enough
     constexpr double inaccurate = 20;  // logarithms that the density at the middle of the deviations may be off
+    Accuracy accuracy = Accuracy::middle;
     double place = start;
     double longest = 1;  // step; shorter each time that the slope turns, for the density has long tails
     AlongStiffness along{0, 0, 0};
@@ -217,9 +198,9 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
     ceres::Problem problem;
     problem.AddResidualBlock(new ProjectedResiduals(*this, hypothesis, place, evaluate), nullptr, place.data());
     for (int axis = 0; axis < static_cast<int>(axes); ++axis) {
-        place[axis] = std::clamp(place[axis], edge, 1 - edge);
-        problem.SetParameterLowerBound(place.data(), axis, edge);
-        problem.SetParameterUpperBound(place.data(), axis, 1 - edge);
+        place[axis] = std::clamp(place[axis], prior_edge, 1 - prior_edge);
+        problem.SetParameterLowerBound(place.data(), axis, prior_edge);
+        problem.SetParameterUpperBound(place.data(), axis, 1 - prior_edge);
     }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
@@ -257,12 +238,12 @@ PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
         return node;
     };
     PosteriorGrid grid = grid_along_axes(axes, evaluate);
-    if (axes == 0) {
-        // Where part of the rows lies far off, the density at the middle of the deviations may lead to another maximum.
-        const Node whole = best_stiffness(model_at(hypothesis, grid.places.front(), 1), log_level_,
-                                          -std::numeric_limits<double>::infinity(), Accuracy::whole);
-        if (whole.log_weight > grid.nodes.front().log_weight) {
-            grid.nodes.front() = whole;
+    if (axes == 0 && scales_) {
+        const double place = highest_maximum([&](double there) { return density_of_base(there) + log_prior(there); }).first;
+        const AlongStiffness along = density_along(Model{}, place, Accuracy::whole);
+        const Node highest{place, along.deviation(), along.value, along.value + along.log_width()};
+        if (highest.log_weight > grid.nodes.front().log_weight) {
+            grid.nodes.front() = highest;
         }
     }
     if (axes > 1) {
@@ -296,14 +277,6 @@ bool Inference::is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd plac
         return best_stiffness(model_at(hypothesis, place, 1), std::log(stiffness)).log_weight;
     };
     return (density(low ? 0.0 : 1.0) - density(low ? inside : 1 - inside)) * beyond / inside > 1;
-}
-
-double Inference::density_of_free_level() const {
-    const auto misfit = [&](double log_stiffness) {
-        return -errors_.log_density(forward_.prediction(Model({}, {}, std::exp(log_stiffness))));
-    };
-    constexpr int digits = 20;
-    return -boost::math::tools::brent_find_minima(misfit, log_level_ - 1, log_level_ + 1, digits).second;
 }
 
 /// Draws at equal steps of the cumulated probability.
@@ -380,25 +353,6 @@ Eigen::MatrixXd Inference::jacobian(const Fit& fit) const {
     Eigen::MatrixXd all(slopes.rows(), slopes.cols() + effects.cols());
     all << slopes, effects;
     return all;
-}
-
-std::vector<double> Fit::values() const {
-    std::vector<double> all;
-    for (const Mechanism* mechanism : hypothesis) {
-        const auto found = std::find_if(model.acting.begin(), model.acting.end(),
-                                        [&](const ActingMechanism& one) { return one.mechanism == mechanism; });
-        all.insert(all.end(), found->values.begin(), found->values.end());
-    }
-    return all;
-}
-
-std::vector<Model> Fit::drawn(Index count) const {
-    std::vector<Model> models;
-    for (Index draw = 0; draw < count; ++draw) {
-        const Eigen::VectorXd place = draws.col(draw * draws.cols() / count);
-        models.emplace_back(hypothesis, Values(place.data() + 1, static_cast<std::size_t>(place.size()) - 1), place[0]);
-    }
-    return models;
 }
 
 }  // namespace coagula::diagnose

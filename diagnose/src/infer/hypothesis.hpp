@@ -9,11 +9,16 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace coagula::diagnose {
+
+/// Of a prior, 0 .. 1, from which fits by straight lines stay away.
+inline constexpr double prior_edge = 1e-3;
 
 /// A parameter's posterior.
 struct Posterior {
@@ -84,11 +89,12 @@ private:
                                                  const EvaluateNode& evaluate) const;
     bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
     double log_level() const;
+    std::pair<double, double> highest_maximum(const std::function<double(double)>& density) const;
+    double density_of_base(double log_stiffness) const;
     double log_prior(double log_stiffness) const;
     struct AlongStiffness;
     AlongStiffness density_along(Model model, double log_stiffness, Accuracy accuracy) const;
-    Node best_stiffness(const Model& model, double start, double least = -std::numeric_limits<double>::infinity(),
-                        Accuracy accuracy = Accuracy::middle) const;
+    Node best_stiffness(const Model& model, double start, double least = -std::numeric_limits<double>::infinity()) const;
 
     const Forward& forward_;
     const ErrorModel& errors_;

@@ -15,7 +15,6 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr double normal_half_width = 1.645;  ///< of 90 %, in standard deviations
-constexpr double edge = 1e-3;                ///< of a prior, from which a fit stays away
 constexpr double free_deviation = 1e3;       ///< of what follows freely, in standard errors of the numbers together
 
 /// A model about which a remainder is looked for, with all that follows one along straight lines.
@@ -113,7 +112,7 @@ Eigen::VectorXd values_at(const Inference& inference, const Start& start, const 
             value = (std::isfinite(known) ? known : value) * std::exp(std::clamp(change, -longest, longest));
         } else {
             const MechanismParameter& parameter = parameters[static_cast<std::size_t>(start.follow[k]) - 1];
-            value = parameter.at(std::clamp(parameter.place_of(value) + change, edge, 1 - edge));
+            value = parameter.at(std::clamp(parameter.place_of(value) + change, prior_edge, 1 - prior_edge));
         }
     }
     return values;

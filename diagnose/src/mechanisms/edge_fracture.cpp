@@ -4,7 +4,6 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-constexpr double usual_gap = 1e-3;     // m
 constexpr double least_strain = 0.05;  // at which a sample may be driven out of its gap
 constexpr double least_share = 1e-6;   // of the torque that is left
 

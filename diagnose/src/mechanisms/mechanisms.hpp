@@ -18,6 +18,8 @@ namespace coagula::diagnose::mechanisms {
 /// Of the places of critical strains in their priors: 1 % of the strain, less than structures can tell.
 constexpr double strength_step = 1.0 / 920;
 
+constexpr double usual_gap = 1e-3;  ///< where none is known [m]
+
 inline bool any_measurement(const Experiment& experiment, bool (*holds)(const Measurement&)) {
     return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), holds);
 }

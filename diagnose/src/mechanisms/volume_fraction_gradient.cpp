@@ -12,7 +12,6 @@ bool can_settle_between_plates(const Experiment& experiment) {
 }
 
 std::complex<double> settled_layers(const Observation& row, double difference, const SimulatedSample& sample) {
-    constexpr double usual_gap = 1e-3;  // m
     if (!std::isfinite(row.gap)) {
         return 1;
     }

@@ -3,7 +3,6 @@
 
 #include "plate_field.hpp"
 
-#include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/waveform.hpp>
 
 #include <algorithm>
@@ -73,11 +72,10 @@ std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, 
 /// The strains of the runs that were made on the sample before this table, in their order.
 std::vector<double> Forward::strains_before(std::size_t table) const {
     const std::vector<Measurement>& tables = experiment_.measurements;
-    const std::vector<RunTime> times = run_times(experiment_);
     std::vector<std::pair<int, double>> earlier;
     for (const Observation& observation : observations_) {
         const Measurement& other = tables[observation.measurement];
-        if (other.sample == tables[table].sample && observation.run < times[table].order && std::isfinite(observation.strain)) {
+        if (other.sample == tables[table].sample && observation.run < runs_[table].order && std::isfinite(observation.strain)) {
             earlier.emplace_back(observation.run, observation.strain);
         }
     }

@@ -67,6 +67,7 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
     : experiment_(experiment),
       observations_(observations),
       simulator_(simulator),
+      runs_(run_times(experiment)),
       largest_strains_before_(largest_strains_before()) {
     check_structure_series(experiment_, observations_);
     if (experiment_.material.kind == MaterialKind::smooth) {

@@ -4,6 +4,7 @@
 
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/model.hpp>
+#include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
 #include "noise/prediction.hpp"
@@ -93,6 +94,7 @@ private:
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
+    std::vector<RunTime> runs_;
     std::vector<double> largest_strains_before_;
     std::optional<SmoothMaterial> smooth_;
     // The material of the last call: fits vary stiffness and instrument more often than anything else.

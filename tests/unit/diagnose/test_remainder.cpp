@@ -4,6 +4,7 @@
 #include <coagula/common/logarithmic_steps.hpp>
 
 #include "hidden_effects.hpp"
+#include "infer/remainder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -90,6 +91,31 @@ TEST(Remainder, IsPlacedBesideACauseThatStaysNamed) {
     const EstimatedParameter& inertia = found.causes.front().parameters[1];
     EXPECT_LT(inertia.low, 3.05e-5);
     EXPECT_GT(inertia.high, 2.95e-5);
+}
+
+/// A bump of G' where the inertia shows draws the fit without a remainder away; beside it the parameters are where a remainder
+/// about them would have them, too.
+TEST(Remainder, LeadsTheParametersToWhereTheyStay) {
+    const Experiment experiment = sweeps_of(
+        [](double frequency) {
+            return with_inertia(frequency) + 0.2 * level * std::exp(-0.5 * std::pow(std::log10(frequency / 150) / 0.3, 2));
+        },
+        100);
+    const DataSet data = data_set_of(experiment, {.sample = 0.02});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const SmoothDepartures departures = smooth_departures(data.observations);
+    const Fit without = inference.fit({find_mechanism("tool-inertia")});
+    const SmoothRemainder first = find_remainder(inference, without, departures);
+    const SmoothRemainder again = find_remainder(inference, first.fit, departures);
+    const Posterior& beside = first.fit.parameters.front();
+    const double half = 0.5 * (beside.high - beside.low);
+    EXPECT_GT(std::abs(without.parameters.front().value - beside.value), 0.5 * half);
+    EXPECT_NEAR(again.fit.parameters.front().value, beside.value, 0.1 * half);
+    EXPECT_NEAR(again.best, first.best, 0.5);
+    EXPECT_LT(beside.low, 3e-5);
+    EXPECT_GT(beside.high, 3e-5);
 }
 
 /// All that is seen is a level below that of the known particles: many causes lower it.

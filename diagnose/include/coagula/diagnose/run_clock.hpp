@@ -10,6 +10,9 @@
 
 namespace coagula::diagnose {
 
+/// Of all runs on a sample [s].
+inline constexpr double longest_session = 366 * 86400.0;
+
 /// Before the first run on a sample.
 inline constexpr std::size_t no_run = std::numeric_limits<std::size_t>::max();
 

@@ -1,0 +1,58 @@
+// The stiffness that the base model needs.
+#include "hypothesis.hpp"
+
+#include "data/median.hpp"
+
+#include <boost/math/tools/minima.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace coagula::diagnose {
+
+double Inference::log_level() const {
+    const std::vector<Observation>& observations = errors_.data().observations;
+    Model model;
+    for (int round = 0; round < 2; ++round) {  // an instrument does not scale
+        const Eigen::VectorXd predicted = forward_.predict(model);
+        std::vector<double> ratios;
+        for (std::size_t k = 0; k < observations.size(); ++k) {
+            const double ratio = observations[k].value / predicted[static_cast<Index>(k)];
+            if (forward_.scales(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
+                ratios.push_back(ratio);
+            }
+        }
+        model.settings.normal_stiffness *= ratios.empty() ? 1.0 : median(std::move(ratios));
+    }
+    return std::log(model.settings.normal_stiffness);
+}
+
+/// Where part of the rows lies far off, the density of the base model has several maxima along the stiffness: the highest one.
+/// @param density by the logarithm of the stiffness. @return place and value.
+std::pair<double, double> Inference::highest_maximum(const std::function<double(double)>& density) const {
+    constexpr double step = 0.1;
+    constexpr int steps = 15;  // to either side
+    constexpr int digits = 20;
+    double highest = -std::numeric_limits<double>::infinity();
+    double place = log_level_;
+    for (int number = -steps; number <= steps; ++number) {
+        const double there = log_level_ + number * step;
+        const double value = density(there);
+        place = value > highest ? there : place;
+        highest = std::max(highest, value);
+    }
+    const auto misfit = [&](double there) { return -density(there); };
+    const auto [top, least] = boost::math::tools::brent_find_minima(misfit, place - step, place + step, digits);
+    return -least > highest ? std::pair(top, -least) : std::pair(place, highest);
+}
+
+double Inference::density_of_base(double log_stiffness) const {
+    return errors_.log_density(forward_.prediction(Model({}, {}, std::exp(log_stiffness))));
+}
+
+double Inference::density_of_free_level() const {
+    return highest_maximum([&](double there) { return density_of_base(there); }).second;
+}
+
+}  // namespace coagula::diagnose
