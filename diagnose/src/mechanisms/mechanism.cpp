@@ -13,6 +13,7 @@
     ENTRY(bond_strength)            \
     ENTRY(plate_strain_field)       \
     ENTRY(contact_nonlinearity)     \
+    ENTRY(reversible_softening)     \
     ENTRY(prestress)                \
     ENTRY(contact_loss)             \
     ENTRY(solvent_drag)             \

@@ -6,7 +6,7 @@ import numpy
 
 from material import CONTACTS, KNOWN, LOADS, SWEEP_ROWS
 from series import Series
-from session import (Hidden, Noise, Session, full_day, gap_day, level_day, long_day, one_sample, plates_day, wide_strains, yield_day,
+from session import (Hidden, Noise, Session, full_day, gap_day, level_day, long_day, one_sample, plates_day, up_and_down, wide_strains, yield_day,
                      GAP, PLATE)
 
 LEAST_GAIN, LARGEST_GAIN = 25, 400
@@ -56,9 +56,10 @@ def effects(generator, session):
     where = (str(generator.choice(list("ABCD"))), int(generator.integers(4, 32)))
     build_up = (float(numpy.exp(generator.uniform(numpy.log(0.4), numpy.log(2.5)))), begin)
     setting = (float(numpy.exp(generator.uniform(numpy.log(0.5), numpy.log(500)))), begin)
+    opening = (float(generator.uniform(0.3, 1.2)), float(generator.uniform(0.02, 0.3)))
     within = {"contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
               "tool-inertia": logarithmic(1e-8, 0.9e-4), "overfill": logarithmic(1e-5, 1e-3), "skin": logarithmic(1e-7, 1.0),
-              "cooling": logarithmic(1e-3, 0.3),
+              "cooling": logarithmic(1e-3, 0.3), "softening": logarithmic(1.0, 1e-4),
               "drying": logarithmic(1e-7, 2e-5), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
     return {
         "contact-loss": lambda place: Hidden("contact-loss", loss=(float(f"{within['contact-loss'](place):.3g}"), exponent)),
@@ -76,6 +77,7 @@ def effects(generator, session):
         "radius-error": lambda place: Hidden("radius-error", overfill=sign * within["overfill"](place)),
         "sudden-loss": lambda place: Hidden("sudden-loss", loss_of_hold=(where[0], where[1], 0.98 - 0.9 * place)),
         "edge-fracture": lambda place: Hidden("edge-fracture", fracture=fracture),
+        "reversible-softening": lambda place: Hidden("reversible-softening", softening=(within["softening"](place), *opening)),
     }
 
 
@@ -108,7 +110,7 @@ def of_effect(name):
     return draw
 
 
-DAYS = {"edge-fracture": wide_strains, "radius-error": plates_day}
+DAYS = {"edge-fracture": wide_strains, "radius-error": plates_day, "reversible-softening": up_and_down}
 
 
 def of_rim_or_time(name):
@@ -251,4 +253,4 @@ ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlat
         "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})
 ROWS.update({name: of_rim_or_time(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "sudden-loss",
-                                                     "radius-error", "edge-fracture")})
+                                                     "radius-error", "edge-fracture", "reversible-softening")})

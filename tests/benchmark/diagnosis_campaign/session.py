@@ -53,6 +53,7 @@ class Hidden:
     drying: tuple = ()      # volume lost under a wide plate [1/s], exponent of the modulus in the volume fraction
     skin: float = 0.0       # growth of the stiffness of a skin around the rim [N/(m s)]
     fracture: tuple = ()    # strain at a gap of 1 mm, power of the torque that is left
+    softening: tuple = ()   # strain at which half of the contacts are open, exponent, loss there over the modulus
     loss_of_hold: tuple = ()  # sample, row among all its rows, share of the torque that remains
     overfill: float = 0.0   # by which the sample is wider than its plate [m]
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
@@ -202,6 +203,12 @@ def wide_strains():
                         for name, gap in zip("ABCDE", [0.5e-3] * 3 + [2e-3] * 2) for order, each in ((0, strains), (1, strains[::-1]))]))
 
 
+def up_and_down():
+    """Up to where contacts open, and down again."""
+    strains = numpy.geomspace(SMALL_STRAIN, 1e-2, 12)
+    return list(placed([sweep("amplitude-sweep", name, order, each, 1.0, 10) for name in "ABC" for order, each in ((0, strains), (1, strains[::-1]))]))
+
+
 def plates_day():
     """Samples under a small, a middle and a wide plate."""
     return list(placed([sweep("time-sweep", f"{name}{count}", 0, numpy.full(10, SMALL_STRAIN), 1.0, 60, plate=plate)
@@ -267,6 +274,11 @@ def true_modulus(material, session, table):
     if hidden.bump:
         size, place, width = hidden.bump
         modulus += 1j * size * abs(modulus) * numpy.exp(-0.5 * (numpy.log10(table.frequency / place) / width)**2)
+    if hidden.softening:
+        half, exponent, loss = hidden.softening
+        odds = (table.strain / half)**(2 * exponent)
+        opened = odds / (1 + odds)
+        modulus *= 1 - opened + 2j * loss * numpy.sqrt(opened * (1 - opened))
     clock = table.start + table.time
     if hidden.power:
         exponent, begin = hidden.power

@@ -13,7 +13,8 @@ NULLS = ("null", "null-tails", "null-correlated", "null-offsets", "null-one-samp
 TIES = {"tie": "tie of slip and gap", "tie-level": "tie of the level", "tie-stiffening": "tie of time and strain", "tie-yield": "tie of yield"}
 MIXED = ("single", "contact-loss", "ageing", "tool-compliance", "tool-inertia")
 BREAKING = ("bond-strength", "bond-strength-cone")
-RIM_AND_TIME = ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "radius-error", "edge-fracture", "sudden-loss")
+RIM_AND_TIME = ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "radius-error", "edge-fracture", "sudden-loss",
+                "reversible-softening")
 CRITICAL_STRAIN = 1e-4  # of all bonds that break
 
 

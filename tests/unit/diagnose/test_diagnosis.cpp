@@ -178,14 +178,14 @@ std::vector<std::complex<double>> explicit_sweep(const std::vector<double>& stra
     run.model = springs(40);
     run.model.normal_strength = run.model.shear_strength = critical_strain * 20 * 0.25e-6;
     run.boundary = mechanics::RheometerBoundary::periodic;
-    run.amplitude = strains.back();
+    run.amplitude = *std::max_element(strains.begin(), strains.end());
     run.oscillations = static_cast<int>(strains.size()) + 2;
     run.steps_per_oscillation = 5000;
     run.damping = 0.75;
     run.compare_with_rest = false;
     run.course.assign(2, {1e-3});  // until the start is forgotten
     for (const double strain : strains) {
-        run.course.push_back({strain / strains.back()});
+        run.course.push_back({strain / run.amplitude});
     }
     std::vector<std::complex<double>> moduli(strains.size());
     for (const std::uint64_t seed : {77U, 78U, 79U}) {
@@ -204,7 +204,10 @@ std::vector<std::complex<double>> explicit_sweep(const std::vector<double>& stra
 
 /// Under a cone, where the strain is the same everywhere.
 TEST(Diagnosis, NamesTheStrengthOfTheBonds) {
-    const std::vector<double> strains = logarithmic_steps(1e-5, 2.5e-3, 16);
+    std::vector<double> strains = logarithmic_steps(1e-5, 2.5e-3, 16);
+    for (const double strain : {1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {
+        strains.push_back(strain);  // on the way up alone, contacts that open and close again look like bonds that break
+    }
     const std::vector<std::complex<double>> moduli = explicit_sweep(strains, 3e-4);
     const auto sweep_with = [&](std::uint64_t seed) {
         return table(MeasurementKind::amplitude_sweep, strains, std::vector<double>(strains.size(), 1.0), moduli, seed, 0.05, 0.02);
@@ -231,6 +234,45 @@ TEST(Diagnosis, NamesTheStrengthOfTheBonds) {
     measured.measurements.push_back(sweep_with(10));
     measured.measurements.back().sample = "another";
     EXPECT_GT(diagnose(measured, simulator(), options).gain.rmse_ratio, 2);
+}
+
+/// The same contacts open and close again: what a sweep up shows comes back on the way down.
+TEST(Diagnosis, NamesWhatComesBackOnTheWayDown) {
+    std::vector<double> strains = logarithmic_steps(1e-5, 1e-2, 16);
+    std::vector<std::complex<double>> moduli;
+    const auto run = [&](const std::vector<double>& down) {
+        strains.insert(strains.end(), down.begin(), down.end());
+        moduli.clear();
+        for (const double strain : strains) {
+            const double open = strain / 8e-4 / (1 + strain / 8e-4);  // share of the contacts; those that change sides lose energy
+            moduli.emplace_back(5e4 * (1 - open), 5e4 * 0.2 * std::sqrt(open * (1 - open)));
+        }
+        Experiment measured = experiment(
+            {table(MeasurementKind::amplitude_sweep, strains, std::vector<double>(strains.size(), 1.0), moduli, 5, 0.03, 0.01)});
+        measured.instrument.geometry = Geometry::cone_plate;
+        measured.instrument.cone_angle = 0.03;
+        DiagnosisOptions options;
+        options.bootstrap = 399;
+        return diagnose(measured, simulator(), options);
+    };
+    const Diagnosis up = run({});
+    EXPECT_TRUE(up.detected);
+    const auto also = [](const Diagnosis& found, const std::string& name) {
+        return std::count(found.credible_set.begin(), found.credible_set.end(), name) > 0;
+    };
+    EXPECT_TRUE(also(up, "reversible-softening"));
+    const Diagnosis both = run({3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5});
+    EXPECT_EQ(both.credible_set, std::vector<std::string>{"reversible-softening"});
+    EXPECT_EQ(both.verdict, Verdict::named);
+    const auto& parameters = both.causes.front().parameters;
+    const auto holds = [](const EstimatedParameter& one, double truth) {
+        const double half = 0.5 * (one.high - one.low);
+        EXPECT_NEAR(0.5 * (one.low + one.high), truth, 2 * half) << one.name;
+        EXPECT_LT(half, 0.2 * truth) << one.name;
+    };
+    holds(parameters[1], 8e-4);
+    holds(parameters[2], 0.5);
+    holds(parameters[3], 0.1);
 }
 
 /// One modulus cannot tell what only scales it: nothing is wrong with the base model, which has a free stiffness.
