@@ -22,7 +22,7 @@ set(coagula_slow_tests
   "ThirdHarmonic[.](Of|Hertz).*"
   "VolumeFractionGradient[.].*"
   "cli[.]diagnosis[.]Diagnosis[.](a_hidden_loss_is_named|nothing_of_the_folder_is_lost)"
-  "cli[.](diagnosis_tables|raw_columns)[.].*"
+  "cli[.](diagnosis_tables|raw_columns|setting_samples)[.].*"
   "cli[.]power[.].*"
   "cli[.]recipe[.].*"
   "cli[.]report[.].*"

@@ -1,3 +1,4 @@
+// Values and draws of a fitted hypothesis.
 #include "hypothesis.hpp"
 
 #include <algorithm>

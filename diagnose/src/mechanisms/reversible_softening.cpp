@@ -14,6 +14,11 @@ std::complex<double> softened(const Observation& row, Values values, const Simul
     return std::complex<double>(1, 2 * values[2] * opened) / (1 + opened * opened);
 }
 
+/// At one strain the same law is a share of the modulus and a constant loss, which anything can be.
+bool strains_differ(const Experiment& experiment) {
+    return differs(experiment, [](const Measurement& table, std::size_t row) { return cell(table, "strain", row); });
+}
+
 }  // namespace
 
 Mechanism reversible_softening() {
@@ -25,7 +30,7 @@ Mechanism reversible_softening() {
                        {"softening_exponent", "1", 0.3, 2, false},
                        {"loss_at_half", "1", 0.003, 1, true}},
         .effect = ScalesMaterial{softened},
-        .applies = sweeps_amplitude};
+        .applies = strains_differ};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -56,7 +56,7 @@ def effects(generator, session):
     where = (str(generator.choice(list("ABCD"))), int(generator.integers(4, 32)))
     build_up = (float(numpy.exp(generator.uniform(numpy.log(0.4), numpy.log(2.5)))), begin)
     setting = (float(numpy.exp(generator.uniform(numpy.log(0.5), numpy.log(500)))), begin)
-    opening = (float(generator.uniform(0.3, 1.2)), float(generator.uniform(0.02, 0.3)))
+    opening = (0.3 * (power - 1.5), 0.3 * fracture[0])  # exponent and loss; a draw more would change all other rows
     within = {"contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
               "tool-inertia": logarithmic(1e-8, 0.9e-4), "overfill": logarithmic(1e-5, 1e-3), "skin": logarithmic(1e-7, 1.0),
               "cooling": logarithmic(1e-3, 0.3), "softening": logarithmic(1.0, 1e-4),
@@ -113,8 +113,8 @@ def of_effect(name):
 DAYS = {"edge-fracture": wide_strains, "radius-error": plates_day, "reversible-softening": up_and_down}
 
 
-def of_rim_or_time(name):
-    """Effects at the rim and in time, on days that can show them: of a gain that is drawn, or as large as they are."""
+def of_its_day(name):
+    """Effects at the rim, in time and with strain, on days that can show them: of a gain that is drawn, or as large as they are."""
     def draw(generator, material):
         session = draw_session(generator, material, tables=DAYS.get(name, long_day)())
         strengths = effects(generator, session)[name]
@@ -252,5 +252,5 @@ ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlat
         "null-one-sample": null_one_sample, "drag": drag, "contacts-removed": misstated("contacts-removed"),
         "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})
-ROWS.update({name: of_rim_or_time(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "sudden-loss",
+ROWS.update({name: of_its_day(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "sudden-loss",
                                                      "radius-error", "edge-fracture", "reversible-softening")})

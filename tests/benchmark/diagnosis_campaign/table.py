@@ -13,7 +13,7 @@ NULLS = ("null", "null-tails", "null-correlated", "null-offsets", "null-one-samp
 TIES = {"tie": "tie of slip and gap", "tie-level": "tie of the level", "tie-stiffening": "tie of time and strain", "tie-yield": "tie of yield"}
 MIXED = ("single", "contact-loss", "ageing", "tool-compliance", "tool-inertia")
 BREAKING = ("bond-strength", "bond-strength-cone")
-RIM_AND_TIME = ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "radius-error", "edge-fracture", "sudden-loss",
+ON_THEIR_DAYS = ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "radius-error", "edge-fracture", "sudden-loss",
                 "reversible-softening")
 CRITICAL_STRAIN = 1e-4  # of all bonds that break
 
@@ -174,12 +174,12 @@ def print_table(path):
     table.add("outside the catalogue", "confident false name",
               [entry["found"]["verdict"] == "named" for entry in of("outside")], 0.0, 0.05)
     table.add("two effects", "both in the set", [in_set(entry["truth"], entry["found"]["credible_set"]) for entry in of("pair")], 0.85)
-    for row in RIM_AND_TIME:
+    for row in ON_THEIR_DAYS:
         own = [entry for entry in of(row) if is_strong(entry)]
         table.add(row, "detected", [entry["found"]["detected"] for entry in own], 0.95)
         table.add(row, "named, or tied with its look-alikes", [in_set(entry["truth"], entry["found"]["credible_set"]) for entry in own
                                                                if entry["found"]["detected"]], 0.90)
-    table.add("all of these", "confidently wrong", [confidently_wrong(entry) for entry in of(*RIM_AND_TIME)], 0.0, 0.01)
+    table.add("all of these", "confidently wrong", [confidently_wrong(entry) for entry in of(*ON_THEIR_DAYS)], 0.0, 0.01)
     add_faults(table, of)
     strong["tie of yield"] = of("tie-yield")
     for case, runs in strong.items():

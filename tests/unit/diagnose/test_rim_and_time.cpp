@@ -108,6 +108,17 @@ std::vector<Measurement> up_and_down(double at_gap, const std::string& sample) {
     return runs;
 }
 
+/// A flat loss at one strain is that of contacts, of the phase or of anything else.
+TEST(ReversibleSoftening, IsNoCauseAtOneStrain) {
+    Experiment experiment;
+    experiment.measurements = up_and_down(1e-3, "a");
+    EXPECT_TRUE(can_act(cause("reversible-softening"), experiment));
+    for (Measurement& table : experiment.measurements) {
+        table.columns[0].values.assign(4, 1e-3);
+    }
+    EXPECT_FALSE(can_act(cause("reversible-softening"), experiment));
+}
+
 TEST(EdgeFracture, DoesNotHealAndComesEarlierAtAWiderGap) {
     Experiment experiment;
     experiment.measurements = up_and_down(1e-3, "narrow");

@@ -1,0 +1,53 @@
+"""coagula diagnose where a part of the rows lies far from the others: the evidence of the base model and of a remainder."""
+
+import cmath
+import math
+import random
+import unittest
+
+from diagnosis_support import PLATES, Tables
+
+
+class SettingSamples(Tables):
+    """Four samples that set within minutes: a part of the rows lies far below the others."""
+
+    RUNS = ((5, [1.0] * 12), (20, [0.1 * 300**(k / 7) for k in range(8)]), (450, [1.0] * 16))  # seconds a row, frequencies [Hz]
+    HEADS = ("strain [1]", "frequency [Hz]", "time [s]", "storage_modulus [Pa]", "loss_modulus [Pa]")
+
+    def setUp(self):
+        super().setUp()
+        self.structure("known.h5", 1)
+
+    def runs(self, seed):
+        number = random.Random(seed)
+        text = '[structures]\nfiles = ["known.h5"]\n\n' + PLATES
+        for sample, radius in (("A", 0.0125), ("B", 0.0125), ("C", 0.025), ("D", 0.025)):
+            level, start = 6e5 * (1 + 0.08 * number.gauss(0, 1)), 0
+            for order, (step, frequencies) in enumerate(self.RUNS):
+                rows = []
+                for k, frequency in enumerate(frequencies, 1):
+                    grown = level * (3.57 - 2.57 * math.exp(-(start + step * k) / 113.2))
+                    shown = grown * (1 + 0.02 * number.gauss(0, 1)) * cmath.exp(0.004j * number.gauss(0, 1))
+                    rows.append((1e-5, frequency, step * k, shown.real, shown.imag))
+                start += step * len(frequencies) + 10
+                self.table(f"{sample}{order}.csv", self.HEADS, rows)
+                kind = "frequency-sweep" if order == 1 else "time-sweep"
+                text += (f'\n[[measurement]]\nkind = "{kind}"\nfile = "{sample}{order}.csv"\nsample = "{sample}"\nrun_order = {order}\n'
+                         f"values = {{ plate_radius = {radius} }}\n")
+        return text
+
+    def test_the_base_model_is_fitted_where_most_rows_are(self):
+        """At one gap slip changes no more than the level, which the stiffness does as well: it cannot explain more than the base model."""
+        for seed in (1, 2, 4):
+            found = self.diagnosis(self.runs(seed), "--causes", "ageing-saturating,wall-slip")
+            evidence = {cause["name"]: cause["log_evidence"] for cause in found["causes"]}
+            self.assertGreater(evidence["base"], evidence["wall-slip"] - 5, seed)
+            self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["ageing-saturating"]))
+            # Two parameters in place of some ten coefficients of a smooth departure.
+            self.assertGreater(evidence["ageing-saturating"], evidence["none of the catalogue"] + 30, seed)
+            posterior = {cause["name"]: cause["posterior"] for cause in found["causes"]}
+            self.assertLess(posterior["wall-slip"], posterior["none of the catalogue"], seed)  # nor beside a remainder
+
+
+if __name__ == "__main__":
+    unittest.main()
