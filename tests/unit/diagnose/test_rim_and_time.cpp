@@ -56,7 +56,8 @@ Complex by_rings(Complex modulus, double skin, double filled, double cone_angle)
     const auto strain = [&](double at) { return cone ? 1 / cone_angle : at / gap; };
     Complex torque = 2 * pi * filled * skin * strain(filled) * filled;
     double of_one = 0;
-    for (double ring = 0.5; ring < rings; ++ring) {
+    for (int k = 0; k < static_cast<int>(rings); ++k) {
+        const double ring = k + 0.5;
         const double at = filled * ring / rings;
         torque += modulus * strain(at) * 2.0 * pi * at * at * filled / rings;
         const double stated = radius * ring / rings;
