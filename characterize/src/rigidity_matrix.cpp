@@ -73,7 +73,8 @@ Eigen::SparseMatrix<double> RigidityMatrix::gram(double shift, const std::vector
     for (Index contact = 0; contact < contacts(); ++contact) {
         for (int a = 0; a < 2; ++a) {
             for (int b = 0; b < 2; ++b) {
-                const End block = end(contact, a).transpose() * end(contact, b);
+                const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6> block =
+                    end(contact, a).transpose() * end(contact, b);
                 for (Index r = 0; r < freedoms_; ++r) {
                     for (Index c = 0; c < freedoms_; ++c) {
                         const Index row = freedoms_ * particle(contact, a) + r;
