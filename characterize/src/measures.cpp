@@ -6,6 +6,8 @@ namespace coagula::characterize {
 Measure coordination_measure();
 Measure doh_measure();
 Measure pores_measure();
+Measure voronoi_measure();
+Measure density_fluctuations_measure();
 Measure overlap_measure();
 Measure fabric_measure();
 Measure rigidity_central_measure();
@@ -19,6 +21,8 @@ const std::vector<Measure>& measures() {
         coordination_measure(),
         doh_measure(),
         pores_measure(),
+        voronoi_measure(),
+        density_fluctuations_measure(),
         overlap_measure(),
         topology_measure(),
         rings_measure(),
