@@ -5,6 +5,7 @@
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "stages.hpp"
 
 #include <coagula/io/structure_file.hpp>
 
@@ -63,22 +64,29 @@ void run(const Arguments& arguments) {
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
 
-    const Characterization found = measure(packing, arguments, progress);
-    const Results results = datasets_of(found, packing);
-    check_finite(results);
+    Findings found = characterize_packing(arguments, packing, progress);
     progress.update("writing", 1.0);
-    io::add_results(arguments.input(), target, {"/characterization"}, std::nullopt, fields_of(found), results,
+    io::add_results(arguments.input(), target, {found.group}, std::nullopt, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));
 
-    Json json = to_json(results, "/characterization");
+    Json json = to_json(found.results, found.group);
     json["output"] = target;
     json["seconds"] = clock.seconds();
-    Table table = table_of(found, packing);
-    table.emplace_back("written to", target);
-    report(arguments, json, table);
+    found.table.emplace_back("written to", target);
+    report(arguments, json, found.table);
 }
 
 }  // namespace
+
+Findings characterize_packing(const Arguments& arguments, const Packing& packing, const Progress& progress) {
+    const Characterization measured = measure(packing, arguments, progress);
+    Findings found{.group = "/characterization",
+                   .results = datasets_of(measured, packing),
+                   .fields = fields_of(measured),
+                   .table = table_of(measured, packing)};
+    check_finite(found.results);
+    return found;
+}
 
 Verb characterize_verb() {
     return {
