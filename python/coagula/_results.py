@@ -2,7 +2,6 @@
 
 import functools
 import keyword
-from collections.abc import Mapping
 
 import numpy as np
 
@@ -17,7 +16,7 @@ def _short(value):
     return str(value)
 
 
-class Result(Mapping):
+class Result:
     """Values as attributes, in groups: result.storage_modulus.mean. Numbers are in SI units.
 
     The same names lead there as paths, as in the file: result["storage_modulus/mean"]. unit(path) and description(path) say what a
@@ -61,6 +60,17 @@ class Result(Mapping):
 
     def __len__(self):
         return len(self._values)
+
+    def __contains__(self, path):
+        try:
+            self[path]
+        except KeyError:
+            return False
+        return True
+
+    def keys(self):
+        """Names of the values and groups here."""
+        return self._values.keys()
 
     def unit(self, path):
         """Unit of a value, "1" for a pure number and for a text; UDUNITS text."""

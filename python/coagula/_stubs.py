@@ -6,7 +6,7 @@ import sys
 import coagula
 
 HEAD = '''"""Type stubs, made from the module by coagula._stubs."""
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, KeysView, Sequence
 from os import PathLike
 from typing import Any, Literal
 
@@ -23,7 +23,8 @@ ATTRIBUTES = {"Packing": {"periodic": "bool", "volume_fraction": "float", "mean_
               "Structure": {"packing": "Packing", "bonds": "Bonds | None", "time": "float", "history": "list[dict[str, Any]]"}}
 CONSTRUCTORS = {"Packing": "self, positions: ArrayLike, radii: ArrayLike, box: ArrayLike | None = None, wrap: bool = False"}
 METHODS = {"__getitem__": "(self, path: str) -> Any", "__getattr__": "(self, name: str) -> Any", "__len__": "(self) -> int",
-           "__iter__": "(self) -> Iterator[str]", "unit": "(self, path: str) -> str", "description": "(self, path: str) -> str",
+           "__iter__": "(self) -> Iterator[str]", "__contains__": "(self, path: str) -> bool", "keys": "(self) -> KeysView[str]",
+           "unit": "(self, path: str) -> str", "description": "(self, path: str) -> str",
            "paths": "(self) -> Iterator[str]", "flat": "(self) -> dict[str, float | int | str]",
            "to_dict": "(self) -> dict[str, Any]"}
 
@@ -76,7 +77,7 @@ def stub_text():
     from coagula import _results
 
     parts = [HEAD]
-    classes = [("Packing", coagula.Packing, ""), ("Bonds", coagula.Bonds, ""), ("Result", coagula.Result, "Mapping[str, Any]"),
+    classes = [("Packing", coagula.Packing, ""), ("Bonds", coagula.Bonds, ""), ("Result", coagula.Result, ""),
                ("Stage", _results.Stage, "Result"), ("Generated", _results.Generated, "Stage"),
                ("Structure", coagula.Structure, "Result"), ("InputError", coagula.InputError, "ValueError"),
                ("MissingFileError", coagula.MissingFileError, "InputError, FileNotFoundError"),
