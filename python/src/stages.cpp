@@ -76,7 +76,8 @@ py::dict table_of_verbs() {
                                     py::arg("range") = option.range.text(), py::arg("choices") = option.choices,
                                     py::arg("required") = option.required));
         }
-        table[name.c_str()] = py::dict(py::arg("summary") = verb.summary, py::arg("options") = options, py::arg("notes") = verb.notes);
+        table[name.c_str()] =
+            py::dict(py::arg("summary") = verb.summary, py::arg("options") = options, py::arg("notes") = verb.notes);
     }
     return table;
 }
@@ -86,7 +87,8 @@ Arguments arguments_of(const std::string& verb, const Words& words) {
 }
 
 /// The entry of the history that this call leaves. @param call as it stands in Python.
-io::Provenance provenance(const Arguments& arguments, const std::string& call, const Packing* input, const tools::Stopwatch& clock) {
+io::Provenance provenance(const Arguments& arguments, const std::string& call, const Packing* input,
+                          const tools::Stopwatch& clock) {
     io::Provenance entry = tools::describe_call(arguments, input, clock);
     entry.command_line = call;
     return entry;
@@ -154,8 +156,7 @@ std::string calibrate(const Words& words, const Words& names, const std::vector<
     const Arguments arguments = arguments_of("calibrate", words);
     std::vector<Packing> values;
     std::transform(packings.begin(), packings.end(), std::back_inserter(values), [](const auto& packing) { return *packing; });
-    return run(progress, threads,
-               [&](const Progress& told) { return tools::calibrate_packings(arguments, names, values, told); })
+    return run(progress, threads, [&](const Progress& told) { return tools::calibrate_packings(arguments, names, values, told); })
         .dump();
 }
 
@@ -163,15 +164,15 @@ std::string fit_power_law(const Words& words, const Eigen::VectorXd& a, const Ei
                           const Eigen::VectorXd& standard_error, const py::object& progress, Threads threads) {
     const Arguments arguments = arguments_of("fit_power_law", words);
     return run(progress, threads,
-               [&](const Progress& told) { return tools::fit_power_law(arguments, {a, modulus, standard_error}, told); })
+               [&](const Progress& told) {
+                   return tools::fit_power_law(arguments, {a, modulus, standard_error}, told);
+               })
         .dump();
 }
 
 std::string diagnose(const Words& words, const std::string& folder, const py::object& progress, Threads threads) {
     const Arguments arguments = arguments_of("diagnose", words);
-    return run(progress, threads,
-               [&](const Progress& told) { return tools::diagnose_experiment(arguments, folder, told); })
-        .dump();
+    return run(progress, threads, [&](const Progress& told) { return tools::diagnose_experiment(arguments, folder, told); }).dump();
 }
 
 py::dict fit_degree_of_heterogeneity(const Eigen::VectorXd& radius, const Eigen::VectorXd& exclusion_probability, double r0) {
@@ -232,7 +233,8 @@ void define_stages(py::module_& module) {
     using namespace py::literals;
     module.def("verbs", &table_of_verbs);
     module.def("version", &tools::version_text);
-    module.def("parse_quantity", py::overload_cast<const std::string&, const std::string&>(&io::parse_quantity), "text"_a, "unit"_a);
+    module.def("parse_quantity", py::overload_cast<const std::string&, const std::string&>(&io::parse_quantity), "text"_a,
+               "unit"_a);
     module.def("generate_vem", &generate_vem, "words"_a, "call"_a, "radii"_a, "progress"_a, "threads"_a);
     module.def("generate_brownian", &generate_brownian, "words"_a, "call"_a, "radii"_a, "start"_a, "progress"_a, "threads"_a);
     module.def("characterize", &characterize, "words"_a, "call"_a, "packing"_a, "progress"_a, "threads"_a);
@@ -241,9 +243,8 @@ void define_stages(py::module_& module) {
     module.def("fit_power_law", &fit_power_law, "words"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a, "threads"_a);
     module.def("diagnose", &diagnose, "words"_a, "folder"_a, "progress"_a, "threads"_a);
     module.def("fit_degree_of_heterogeneity", &fit_degree_of_heterogeneity, "radius"_a, "exclusion_probability"_a, "r0"_a);
-    module.def("import_text", [](const Words& words) {
-        return std::make_shared<Packing>(tools::import_packing(arguments_of("import", words)));
-    });
+    module.def("import_text",
+               [](const Words& words) { return std::make_shared<Packing>(tools::import_packing(arguments_of("import", words))); });
     module.def("write_file", &write_file, "path"_a, "packing"_a, "bonds"_a, "stages"_a, "call"_a, "overwrite"_a);
     module.def("write_text", &write_text, "path"_a, "packing"_a, "bonds"_a, "overwrite"_a);
 }

@@ -34,9 +34,9 @@ Eigen::VectorXd radii_of(const Rows& radii, Index particles) {
     return Eigen::VectorXd::Map(radii.data(), radii.size());
 }
 
-/// @param box edge lengths of a periodic box with a corner at the origin; otherwise the box around the spheres, without periodicity.
-std::shared_ptr<Packing> make_packing(const Rows& positions, const Rows& radii, const std::optional<Rows>& box,
-                                      bool wrap) {
+/// @param box edge lengths of a periodic box with a corner at the origin; otherwise the box around the spheres, without
+/// periodicity.
+std::shared_ptr<Packing> make_packing(const Rows& positions, const Rows& radii, const std::optional<Rows>& box, bool wrap) {
     auto packing = std::make_shared<Packing>();
     packing->positions = positions_of(positions);
     packing->radii = radii_of(radii, packing->positions.cols());
@@ -63,12 +63,14 @@ std::array<double, 3> numbers_of(const Eigen::Vector3d& vector) {
 }
 
 void define_packing(py::module_& module) {
-    py::class_<Packing, std::shared_ptr<Packing>>(
-        module, "Packing",
-        "Spheres in a box: Packing(positions, radii, box=None, wrap=False).\n\n"
-        "positions: array (N, 3) [m]. radii: one number, or one for each [m]. box: edge lengths of a periodic box with a corner at the\n"
-        "origin [m], one or three; None: no periodicity, a sample with a free surface. wrap: bring particles outside the periodic box\n"
-        "back in; otherwise they are an error. The numbers are copied once; the arrays of the packing are read-only views of the copy.")
+    py::class_<Packing, std::shared_ptr<Packing>>(module, "Packing",
+                                                  "Spheres in a box: Packing(positions, radii, box=None, wrap=False).\n\n"
+                                                  "positions: array (N, 3) [m]. radii: one number, or one for each [m]. box: edge "
+                                                  "lengths of a periodic box with a corner at the\n"
+                                                  "origin [m], one or three; None: no periodicity, a sample with a free surface. "
+                                                  "wrap: bring particles outside the periodic box\n"
+                                                  "back in; otherwise they are an error. The numbers are copied once; the arrays "
+                                                  "of the packing are read-only views of the copy.")
         .def(py::init(&make_packing), py::arg("positions"), py::arg("radii"), py::arg("box") = py::none(), py::arg("wrap") = false)
         .def_property_readonly(
             "positions", [](const py::object& self) { return rows_of(self.cast<const Packing&>().positions, self); },
@@ -81,7 +83,8 @@ void define_packing(py::module_& module) {
             },
             "Radii [m], array (N,): a read-only view of the packing's own numbers.")
         .def_property_readonly(
-            "box", [](const Packing& packing) -> Eigen::Vector3d { return packing.cell.lengths(); }, "Edge lengths of the box [m], array (3,).")
+            "box", [](const Packing& packing) -> Eigen::Vector3d { return packing.cell.lengths(); },
+            "Edge lengths of the box [m], array (3,).")
         .def_property_readonly(
             "origin", [](const Packing& packing) -> Eigen::Vector3d { return packing.cell.origin(); },
             "Lowest corner of the box [m], array (3,).")
@@ -106,9 +109,9 @@ void define_packing(py::module_& module) {
                 const auto origin = state[2].cast<std::array<double, 3>>();
                 const auto edges = state[3].cast<std::array<double, 3>>();
                 const auto lengths = Eigen::Vector3d::Map(edges.data());
-                return std::make_shared<Packing>(
-                    Packing{state[4].cast<bool>() ? Cell::periodic(lengths) : Cell::open(Eigen::Vector3d::Map(origin.data()), lengths),
-                            state[0].cast<Eigen::Matrix3Xd>(), state[1].cast<Eigen::VectorXd>()});
+                return std::make_shared<Packing>(Packing{
+                    state[4].cast<bool>() ? Cell::periodic(lengths) : Cell::open(Eigen::Vector3d::Map(origin.data()), lengths),
+                    state[0].cast<Eigen::Matrix3Xd>(), state[1].cast<Eigen::VectorXd>()});
             }));
 }
 
@@ -120,11 +123,13 @@ void define_bonds(py::module_& module) {
             "Indices of the two particles, from 0, array (M, 2): a read-only view.")
         .def_property_readonly(
             "branch", [](const py::object& self) { return rows_of(self.cast<const ContactNetwork&>().branch, self); },
-            "Centre of the second particle minus that of the first, through the periodic boundary [m], array (M, 3): a read-only view.")
+            "Centre of the second particle minus that of the first, through the periodic boundary [m], array (M, 3): a read-only "
+            "view.")
         .def_readonly("particles", &ContactNetwork::particles, "Number of particles N.")
         .def_property_readonly("coordination", &coordination_number, "Mean number of bonds of a particle, 2 M / N.")
         .def_property_readonly(
-            "counts", [](const ContactNetwork& bonds) { return contact_counts(bonds); }, "Number of bonds of every particle, array (N,).")
+            "counts", [](const ContactNetwork& bonds) { return contact_counts(bonds); },
+            "Number of bonds of every particle, array (N,).")
         .def("__len__", &ContactNetwork::size)
         .def("__repr__", [](const ContactNetwork& bonds) {
             return std::to_string(bonds.size()) + " bonds of " + std::to_string(bonds.particles) + " particles";
@@ -200,15 +205,14 @@ void define_stage(py::module_& module) {
         .def_property_readonly("table", [](const Stage& stage) { return stage.findings.table; })
         .def_readonly("packing", &Stage::packing)
         .def_readonly("bonds", &Stage::bonds)
-        .def_property_readonly(
-            "frames",
-            [](const py::object& self) {
-                py::list frames;
-                for (const io::Frame& frame : self.cast<const Stage&>().earlier) {
-                    frames.append(py::make_tuple(frame.time, rows_of(frame.positions, self)));
-                }
-                return frames;
-            })
+        .def_property_readonly("frames",
+                               [](const py::object& self) {
+                                   py::list frames;
+                                   for (const io::Frame& frame : self.cast<const Stage&>().earlier) {
+                                       frames.append(py::make_tuple(frame.time, rows_of(frame.positions, self)));
+                                   }
+                                   return frames;
+                               })
         .def_readonly("time", &Stage::time);
 }
 

@@ -1,5 +1,5 @@
-// The loop of python_loop.py in C++: generates, characterizes and shears structures by the same calls; rows of a CSV on standard output,
-// processor time on standard error.
+// The loop of python_loop.py in C++: generates, characterizes and shears structures by the same calls; rows of a CSV on standard
+// output, processor time on standard error.
 #include <coagula/common/checks.hpp>
 
 #include "cli/verbs.hpp"
