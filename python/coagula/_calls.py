@@ -24,10 +24,15 @@ def packing_of(value):
     return packing
 
 
+def _numbers(values, unit):
+    """An array of numbers, or of texts with a unit."""
+    return np.array([_coagula.parse_quantity(value, unit) if isinstance(value, str) else value for value in values], dtype=float)
+
+
 def _radii(radii):
     if radii is None:
         return np.empty(0)
-    array = np.array(radii, dtype=float)
+    array = _numbers(radii, "m")
     if array.ndim != 1 or len(array) == 0 or not np.all(np.isfinite(array)) or np.any(array <= 0):
         raise _coagula.InputError("radii must be a list of positive numbers, one for each particle")
     return array
@@ -40,7 +45,7 @@ def generate_vem(*, radii=None, progress=None, threads=None, **options):
     Schenker, Filser, Gauckler, Aste, Herrmann, Phys. Rev. E 80 (2009) 021302.
     """
     call = call_text("generate_vem", [], {**options, "radii": radii})
-    stage = _coagula.generate_vem(words("generate_vem", options), call, _radii(radii), progress, threads)
+    stage = _coagula.generate_vem(words("generate_vem", options, threads), call, _radii(radii), progress)
     return from_stage(stage, "VoidExpansion")
 
 
@@ -53,7 +58,7 @@ def generate_brownian(*, radii=None, start=None, progress=None, threads=None, **
     """
     call = call_text("generate_brownian", [], {**options, "radii": radii, "start": start})
     first = None if start is None else packing_of(start)
-    stage = _coagula.generate_brownian(words("generate_brownian", options), call, _radii(radii), first, progress, threads)
+    stage = _coagula.generate_brownian(words("generate_brownian", options, threads), call, _radii(radii), first, progress)
     return from_stage(stage, "BrownianRun")
 
 
@@ -61,7 +66,7 @@ def generate_brownian(*, radii=None, start=None, progress=None, threads=None, **
 def characterize(packing, *, progress=None, threads=None, **options):
     """Returns what was measured: .coordination, .doh.a, .pore_size.mean, .pore_curve.radius ..."""
     call = call_text("characterize", ["packing"], options)
-    stage = _coagula.characterize(words("characterize", options), call, packing_of(packing), progress, threads)
+    stage = _coagula.characterize(words("characterize", options, threads), call, packing_of(packing), progress)
     return from_stage(stage, "Characterization")
 
 
@@ -93,7 +98,7 @@ def shear(packing, *, model=None, progress=None, threads=None, **options):
     """
     call = call_text("shear", ["packing"], {**options, "model": model})
     with _model_file(model) as path:
-        stage = _coagula.shear(words("shear", {**options, "model": path}), call, packing_of(packing), progress, threads)
+        stage = _coagula.shear(words("shear", {**options, "model": path}, threads), call, packing_of(packing), progress)
     return from_stage(stage, stage.group.rpartition("/")[2].capitalize() + "Response")
 
 
@@ -105,7 +110,7 @@ def calibrate(packings, *, progress=None, threads=None, **options):
     if not values:
         raise _coagula.InputError("calibrate needs at least one structure")
     names = [f"packings[{k}]" for k in range(len(values))]
-    return from_json(json.loads(_coagula.calibrate(words("calibrate", options), names, values, progress, threads)), "Calibration")
+    return from_json(json.loads(_coagula.calibrate(words("calibrate", options, threads), names, values, progress)), "Calibration")
 
 
 @documented("fit_power_law", returns="Result", first=[
@@ -114,14 +119,14 @@ def calibrate(packings, *, progress=None, threads=None, **options):
     ("standard_error", "ArrayLike | None", None, "Standard errors of the moduli [Pa], as weights.")])
 def fit_power_law(a, modulus, standard_error=None, *, progress=None, threads=None, **options):
     """Returns a0, beta, c, their errors, the interval of a0 and its profile."""
-    def column(values, name):
-        array = np.array([] if values is None else values, dtype=float)
+    def column(values, name, unit="Pa"):
+        array = _numbers([] if values is None else values, unit)
         if array.ndim != 1:
             raise _coagula.InputError(f"{name} must be a list of numbers, one for each structure")
         return array
 
-    found = _coagula.fit_power_law(words("fit_power_law", options), column(a, "a"), column(modulus, "modulus"),
-                                   column(standard_error, "standard_error"), progress, threads)
+    found = _coagula.fit_power_law(words("fit_power_law", options, threads), column(a, "a", "1"), column(modulus, "modulus"),
+                                   column(standard_error, "standard_error"), progress)
     return from_json(json.loads(found), "PowerLaw")
 
 
@@ -132,8 +137,8 @@ def fit_power_law(a, modulus, standard_error=None, *, progress=None, threads=Non
 def diagnose(experiment, *, output=None, progress=None, threads=None, **options):
     """Returns the keys of diagnosis.json as attributes: .detected, .p_value, .verdict, .causes, .gain ..."""
     folder = "" if output is None else os.fspath(output)
-    given = [os.fspath(experiment), *words("diagnose", options), *([f"--output={folder}"] if folder else [])]
-    return from_json(json.loads(_coagula.diagnose(given, folder, progress, threads)), "Diagnosis")
+    given = [os.fspath(experiment), *words("diagnose", options, threads), *([f"--output={folder}"] if folder else [])]
+    return from_json(json.loads(_coagula.diagnose(given, folder, progress)), "Diagnosis")
 
 
 def fit_degree_of_heterogeneity(radius, exclusion_probability, r0):

@@ -116,9 +116,9 @@ def write(path, packing, *results, bonds=None, overwrite=False):
     packing = packing_of(packing)
     bonds = bonds if bonds is not None else getattr(owner, "bonds", None)
     stages = [result._stage for result in results if isinstance(result, Stage)]
-    if len(stages) != len(results):
-        raise TypeError("results are what characterize and shear return")
-    if isinstance(owner, Generated):
+    if len(stages) != len(results) or None in stages:
+        raise TypeError("results are what characterize and shear return, in the process in which they were computed")
+    if isinstance(owner, Generated) and owner._stage is not None:
         stages.insert(0, owner._stage)
     try:
         if not name.lower().endswith((".h5", ".hdf5", ".h5md")):

@@ -33,7 +33,7 @@ def _word(value):
         raise TypeError(f"{value!r} is neither a number nor a text, nor a list of them") from None
 
 
-def words(verb, given):
+def words(verb, given, threads=None):
     """The words for the options given; None and False leave an option out."""
     known = {_argument(option): option for option in _VERBS[verb]["options"]}
     result = []
@@ -49,7 +49,7 @@ def words(verb, given):
             result.append("--" + option["name"])
         else:
             result.append("--" + option["name"] + "=" + _word(value))
-    return result
+    return result if threads is None else [*result, "--threads=" + _word(threads)]
 
 
 def call_text(verb, first, given):

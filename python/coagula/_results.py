@@ -101,6 +101,15 @@ class Result:
         return {name: value.to_dict() if isinstance(value, Result) else value.tolist() if isinstance(value, np.ndarray) else value
                 for name, value in self._values.items()}
 
+    def _tree(self):
+        return {name: value._tree() if isinstance(value, Result) else (value, self._units.get(name, "1"), self._descriptions.get(name, ""))
+                for name, value in self._values.items()}
+
+    def __reduce__(self):
+        """A copy for another process has the values and the packing, but cannot be written to a file any more."""
+        base = next(kind for kind in type(self).__mro__ if kind in (Generated, Stage, Result))
+        return _restored, (self._tree(), type(self).__name__, base, self._packing)
+
     def _lines(self):
         for path in self.paths():
             unit = self.unit(path)
@@ -126,12 +135,12 @@ class Stage(Result):
     @property
     def bonds(self):
         """The bonds of the stage (coagula.Bonds), or None."""
-        return self._stage.bonds
+        return None if self._stage is None else self._stage.bonds
 
     @property
     def notes(self):
         """Sentences that one should know about the result."""
-        return self._stage.notes
+        return [] if self._stage is None else self._stage.notes
 
 
 class Generated(Stage):
@@ -145,7 +154,7 @@ class Generated(Stage):
     @property
     def frames(self):
         """Positions at earlier times: pairs of a time [s] and an array (N, 3) [m]."""
-        return self._stage.frames
+        return [] if self._stage is None else self._stage.frames
 
 
 def _documented(unit, description):
@@ -180,6 +189,12 @@ def _build(tree, name, base=Result):
             values[key], units[key], descriptions[key] = entry
             documented.append((key, _documented(units[key], descriptions[key])))
     return _class_of(name, base, tuple(documented))(values, units, descriptions)
+
+
+def _restored(tree, name, base, packing):
+    result = _build(tree, name, base)
+    result._packing = packing
+    return result
 
 
 def from_entries(entries, name, base=Result):

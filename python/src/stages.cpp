@@ -13,6 +13,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 namespace coagula::python {
@@ -23,7 +24,6 @@ using tools::Arguments;
 using tools::Option;
 using tools::Verb;
 using Words = std::vector<std::string>;
-using Threads = std::optional<int>;
 
 /// A verb without its files: what it works on comes from Python, and what it finds goes there. Options that name files to write or
 /// another way of working have no meaning.
@@ -86,6 +86,10 @@ Arguments arguments_of(const std::string& verb, const Words& words) {
     return {verbs().at(verb), words};
 }
 
+std::optional<int> threads_of(const Arguments& arguments) {
+    return arguments.has("threads") ? std::optional(static_cast<int>(arguments.count("threads"))) : std::nullopt;
+}
+
 /// The entry of the history that this call leaves. @param call as it stands in Python.
 io::Provenance provenance(const Arguments& arguments, const std::string& call, const Packing* input,
                           const tools::Stopwatch& clock) {
@@ -96,9 +100,9 @@ io::Provenance provenance(const Arguments& arguments, const std::string& call, c
 
 template <class Make>
 std::shared_ptr<Stage> generated(const Arguments& arguments, const std::string& call, const Packing* input,
-                                 const py::object& progress, Threads threads, const Make& make) {
+                                 const py::object& progress, const Make& make) {
     const tools::Stopwatch clock;
-    tools::Generated made = run(progress, threads, make);
+    tools::Generated made = run(progress, threads_of(arguments), make);
     auto stage = std::make_shared<Stage>();
     stage->generated = true;
     stage->findings = std::move(made.findings);
@@ -113,37 +117,37 @@ std::shared_ptr<Stage> generated(const Arguments& arguments, const std::string& 
 }
 
 std::shared_ptr<Stage> generate_vem(const Words& words, const std::string& call, const Eigen::VectorXd& radii,
-                                    const py::object& progress, Threads threads) {
+                                    const py::object& progress) {
     const Arguments arguments = arguments_of("generate_vem", words);
-    return generated(arguments, call, nullptr, progress, threads,
+    return generated(arguments, call, nullptr, progress,
                      [&](const Progress& told) { return tools::generate_vem(arguments, radii, told); });
 }
 
 std::shared_ptr<Stage> generate_brownian(const Words& words, const std::string& call, const Eigen::VectorXd& radii,
-                                         const std::shared_ptr<Packing>& start, const py::object& progress, Threads threads) {
+                                         const std::shared_ptr<Packing>& start, const py::object& progress) {
     const Arguments arguments = arguments_of("generate_brownian", words);
-    return generated(arguments, call, start.get(), progress, threads, [&](const Progress& told) {
+    return generated(arguments, call, start.get(), progress, [&](const Progress& told) {
         return tools::generate_brownian(arguments, start ? std::optional(*start) : std::nullopt, radii, told);
     });
 }
 
 std::shared_ptr<Stage> characterize(const Words& words, const std::string& call, const std::shared_ptr<Packing>& packing,
-                                    const py::object& progress, Threads threads) {
+                                    const py::object& progress) {
     const tools::Stopwatch clock;
     const Arguments arguments = arguments_of("characterize", words);
     auto stage = std::make_shared<Stage>();
-    stage->findings =
-        run(progress, threads, [&](const Progress& told) { return tools::characterize_packing(arguments, *packing, told); });
+    stage->findings = run(progress, threads_of(arguments),
+                          [&](const Progress& told) { return tools::characterize_packing(arguments, *packing, told); });
     stage->provenance = provenance(arguments, call, packing.get(), clock);
     return stage;
 }
 
 std::shared_ptr<Stage> shear(const Words& words, const std::string& call, const std::shared_ptr<Packing>& packing,
-                             const py::object& progress, Threads threads) {
+                             const py::object& progress) {
     const tools::Stopwatch clock;
     const Arguments arguments = arguments_of("shear", words);
     tools::Sheared sheared =
-        run(progress, threads, [&](const Progress& told) { return tools::shear_packing(arguments, *packing, told); });
+        run(progress, threads_of(arguments), [&](const Progress& told) { return tools::shear_packing(arguments, *packing, told); });
     auto stage = std::make_shared<Stage>();
     stage->findings = std::move(sheared.findings);
     stage->bonds = std::make_shared<ContactNetwork>(std::move(sheared.bonds));
@@ -152,27 +156,30 @@ std::shared_ptr<Stage> shear(const Words& words, const std::string& call, const 
 }
 
 std::string calibrate(const Words& words, const Words& names, const std::vector<std::shared_ptr<Packing>>& packings,
-                      const py::object& progress, Threads threads) {
+                      const py::object& progress) {
     const Arguments arguments = arguments_of("calibrate", words);
     std::vector<Packing> values;
     std::transform(packings.begin(), packings.end(), std::back_inserter(values), [](const auto& packing) { return *packing; });
-    return run(progress, threads, [&](const Progress& told) { return tools::calibrate_packings(arguments, names, values, told); })
+    return run(progress, threads_of(arguments),
+               [&](const Progress& told) { return tools::calibrate_packings(arguments, names, values, told); })
         .dump();
 }
 
 std::string fit_power_law(const Words& words, const Eigen::VectorXd& a, const Eigen::VectorXd& modulus,
-                          const Eigen::VectorXd& standard_error, const py::object& progress, Threads threads) {
+                          const Eigen::VectorXd& standard_error, const py::object& progress) {
     const Arguments arguments = arguments_of("fit_power_law", words);
-    return run(progress, threads,
+    return run(progress, threads_of(arguments),
                [&](const Progress& told) {
                    return tools::fit_power_law(arguments, {a, modulus, standard_error}, told);
                })
         .dump();
 }
 
-std::string diagnose(const Words& words, const std::string& folder, const py::object& progress, Threads threads) {
+std::string diagnose(const Words& words, const std::string& folder, const py::object& progress) {
     const Arguments arguments = arguments_of("diagnose", words);
-    return run(progress, threads, [&](const Progress& told) { return tools::diagnose_experiment(arguments, folder, told); }).dump();
+    return run(progress, threads_of(arguments),
+               [&](const Progress& told) { return tools::diagnose_experiment(arguments, folder, told); })
+        .dump();
 }
 
 py::dict fit_degree_of_heterogeneity(const Eigen::VectorXd& radius, const Eigen::VectorXd& exclusion_probability, double r0) {
@@ -187,6 +194,14 @@ py::dict fit_degree_of_heterogeneity(const Eigen::VectorXd& radius, const Eigen:
     const auto fit = characterize::fit_degree_of_heterogeneity(pores, r0);
     return py::dict(py::arg("a") = fit.a, py::arg("b") = fit.b, py::arg("a_stderr") = fit.a_stderr,
                     py::arg("b_stderr") = fit.b_stderr, py::arg("rms_residual") = fit.rms_residual);
+}
+
+void add_stage(const std::string& path, const Stage& stage) {
+    const tools::Findings& found = stage.findings;
+    tools::Results all = found.results;
+    all.insert(all.end(), found.bond_results.begin(), found.bond_results.end());
+    io::add_results(path, path, {found.group}, stage.bonds ? std::optional(*stage.bonds) : std::nullopt, found.fields, all,
+                    stage.provenance, true, found.bond_fields);
 }
 
 /// A file of a structure and of what stages found; each stage adds itself as the verbs of the program do.
@@ -210,14 +225,17 @@ void write_file(const std::string& path, const std::shared_ptr<Packing>& packing
             results = first.findings.results;
         }
     }
-    io::write_structure(path, structure, {}, results, history, overwrite);
-    for (; next != stages.end(); ++next) {
-        const Stage& stage = **next;
-        const tools::Findings& found = stage.findings;
-        tools::Results all = found.results;
-        all.insert(all.end(), found.bond_results.begin(), found.bond_results.end());
-        io::add_results(path, path, {found.group}, stage.bonds ? std::optional(*stage.bonds) : std::nullopt, found.fields, all,
-                        stage.provenance, true, found.bond_fields);
+    // All of it or nothing: written beside its place, and renamed.
+    const std::string beside = path + ".part";
+    try {
+        io::write_structure(beside, structure, {}, results, history, true);
+        for (; next != stages.end(); ++next) {
+            add_stage(beside, **next);
+        }
+        std::filesystem::rename(beside, path);
+    } catch (...) {
+        std::filesystem::remove(beside);
+        throw;
     }
 }
 
@@ -235,13 +253,13 @@ void define_stages(py::module_& module) {
     module.def("version", &tools::version_text);
     module.def("parse_quantity", py::overload_cast<const std::string&, const std::string&>(&io::parse_quantity), "text"_a,
                "unit"_a);
-    module.def("generate_vem", &generate_vem, "words"_a, "call"_a, "radii"_a, "progress"_a, "threads"_a);
-    module.def("generate_brownian", &generate_brownian, "words"_a, "call"_a, "radii"_a, "start"_a, "progress"_a, "threads"_a);
-    module.def("characterize", &characterize, "words"_a, "call"_a, "packing"_a, "progress"_a, "threads"_a);
-    module.def("shear", &shear, "words"_a, "call"_a, "packing"_a, "progress"_a, "threads"_a);
-    module.def("calibrate", &calibrate, "words"_a, "names"_a, "packings"_a, "progress"_a, "threads"_a);
-    module.def("fit_power_law", &fit_power_law, "words"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a, "threads"_a);
-    module.def("diagnose", &diagnose, "words"_a, "folder"_a, "progress"_a, "threads"_a);
+    module.def("generate_vem", &generate_vem, "words"_a, "call"_a, "radii"_a, "progress"_a);
+    module.def("generate_brownian", &generate_brownian, "words"_a, "call"_a, "radii"_a, "start"_a, "progress"_a);
+    module.def("characterize", &characterize, "words"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("shear", &shear, "words"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("calibrate", &calibrate, "words"_a, "names"_a, "packings"_a, "progress"_a);
+    module.def("fit_power_law", &fit_power_law, "words"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a);
+    module.def("diagnose", &diagnose, "words"_a, "folder"_a, "progress"_a);
     module.def("fit_degree_of_heterogeneity", &fit_degree_of_heterogeneity, "radius"_a, "exclusion_probability"_a, "r0"_a);
     module.def("import_text",
                [](const Words& words) { return std::make_shared<Packing>(tools::import_packing(arguments_of("import", words))); });

@@ -1,6 +1,7 @@
 #include "values.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/units.hpp>
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
@@ -12,6 +13,25 @@ namespace coagula::python {
 namespace {
 
 using Rows = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Lengths [m] from numbers or texts with a unit, one or many.
+Rows lengths_of(const py::object& value) {
+    const auto parsed = [](const py::handle& item) -> py::object {
+        return py::isinstance<py::str>(item) ? py::cast(io::parse_quantity(item.cast<std::string>(), "m"))
+                                             : py::reinterpret_borrow<py::object>(item);
+    };
+    if (py::isinstance<py::str>(value)) {
+        return Rows(py::list(py::make_tuple(parsed(value))));
+    }
+    if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value)) {
+        return value.cast<Rows>();
+    }
+    py::list numbers;
+    for (const py::handle& item : value) {
+        numbers.append(parsed(item));
+    }
+    return Rows(numbers);
+}
 
 Eigen::Matrix3Xd positions_of(const Rows& rows) {
     if (rows.ndim() != 2 || rows.shape(1) != 3) {
@@ -36,16 +56,17 @@ Eigen::VectorXd radii_of(const Rows& radii, Index particles) {
 
 /// @param box edge lengths of a periodic box with a corner at the origin; otherwise the box around the spheres, without
 /// periodicity.
-std::shared_ptr<Packing> make_packing(const Rows& positions, const Rows& radii, const std::optional<Rows>& box, bool wrap) {
+std::shared_ptr<Packing> make_packing(const Rows& positions, const py::object& radii, const py::object& box, bool wrap) {
     auto packing = std::make_shared<Packing>();
     packing->positions = positions_of(positions);
-    packing->radii = radii_of(radii, packing->positions.cols());
-    if (box) {
-        if (box->size() != 1 && box->size() != 3) {
+    packing->radii = radii_of(lengths_of(radii), packing->positions.cols());
+    if (!box.is_none()) {
+        const Rows edges = lengths_of(box);
+        if (edges.size() != 1 && edges.size() != 3) {
             throw InputError("the box must have one edge length, or three");
         }
-        packing->cell = Cell::periodic(box->size() == 1 ? Eigen::Vector3d::Constant(*box->data()).eval()
-                                                        : Eigen::Vector3d(Eigen::Vector3d::Map(box->data())));
+        packing->cell = Cell::periodic(edges.size() == 1 ? Eigen::Vector3d::Constant(*edges.data()).eval()
+                                                         : Eigen::Vector3d(Eigen::Vector3d::Map(edges.data())));
     } else {
         const Eigen::Vector3d lower = (packing->positions.rowwise() - packing->radii.transpose()).rowwise().minCoeff();
         const Eigen::Vector3d upper = (packing->positions.rowwise() + packing->radii.transpose()).rowwise().maxCoeff();

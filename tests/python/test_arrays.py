@@ -85,6 +85,9 @@ class Values(ModuleTest):
         self.assertEqual(packing.positions[0, 0], 1)
         wrapped = coagula.Packing([[5.0, 1, 1], [2, 1, 1]], [0.5, 0.4], box=4, wrap=True)
         self.assertEqual(wrapped.positions[0, 0], 1)
+        named = coagula.Packing(1e-6 * packing.positions, "0.5um", box=["4um", "5um", 6e-6])
+        np.testing.assert_allclose(named.box, 1e-6 * packing.box)
+        np.testing.assert_array_equal(named.radii, [5e-7] * 3)
         fortran = coagula.Packing(np.asfortranarray(packing.positions), packing.radii, box=packing.box)
         np.testing.assert_array_equal(fortran.positions, packing.positions)
 
@@ -97,6 +100,16 @@ class Values(ModuleTest):
             np.testing.assert_array_equal(one.box, other.box)
             np.testing.assert_array_equal(one.origin, other.origin)
             self.assertEqual(one.periodic, other.periodic)
+
+    def test_results_go_to_other_processes(self):
+        made = self.made()
+        for result in (made, coagula.characterize(made), coagula.shear(made)):
+            other = pickle.loads(pickle.dumps(result))
+            self.assertEqual(other.flat(), result.flat())
+            self.assertEqual(type(other).__name__, type(result).__name__)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(made)).packing.positions, made.packing.positions)
+        with self.assertRaises(TypeError):
+            coagula.write("a.h5", made, other)
 
     def test_given_radii(self):
         radii = np.linspace(0.2e-6, 0.3e-6, 100)
