@@ -28,6 +28,7 @@ __all__ = ["Bonds", "ExistingFileError", "InputError", "MissingFileError", "Pack
            "characterize", "diagnose", "find_contacts", "fit_degree_of_heterogeneity", "fit_power_law", "generate_brownian",
            "generate_vem", "parse_quantity", "read", "shear", "write"]
 
+InputError.__doc__ = "Input that cannot be used, in one sentence: the object, the value and the rule."
 for _public in (Bonds, InputError, Packing, Result, Structure, MissingFileError, ExistingFileError):
     _public.__module__ = "coagula"
 del _public

@@ -9,11 +9,16 @@ from ._options import call_text, words
 from ._results import Generated, Result, Stage, from_entries
 
 
-class MissingFileError(_coagula.InputError, FileNotFoundError):
+class _FileError(_coagula.InputError):
+    def __str__(self):
+        return str(self.args[0])  # the sentence, without the number and the name that OSError would add
+
+
+class MissingFileError(_FileError, FileNotFoundError):
     """There is no such file."""
 
 
-class ExistingFileError(_coagula.InputError, FileExistsError):
+class ExistingFileError(_FileError, FileExistsError):
     """A file is there already, and overwrite=True was not given."""
 
 

@@ -183,14 +183,17 @@ std::string diagnose(const Words& words, const std::string& folder, const py::ob
 }
 
 py::dict fit_degree_of_heterogeneity(const Eigen::VectorXd& radius, const Eigen::VectorXd& exclusion_probability, double r0) {
-    if (radius.size() != exclusion_probability.size() || radius.size() < 3 || !radius.allFinite() ||
-        !exclusion_probability.allFinite()) {
-        throw InputError("a pore-size curve needs as many radii as exclusion probabilities, three or more, all of them finite");
+    if (radius.size() != exclusion_probability.size() || radius.size() < 2) {
+        throw InputError("a pore-size curve needs as many radii as exclusion probabilities, and at least four");
     }
     require_positive(r0, "r0", "m");
     characterize::PoreSizes pores;
     pores.radius = radius;
     pores.exclusion_probability = exclusion_probability;
+    // Where the search begins: the area below the curve.
+    const Index intervals = radius.size() - 1;
+    pores.mean = 0.5 * (radius.tail(intervals) - radius.head(intervals))
+                           .dot(exclusion_probability.head(intervals) + exclusion_probability.tail(intervals));
     const auto fit = characterize::fit_degree_of_heterogeneity(pores, r0);
     return py::dict(py::arg("a") = fit.a, py::arg("b") = fit.b, py::arg("a_stderr") = fit.a_stderr,
                     py::arg("b_stderr") = fit.b_stderr, py::arg("rms_residual") = fit.rms_residual);
