@@ -1,14 +1,18 @@
-// Supernodal sparse Cholesky factor of a block matrix (SuiteSparse CHOLMOD), wrapped once; status and input are checked here.
+// Supernodal sparse Cholesky factor (SuiteSparse CHOLMOD), wrapped once; status and input are checked here.
 #pragma once
 
-#include "stiffness.hpp"
+#include <coagula/common/packing.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
-namespace coagula::mechanics {
+namespace coagula {
 
 enum class Ordering {
     nested_dissection,  ///< METIS: least fill, but it draws from the C library's random numbers: not to be used by two threads at
@@ -19,8 +23,10 @@ enum class Ordering {
 /// Order of elimination and what the factor will cost; cheap compared with the factorisation.
 class EliminationOrder {
 public:
-    /// Orders the graph of the blocks.
-    EliminationOrder(const BlockMatrix& upper, Ordering ordering);
+    /// Orders the graph of the blocks of a symmetric matrix, such as one block per particle.
+    /// @param start, row the lower triangle by columns: blocks row[start[k]] .. row[start[k + 1]] stand in column k, the diagonal
+    /// one among them. @param block_size unknowns per block.
+    EliminationOrder(std::span<const Index> start, std::span<const Index> row, int block_size, Ordering ordering);
 
     /// Memory of the factor, predicted from the block column counts [bytes].
     double predicted_memory() const { return predicted_memory_; }
@@ -36,21 +42,18 @@ struct NotPositiveDefinite : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Factor of K + shift I.
+/// Factor L of a symmetric positive definite matrix: P A P^T = L L^T.
 class CholeskyFactor {
 public:
+    /// @param lower the lower triangle, compressed.
     /// Throws NotPositiveDefinite, or std::runtime_error when memory does not suffice.
-    CholeskyFactor(const BlockMatrix& upper, double shift, const EliminationOrder& order);
+    CholeskyFactor(const Eigen::SparseMatrix<double>& lower, const EliminationOrder& order);
     ~CholeskyFactor();
     CholeskyFactor(const CholeskyFactor&) = delete;
     CholeskyFactor& operator=(const CholeskyFactor&) = delete;
 
-    /// x = (K + shift I)^-1 b for six right-hand sides.
-    void solve(const Loads& b, Loads& x) const;
-    /// The same for any number of right-hand sides.
-    void solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const;
-    /// The same for one right-hand side.
-    void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
+    /// A^-1 b for any number of right-hand sides.
+    Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
 
     /// A dense block column of the factor L: `columns` columns from `first_column` on; value[c * rows + r] is its entry in row[r],
     /// column first_column + c. The first `columns` rows are the diagonal block.
@@ -74,4 +77,4 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace coagula::mechanics
+}  // namespace coagula

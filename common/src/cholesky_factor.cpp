@@ -1,12 +1,13 @@
-#include "cholesky_factor.hpp"
+#include <coagula/common/cholesky_factor.hpp>
 
 #include <cholmod.h>
 
-#include <limits>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-namespace coagula::mechanics {
+namespace coagula {
 
 namespace {
 
@@ -59,68 +60,54 @@ using Sparse = std::unique_ptr<cholmod_sparse, SparseDeleter>;
 using Factor = std::unique_ptr<cholmod_factor, FactorDeleter>;
 using Dense = std::unique_ptr<cholmod_dense, DenseDeleter>;
 
-/// Lower triangle by columns (CHOLMOD stype -1) with one entry per block: the graph of the particles.
-Sparse block_pattern(const BlockMatrix& upper, Common& common) {
-    const auto rows = static_cast<std::size_t>(upper.rows());
-    Sparse pattern(cholmod_allocate_sparse(rows, rows, upper.column.size(), 1, 1, -1, CHOLMOD_PATTERN, common), {&common});
+/// CHOLMOD's stype of a symmetric matrix of which the lower triangle is stored.
+constexpr int lower_triangle = -1;
+
+Sparse pattern_of(std::span<const Index> start, std::span<const Index> row, Common& common) {
+    const std::size_t columns = start.size() - 1;
+    Sparse pattern(cholmod_allocate_sparse(columns, columns, row.size(), 1, 1, lower_triangle, CHOLMOD_PATTERN, common), {&common});
     common.check("allocating the graph of the network");
-    auto* start = static_cast<int*>(pattern->p);
-    auto* index = static_cast<int*>(pattern->i);
-    for (std::size_t row = 0; row <= rows; ++row) {
-        start[row] = static_cast<int>(upper.start[row]);
-    }
-    for (std::size_t k = 0; k < upper.column.size(); ++k) {
-        index[k] = static_cast<int>(upper.column[k]);
-    }
+    std::transform(start.begin(), start.end(), static_cast<int*>(pattern->p), [](Index k) { return static_cast<int>(k); });
+    std::transform(row.begin(), row.end(), static_cast<int*>(pattern->i), [](Index k) { return static_cast<int>(k); });
     return pattern;
 }
 
-/// Lower triangle by columns of K + shift I. Row r of the upper triangle is column r of the lower one.
-Sparse scalar_matrix(const BlockMatrix& upper, double shift, Common& common) {
-    const auto rows = static_cast<std::size_t>(upper.rows());
-    const std::size_t entries = 36 * upper.column.size() - 15 * rows;
-    if (entries > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-        throw std::runtime_error("the network is too large for the direct solver; choose the iterative one");
-    }
-    Sparse matrix(cholmod_allocate_sparse(6 * rows, 6 * rows, entries, 1, 1, -1, CHOLMOD_REAL, common), {&common});
-    common.check("allocating the stiffness matrix");
-    auto* start = static_cast<int*>(matrix->p);
-    auto* index = static_cast<int*>(matrix->i);
-    auto* value = static_cast<double*>(matrix->x);
-    int place = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-        for (int c = 0; c < 6; ++c) {
-            start[6 * row + static_cast<std::size_t>(c)] = place;
-            for (auto k = static_cast<std::size_t>(upper.start[row]); k < static_cast<std::size_t>(upper.start[row + 1]); ++k) {
-                const bool diagonal = static_cast<std::size_t>(upper.column[k]) == row;
-                for (int r = diagonal ? c : 0; r < 6; ++r) {
-                    index[place] = static_cast<int>(6 * upper.column[k]) + r;
-                    value[place++] = upper.block[k](c, r) + (diagonal && r == c ? shift : 0.0);
-                }
-            }
-        }
-    }
-    start[6 * rows] = place;
-    return matrix;
+/// CHOLMOD reads these arrays and does not change them.
+cholmod_sparse view_of(const Eigen::SparseMatrix<double>& lower) {
+    cholmod_sparse view{};
+    view.nrow = static_cast<std::size_t>(lower.rows());
+    view.ncol = static_cast<std::size_t>(lower.cols());
+    view.nzmax = static_cast<std::size_t>(lower.nonZeros());
+    view.p = const_cast<int*>(lower.outerIndexPtr());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    view.i = const_cast<int*>(lower.innerIndexPtr());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    view.x = const_cast<double*>(lower.valuePtr());    // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    view.stype = lower_triangle;
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = 1;
+    view.packed = 1;
+    return view;
 }
 
 }  // namespace
 
-EliminationOrder::EliminationOrder(const BlockMatrix& upper, Ordering ordering) {
+EliminationOrder::EliminationOrder(std::span<const Index> start, std::span<const Index> row, int block_size, Ordering ordering) {
     Common common;
     common->nmethods = 1;
     common->method[0].ordering = ordering == Ordering::minimum_degree ? CHOLMOD_AMD : CHOLMOD_METIS;
     common->postorder = 1;
-    const Sparse pattern = block_pattern(upper, common);
+    const Sparse pattern = pattern_of(start, row, common);
     const Factor factor(cholmod_analyze(pattern.get(), common), {&common});
     common.check("ordering the stiffness matrix");
     const auto* order = static_cast<const int*>(factor->Perm);
     const auto* count = static_cast<const int*>(factor->ColCount);
-    permutation_.reserve(6 * factor->n);
+    const double block_entries = static_cast<double>(block_size) * block_size;
+    permutation_.reserve(static_cast<std::size_t>(block_size) * factor->n);
     for (std::size_t k = 0; k < factor->n; ++k) {
-        predicted_memory_ += 8.0 * 36.0 * static_cast<double>(count[k]);
-        for (int component = 0; component < 6; ++component) {
-            permutation_.push_back(6 * order[k] + component);
+        predicted_memory_ += 8.0 * block_entries * static_cast<double>(count[k]);
+        for (int component = 0; component < block_size; ++component) {
+            permutation_.push_back(block_size * order[k] + component);
         }
     }
 }
@@ -144,32 +131,24 @@ struct CholeskyFactor::Implementation {
     }
 };
 
-CholeskyFactor::CholeskyFactor(const BlockMatrix& upper, double shift, const EliminationOrder& order)
+CholeskyFactor::CholeskyFactor(const Eigen::SparseMatrix<double>& lower, const EliminationOrder& order)
     : implementation_(std::make_unique<Implementation>()) {
     Common& common = implementation_->common;
     common->nmethods = 1;
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->postorder = 0;
-    const Sparse matrix = scalar_matrix(upper, shift, common);
+    cholmod_sparse matrix = view_of(lower);
     auto permutation = order.permutation();
-    implementation_->factor = Factor(cholmod_analyze_p(matrix.get(), permutation.data(), nullptr, 0, common), {&common});
+    implementation_->factor = Factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, common), {&common});
     common.check("analysing the stiffness matrix");
-    cholmod_factorize(matrix.get(), implementation_->factor.get(), common);
+    cholmod_factorize(&matrix, implementation_->factor.get(), common);
     common.check("factorising the stiffness matrix");
 }
 
 CholeskyFactor::~CholeskyFactor() = default;
 
-void CholeskyFactor::solve(const Loads& b, Loads& x) const {
-    x = implementation_->solve(b);
-}
-
-void CholeskyFactor::solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const {
-    x = implementation_->solve(b);
-}
-
-void CholeskyFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-    x = implementation_->solve(b);
+Eigen::MatrixXd CholeskyFactor::solve(Eigen::MatrixXd b) const {
+    return implementation_->solve(std::move(b));
 }
 
 void CholeskyFactor::for_each_supernode(const std::function<void(const SupernodeView&)>& visit) const {
@@ -201,4 +180,4 @@ Index CholeskyFactor::pivots_below(double threshold) const {
     return count;
 }
 
-}  // namespace coagula::mechanics
+}  // namespace coagula

@@ -1,4 +1,4 @@
-#include "blas_threads.hpp"
+#include <coagula/common/blas_threads.hpp>
 
 extern "C" {
 // Only OpenBLAS has these; null with another BLAS.
@@ -6,7 +6,7 @@ void openblas_set_num_threads(int) __attribute__((weak));  // NOLINT(readability
 int openblas_get_num_threads() __attribute__((weak));      // NOLINT(readability-identifier-naming)
 }
 
-namespace coagula::mechanics {
+namespace coagula {
 
 BlasThreads::BlasThreads(int threads) {
     if (openblas_set_num_threads != nullptr && openblas_get_num_threads != nullptr) {
@@ -21,4 +21,4 @@ BlasThreads::~BlasThreads() {
     }
 }
 
-}  // namespace coagula::mechanics
+}  // namespace coagula

@@ -1,7 +1,7 @@
 // How many threads the dense kernels below CHOLMOD use.
 #pragma once
 
-namespace coagula::mechanics {
+namespace coagula {
 
 /// Sets the number of BLAS threads (OpenBLAS; no effect with another BLAS) and puts the old one back at the end of its life.
 /// The bits of a factor depend on that number, so it is fixed by the kind of work and not by the user's number of threads.
@@ -16,4 +16,4 @@ private:
     int before_ = 0;
 };
 
-}  // namespace coagula::mechanics
+}  // namespace coagula
