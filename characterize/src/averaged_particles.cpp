@@ -1,32 +1,39 @@
 #include "averaged_particles.hpp"
 
+#include <coagula/characterize/inner_particles.hpp>
+
+#include <algorithm>
+
 namespace coagula::characterize {
 
-std::vector<int> block_of_particles(const Packing& packing) {
-    const bool periodic = packing.cell.is_periodic();
-    const Eigen::Vector3d smallest = packing.positions.rowwise().minCoeff();
-    const Eigen::Array3d lower = periodic ? packing.cell.origin() : smallest;
-    const Eigen::Array3d extent = periodic ? packing.cell.lengths() : packing.positions.rowwise().maxCoeff() - smallest;
-    std::vector<int> blocks;
-    for (Index i = 0; i < packing.size(); ++i) {
-        const Eigen::Array3d place = (packing.cell.wrap(packing.positions.col(i)).array() - lower) / extent.max(1e-300);
-        const Eigen::Array3i box = (place * blocks_per_axis).cast<int>().max(0).min(blocks_per_axis - 1);
-        blocks.push_back((box[2] * blocks_per_axis + box[1]) * blocks_per_axis + box[0]);
+SpaceBlocks space_blocks(const Packing& packing) {
+    const Blocks blocks = make_blocks(packing);
+    SpaceBlocks result{std::vector<int>(static_cast<std::size_t>(packing.size()), 0), std::max<Index>(1, blocks.count)};
+    if (blocks.count > 0) {
+        result.of_particle.assign(blocks.of_particle.begin(), blocks.of_particle.end());
     }
-    return blocks;
+    return result;
 }
 
 AveragedParticles::AveragedParticles(const Packing& packing) {
-    const std::vector<bool> inner = inner_particles(packing);
-    const bool all = std::find(inner.begin(), inner.end(), true) == inner.end();
-    const std::vector<int> blocks = block_of_particles(packing);
+    std::vector<bool> inner = inner_particles(packing);
+    if (std::find(inner.begin(), inner.end(), true) == inner.end()) {
+        inner.assign(inner.size(), true);
+    }
+    const Blocks shares = make_blocks(packing, inner);
+    blocks = std::max<Index>(1, shares.count);
     for (Index i = 0; i < packing.size(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        if (all || inner[k]) {
+        if (inner[static_cast<std::size_t>(i)]) {
             particles.push_back(i);
-            block.push_back(blocks[k]);
+            block.push_back(std::max(0, shares.of_particle[i]));
         }
     }
+}
+
+double ratio_stderr(const Eigen::VectorXd& numerators, const Eigen::VectorXd& denominators) {
+    Eigen::MatrixXd sums(2, numerators.size());
+    sums << numerators.transpose(), denominators.transpose();
+    return block_errors(sums, [](const Eigen::VectorXd& sum) { return Eigen::VectorXd::Constant(1, sum[0] / sum[1]); })[0];
 }
 
 }  // namespace coagula::characterize

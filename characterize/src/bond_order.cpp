@@ -53,10 +53,10 @@ BondOrder measure_bond_order(const Packing& packing) {
     check(packing);
     const PowerDiagram diagram = counted_diagram(packing);
     const std::vector<VoronoiFacet> facets = voronoi_facets(diagram);
-    const std::vector<int> blocks = block_of_particles(packing);
+    const SpaceBlocks blocks = space_blocks(packing);
     BondOrder result;
     result.q4 = result.q6 = Eigen::VectorXd::Constant(packing.size(), unset);
-    BlockSums q4, q6, q4_squares, q6_squares, count;
+    BlockSums q4(blocks.count), q6(blocks.count), q4_squares(blocks.count), q6_squares(blocks.count), count(blocks.count);
     for (std::size_t first = 0; first < facets.size();) {
         const int site = facets[first].site;
         std::size_t last = first;
@@ -64,7 +64,7 @@ BondOrder measure_bond_order(const Packing& packing) {
             ++last;
         }
         const CellOrder order = measure_cell(diagram, facets.data() + first, facets.data() + last);
-        const int block = blocks[static_cast<std::size_t>(site)];
+        const int block = blocks.of_particle[static_cast<std::size_t>(site)];
         result.q4[site] = order.q4;
         result.q6[site] = order.q6;
         q4.add(block, order.q4);

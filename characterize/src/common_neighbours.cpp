@@ -79,7 +79,7 @@ std::vector<std::vector<Neighbour>> contact_neighbours(const ContactNetwork& con
 
 void add_contacts(const Packing& packing, double tolerance, const AveragedParticles& averaged, CommonNeighbours& result) {
     const auto neighbours = contact_neighbours(find_contacts(packing, tolerance));
-    BlockSums common;
+    BlockSums common(averaged.blocks);
     for (std::size_t k = 0; k < averaged.particles.size(); ++k) {
         const auto& own = neighbours[static_cast<std::size_t>(averaged.particles[k])];
         const Bonds bonds(own.size(), [&](std::size_t one, std::size_t other) {
@@ -143,7 +143,7 @@ Lattice lattice_around(const std::vector<Neighbour>& neighbours) {
 void add_lattices(const Packing& packing, const AveragedParticles& averaged, CommonNeighbours& result) {
     constexpr std::size_t needed = 14;
     const auto nearest = nearest_neighbours(packing, needed);
-    std::array<BlockSums, 5> sums;
+    std::vector<BlockSums> sums(5, BlockSums(averaged.blocks));
     for (std::size_t k = 0; k < averaged.particles.size(); ++k) {
         const auto& neighbours = nearest[static_cast<std::size_t>(averaged.particles[k])];
         const Lattice found = neighbours.size() < needed ? Lattice::none : lattice_around(neighbours);

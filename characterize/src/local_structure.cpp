@@ -39,19 +39,19 @@ BondAngles measure_bond_angles(const Packing& packing, const BondAngleOptions& o
     const ContactNetwork contacts = find_contacts(packing, options.contact_tolerance);
     const ContactsByParticle groups = group_by_particle(contacts);
     const AveragedParticles averaged(packing);
-    const auto bins = static_cast<std::size_t>(options.bins);
+    const double width = pi / static_cast<double>(options.bins);
     constexpr double equilateral = 65 * pi / 180;
-    std::vector<Eigen::Matrix<double, space_blocks, 1>> counts(bins, Eigen::Matrix<double, space_blocks, 1>::Zero());
-    Eigen::Matrix<double, space_blocks, 1> all = Eigen::Matrix<double, space_blocks, 1>::Zero();
-    BlockSums angles, narrow;
+    Eigen::MatrixXd counts = Eigen::MatrixXd::Zero(averaged.blocks, options.bins);
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(averaged.blocks);
+    BlockSums angles(averaged.blocks), narrow(averaged.blocks);
     for (std::size_t k = 0; k < averaged.particles.size(); ++k) {
         const std::vector<Eigen::Vector3d> directions = contact_directions(contacts, groups, averaged.particles[k]);
         const int block = averaged.block[k];
         for (std::size_t first = 0; first < directions.size(); ++first) {
             for (std::size_t second = first + 1; second < directions.size(); ++second) {
-                const double angle = std::atan2(directions[first].cross(directions[second]).norm(),
-                                                directions[first].dot(directions[second]));
-                counts[std::min(bins - 1, static_cast<std::size_t>(angle / pi * static_cast<double>(bins)))][block] += 1;
+                const double angle =
+                    std::atan2(directions[first].cross(directions[second]).norm(), directions[first].dot(directions[second]));
+                counts(block, std::min(options.bins - 1, static_cast<Index>(angle / width))) += 1;
                 all[block] += 1;
                 angles.add(block, angle);
                 narrow.add(block, angle < equilateral ? 1 : 0);
@@ -59,16 +59,15 @@ BondAngles measure_bond_angles(const Packing& packing, const BondAngleOptions& o
         }
     }
     BondAngles result;
-    const double width = pi / static_cast<double>(bins);
     result.angle = Eigen::VectorXd::LinSpaced(options.bins, width / 2, pi - width / 2);
     result.density = result.density_stderr = Eigen::VectorXd::Zero(options.bins);
     result.angles = static_cast<Index>(all.sum());
     if (result.angles == 0) {
         return result;
     }
-    for (std::size_t bin = 0; bin < bins; ++bin) {
-        result.density[static_cast<Index>(bin)] = counts[bin].sum() / (all.sum() * width);
-        result.density_stderr[static_cast<Index>(bin)] = ratio_stderr(counts[bin], all) / width;
+    for (Index bin = 0; bin < options.bins; ++bin) {
+        result.density[bin] = counts.col(bin).sum() / (all.sum() * width);
+        result.density_stderr[bin] = ratio_stderr(counts.col(bin), all) / width;
     }
     result.mean = angles.mean();
     result.mean_stderr = angles.mean_stderr();
@@ -86,8 +85,8 @@ NeighbourDistances measure_neighbour_distances(const Packing& packing, const Nei
                 std::to_string(options.neighbours));
     const auto nearest = nearest_neighbours(packing, options.neighbours);
     const AveragedParticles averaged(packing);
-    std::vector<BlockSums> sums(static_cast<std::size_t>(options.neighbours));
-    BlockSums gaps;
+    std::vector<BlockSums> sums(static_cast<std::size_t>(options.neighbours), BlockSums(averaged.blocks));
+    BlockSums gaps(averaged.blocks);
     Eigen::VectorXd first(static_cast<Index>(averaged.particles.size()));
     for (std::size_t k = 0; k < averaged.particles.size(); ++k) {
         const Index i = averaged.particles[k];
@@ -112,7 +111,8 @@ NeighbourDistances measure_neighbour_distances(const Packing& packing, const Nei
     result.distance = Eigen::VectorXd::LinSpaced(options.bins, width / 2, first.maxCoeff() - width / 2);
     result.density = Eigen::VectorXd::Zero(options.bins);
     for (const double distance : first) {
-        result.density[std::min(options.bins - 1, static_cast<Index>(distance / width))] += 1 / (width * static_cast<double>(first.size()));
+        result.density[std::min(options.bins - 1, static_cast<Index>(distance / width))] +=
+            1 / (width * static_cast<double>(first.size()));
     }
     result.smallest = first.minCoeff();
     result.spread = std::sqrt((first.array() - first.mean()).square().mean());

@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* stage = "Minkowski functionals";
 
-/// Sums over the counted cells at each radius of a grid: columns are covered volume, area, mean curvature, Euler characteristic and the
-/// volume of the cells.
+/// Sums over the counted cells at each radius of a grid: columns are covered volume, area, mean curvature, Euler characteristic and
+/// the volume of the cells.
 enum Functional : Index { covered, area, curvature, euler, cells, functionals };
 using Sums = Eigen::Array<double, Eigen::Dynamic, functionals>;
 
@@ -25,7 +25,8 @@ double sign(double x) {
     return x > 0 ? 1.0 : (x < 0 ? -1.0 : 0.0);
 }
 
-/// At which radii a diagram is measured: balls of radius^2 = site radius^2 + level. Equal spheres may have any level; others only 0.
+/// At which radii a diagram is measured: balls of radius^2 = site radius^2 + level. Equal spheres may have any level; others only
+/// 0.
 struct Levels {
     Eigen::VectorXd level;  ///< ascending
 
@@ -66,14 +67,14 @@ void add_orthoscheme(const Levels& levels, double radius, double a, double b, do
     }
 }
 
-void add_edge(const PowerDiagram& diagram, const DiagramEdge& edge, const Levels& levels, const std::vector<int>& block,
+void add_edge(const PowerDiagram& diagram, const DiagramEdge& edge, const Levels& levels, const SpaceBlocks& block,
               std::vector<Sums>& blocks) {
     const EdgeGeometry geometry = measure_edge(diagram, edge);
     std::array<Sums*, 3> sums{};
     std::array<double, 3> radius{};
     for (std::size_t corner = 0; corner < 3; ++corner) {
         const auto site = static_cast<std::size_t>(edge.around[corner]);
-        sums[corner] = diagram.counted[site] == 0 ? nullptr : &blocks[static_cast<std::size_t>(block[site])];
+        sums[corner] = diagram.counted[site] == 0 ? nullptr : &blocks[static_cast<std::size_t>(block.of_particle[site])];
         radius[corner] = diagram.radii[edge.around[corner]];
     }
     const auto add = [&](double of_radius, double distance, double foot_distance, const Viewers& viewers) {
@@ -101,12 +102,12 @@ void add_edge(const PowerDiagram& diagram, const DiagramEdge& edge, const Levels
 }
 
 /// Particles whose cells are not empty, and pairs.
-void add_small_simplices(const PowerDiagram& diagram, const Levels& levels, const std::vector<int>& block, std::vector<Sums>& blocks) {
+void add_small_simplices(const PowerDiagram& diagram, const Levels& levels, const SpaceBlocks& block, std::vector<Sums>& blocks) {
     const std::vector<VoronoiFacet> facets = voronoi_facets(diagram);
     for (std::size_t first = 0; first < facets.size();) {
         const int site = facets[first].site;
         const double radius = diagram.radii[site];
-        Sums& sums = blocks[static_cast<std::size_t>(block[static_cast<std::size_t>(site)])];
+        Sums& sums = blocks[static_cast<std::size_t>(block.of_particle[static_cast<std::size_t>(site)])];
         double birth = std::numeric_limits<double>::infinity();
         bool centre_inside = true;
         for (; first < facets.size() && facets[first].site == site; ++first) {
@@ -119,9 +120,9 @@ void add_small_simplices(const PowerDiagram& diagram, const Levels& levels, cons
 }
 
 /// Of each block of space. Blocks are measured chunk by chunk and summed in order, whatever the number of threads.
-std::vector<Sums> measure_diagram(const PowerDiagram& diagram, const Levels& levels, const std::vector<int>& block) {
+std::vector<Sums> measure_diagram(const PowerDiagram& diagram, const Levels& levels, const SpaceBlocks& block) {
     constexpr std::size_t chunks = 64;
-    const std::vector<Sums> none(static_cast<std::size_t>(space_blocks), Sums::Zero(levels.level.size(), functionals));
+    const std::vector<Sums> none(static_cast<std::size_t>(block.count), Sums::Zero(levels.level.size(), functionals));
     std::vector<std::vector<Sums>> partial(chunks, none);
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
@@ -171,15 +172,15 @@ double largest_dilation(const Packing& packing, const PowerDiagram& diagram) {
 }
 
 /// Sums of each block at each dilation.
-std::vector<Sums> measure_equal(const PowerDiagram& diagram, const Eigen::VectorXd& dilation, const std::vector<int>& block) {
+std::vector<Sums> measure_equal(const PowerDiagram& diagram, const Eigen::VectorXd& dilation, const SpaceBlocks& block) {
     const double radius = diagram.radii[0];
     const Levels levels{dilation.array() * (dilation.array() + 2 * radius)};
     return measure_diagram(diagram, levels, block);
 }
 
 std::vector<Sums> measure_unequal(const Packing& packing, const PowerDiagram& diagram, const Eigen::VectorXd& dilation,
-                                  const std::vector<int>& block, const Progress& progress) {
-    std::vector<Sums> sums(static_cast<std::size_t>(space_blocks), Sums::Zero(dilation.size(), functionals));
+                                  const SpaceBlocks& block, const Progress& progress) {
+    std::vector<Sums> sums(static_cast<std::size_t>(block.count), Sums::Zero(dilation.size(), functionals));
     const Levels levels{Eigen::VectorXd::Zero(1)};
     constexpr Index batch = 8;
     for (Index first = 0; first < dilation.size(); first += batch) {
@@ -210,7 +211,7 @@ double zero_of(const Eigen::VectorXd& curve, const Eigen::VectorXd& place) {
 
 void add_standard_errors(const std::vector<Sums>& blocks, double unit, Minkowski& result) {
     const auto error = [&](Functional functional) {
-        BlockSums sums;
+        BlockSums sums(std::ssize(blocks));
         for (std::size_t k = 0; k < blocks.size(); ++k) {
             sums.add(static_cast<int>(k), blocks[k](0, functional), blocks[k](0, cells));
         }
@@ -235,7 +236,7 @@ Minkowski measure_minkowski(const Packing& packing, const MinkowskiOptions& opti
         reduced.radii.setConstant(1);
     }
     const PowerDiagram diagram = counted_diagram(reduced);
-    const std::vector<int> block = block_of_particles(packing);
+    const SpaceBlocks block = space_blocks(packing);
     const Index steps = options.dilations > 0 ? options.dilations : (equal ? 60 : 20);
     const Eigen::VectorXd dilation = Eigen::VectorXd::LinSpaced(steps, 0, largest_dilation(reduced, diagram));
     const std::vector<Sums> blocks =

@@ -1,6 +1,6 @@
 #include <coagula/characterize/pair_correlation.hpp>
 
-#include "block_errors.hpp"
+#include "averaged_particles.hpp"
 #include "pair_histogram.hpp"
 
 #include <Eigen/Dense>
@@ -47,8 +47,8 @@ RadialDistribution in_bins(const PairHistogram& histogram, const PairCorrelation
     for (Index bin = 0; bin < bins; ++bin) {
         const Index first = edges[static_cast<std::size_t>(bin)];
         const Index count = edges[static_cast<std::size_t>(bin) + 1] - first;
-        const Eigen::RowVectorXd pairs = histogram.pairs.middleRows(first, count).colwise().sum();
-        const Eigen::RowVectorXd expected = histogram.expected.middleRows(first, count).colwise().sum();
+        const Eigen::VectorXd pairs = histogram.pairs.middleRows(first, count).colwise().sum();
+        const Eigen::VectorXd expected = histogram.expected.middleRows(first, count).colwise().sum();
         for (Index fine = first; fine < first + count; ++fine) {
             neighbours += histogram.pairs.row(fine).sum() / std::max(1.0, histogram.centres[fine]);
         }
@@ -67,8 +67,8 @@ void add_contact_peak(const PairHistogram& histogram, const PairCorrelationOptio
     if (low + count > histogram.pairs.rows() || histogram.centres[low + count - 1] == 0) {
         return;
     }
-    const Eigen::RowVectorXd pairs = histogram.pairs.middleRows(low, count).colwise().sum();
-    const Eigen::RowVectorXd expected = histogram.expected.middleRows(low, count).colwise().sum();
+    const Eigen::VectorXd pairs = histogram.pairs.middleRows(low, count).colwise().sum();
+    const Eigen::VectorXd expected = histogram.expected.middleRows(low, count).colwise().sum();
     const double per_expected = expected.sum() / histogram.centres[low + count - 1];
     result.contact_peak = pairs.sum() / expected.sum() * per_expected;
     result.contact_peak_stderr = ratio_stderr(pairs, expected) * per_expected;
@@ -107,7 +107,8 @@ void add_contact_value(const PairHistogram& histogram, const PairCorrelationOpti
             model[k] = std::max(fit, 0.1 * pairs.sum() / expected.sum());
         }
     }
-    const double misfit = (expected.array() / (2 * model.array()) * (pairs.array() / expected.array() - model.array()).square()).sum();
+    const double misfit =
+        (expected.array() / (2 * model.array()) * (pairs.array() / expected.array() - model.array()).square()).sum();
     constexpr double good = 1.5;  // of chi^2 per degree of freedom
     if (coefficients[0] <= 0 || misfit > good * static_cast<double>(pairs.size() - 3)) {
         return;
@@ -123,10 +124,10 @@ double checked_range(const Packing& packing, const SampleWindow& window, double 
         return std::min(largest, default_range);
     }
     require_positive(range, "the range of the pair correlation", "m");
-    require(range <= largest * (1 + 1e-12),
-            "the range of the pair correlation is " + to_text(range) + " mean diameters, but the sample allows no more than " +
-                to_text(largest) +
-                (packing.cell.is_periodic() ? ": half the shortest length of the periodic cell" : ": particles must lie that deep in it"));
+    require(range <= largest * (1 + 1e-12), "the range of the pair correlation is " + to_text(range) +
+                                                " mean diameters, but the sample allows no more than " + to_text(largest) +
+                                                (packing.cell.is_periodic() ? ": half the shortest length of the periodic cell"
+                                                                            : ": particles must lie that deep in it"));
     return std::min(range, largest);
 }
 
@@ -136,8 +137,9 @@ PairCorrelation measure_pair_correlation(const Packing& packing, const PairCorre
     check(packing);
     require(options.bin_width >= 0.01 && options.bin_width <= 1,
             "the bins of the pair correlation are " + to_text(options.bin_width) + " wide, but must be 0.01 to 1 mean diameters");
-    require(options.contact_tolerance >= fine_width && options.contact_tolerance <= 0.1,
-            "the contact tolerance of the pair correlation is " + to_text(options.contact_tolerance) + ", but must be 0.002 to 0.1");
+    require(
+        options.contact_tolerance >= fine_width && options.contact_tolerance <= 0.1,
+        "the contact tolerance of the pair correlation is " + to_text(options.contact_tolerance) + ", but must be 0.002 to 0.1");
     const double diameter = 2 * mean_radius(packing);
     const Packing reduced = in_units_of(diameter, packing);
     const SampleWindow window = sample_window(reduced);

@@ -14,13 +14,13 @@ constexpr double sphere = 4 * std::numbers::pi / 3;
 
 /// The block of each particle, and the first bin that reaches out of the window from it.
 struct Centres {
-    std::vector<int> block;
+    SpaceBlocks blocks;
     std::vector<std::int32_t> bins;
 };
 
 Centres find_centres(const Packing& packing, const SampleWindow& window, double width, Index bins, PairDistance distance) {
     const double largest = packing.radii.maxCoeff();
-    Centres centres{block_of_particles(packing), {}};
+    Centres centres{space_blocks(packing), {}};
     for (Index i = 0; i < packing.size(); ++i) {
         const double unit = distance == PairDistance::by_contact ? packing.radii[i] + largest : 1.0;
         centres.bins.push_back(static_cast<std::int32_t>(std::min(window.depth[i] / (unit * width), static_cast<double>(bins))));
@@ -45,16 +45,16 @@ void add_expected(const Packing& packing, const SampleWindow& window, const Cent
     const Index bins = histogram.pairs.rows();
     const Eigen::VectorXd volume = unit_volumes(packing, distance);
     // Changes with the bin at which a centre ceases to count; summed up below.
-    Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(bins + 1, space_blocks);
+    Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(bins + 1, centres.blocks.count);
     Eigen::VectorXd centre_changes = Eigen::VectorXd::Zero(bins + 1);
     for (Index i = 0; i < packing.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
-        changes(centres.bins[k], centres.block[k]) += volume[i];
+        changes(centres.bins[k], centres.blocks.of_particle[k]) += volume[i];
         centre_changes[centres.bins[k]] += 1;
     }
-    histogram.expected = Eigen::MatrixXd::Zero(bins, space_blocks);
+    histogram.expected = Eigen::MatrixXd::Zero(bins, centres.blocks.count);
     histogram.centres.resize(bins);
-    Eigen::RowVectorXd weight = Eigen::RowVectorXd::Zero(space_blocks);
+    Eigen::RowVectorXd weight = Eigen::RowVectorXd::Zero(centres.blocks.count);
     double count = 0;
     for (Index bin = bins; bin-- > 0;) {
         weight += changes.row(bin + 1);
@@ -87,14 +87,14 @@ PairHistogram count_pairs(const Packing& packing, const SampleWindow& window, do
     PairHistogram histogram;
     const bool scaled = distance == PairDistance::by_contact;
     histogram.width = range / static_cast<double>(bins);
-    histogram.pairs = Eigen::MatrixXd::Zero(bins, space_blocks);
     const Centres centres = find_centres(packing, window, histogram.width, bins, distance);
+    histogram.pairs = Eigen::MatrixXd::Zero(bins, centres.blocks.count);
     const double reach = scaled ? 2 * packing.radii.maxCoeff() * range : range;
     const PairRuns runs(packing, reach);
     const double inverse_width = 1 / histogram.width;
 #pragma omp parallel
     {
-        Eigen::MatrixXi counts = Eigen::MatrixXi::Zero(space_blocks, bins);
+        Eigen::MatrixXi counts = Eigen::MatrixXi::Zero(centres.blocks.count, bins);
         std::array<double, chunk> squares{};
         const auto count = [&](Index entry, Index first, Index last, const Eigen::Vector3d& shift) {
             const auto i = static_cast<std::size_t>(runs.particle[static_cast<std::size_t>(entry)]);
@@ -109,7 +109,8 @@ PairHistogram count_pairs(const Packing& packing, const SampleWindow& window, do
                         const auto bin = static_cast<std::int32_t>(place);
                         // Both ends count in the block of one of them, so that blocks are independent.
                         const std::size_t owner = ((i + j) & 1U) != 0 ? std::min(i, j) : std::max(i, j);
-                        counts(centres.block[owner], bin) += (bin < centres.bins[i] ? 1 : 0) + (bin < centres.bins[j] ? 1 : 0);
+                        counts(centres.blocks.of_particle[owner], bin) +=
+                            (bin < centres.bins[i] ? 1 : 0) + (bin < centres.bins[j] ? 1 : 0);
                     }
                 }
             }

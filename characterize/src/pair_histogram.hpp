@@ -12,8 +12,8 @@ namespace coagula::characterize {
 /// Which distance is counted: that of the centres over the mean diameter, or over the distance r_i + r_j at contact.
 enum class PairDistance { by_mean_diameter, by_contact };
 
-/// Rows are bins of equal width from zero, columns are 27 blocks of the window in which the centres lie. Each pair counts for both
-/// of its particles, if the window holds the particle's whole shell.
+/// Rows are bins of equal width from zero, columns are blocks of space (blocks.hpp) in which the centres lie. Each pair counts for
+/// both of its particles, if the window holds the particle's whole shell.
 struct PairHistogram {
     double width = 0;          ///< of a bin, in the unit of the distance
     Eigen::MatrixXd pairs;     ///< found
@@ -21,8 +21,8 @@ struct PairHistogram {
     Eigen::VectorXd centres;   ///< number of particles that count, by bin
 };
 
-/// @param packing with lengths in mean diameters. @param range in the unit of the distance; times the largest r_i + r_j, if it is by
-/// contact, no more than largest_pair_distance. @param bins equally wide over the range.
+/// @param packing with lengths in mean diameters. @param range in the unit of the distance; times the largest r_i + r_j, if it is
+/// by contact, no more than largest_pair_distance. @param bins equally wide over the range.
 PairHistogram count_pairs(const Packing& packing, const SampleWindow& window, double range, Index bins, PairDistance distance);
 
 /// The largest distance that the sample serves, in the unit of the packing: half the shortest length of a periodic cell; in an open

@@ -19,8 +19,8 @@ public:
 
     Index rows() const { return static_cast<Index>(boxes_[1]) * boxes_[2]; }
 
-    /// Calls visit(entry, begin, end, shift) so that all pairs (entry, e in [begin, end)) of all rows are each pair once. Every pair
-    /// within the range is among them, with the separation position(e) + shift - position(entry); farther ones may be, too.
+    /// Calls visit(entry, begin, end, shift) so that all pairs (entry, e in [begin, end)) of all rows are each pair once. Every
+    /// pair within the range is among them, with the separation position(e) + shift - position(entry); farther ones may be, too.
     template <class Visitor>
     void for_each_run(Index row, Visitor&& visit) const {
         const Eigen::Array3i home(0, static_cast<int>(row % boxes_[1]), static_cast<int>(row / boxes_[1]));

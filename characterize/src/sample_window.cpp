@@ -22,8 +22,7 @@ std::vector<HalfSpace> half_spaces(const Packing& packing, const PowerDiagram& d
     std::vector<HalfSpace> planes;
     for (const auto& corner : diagram.hull) {
         const Eigen::Vector3d origin = packing.positions.col(corner[0]);
-        const Eigen::Vector3d area =
-            (packing.positions.col(corner[1]) - origin).cross(packing.positions.col(corner[2]) - origin);
+        const Eigen::Vector3d area = (packing.positions.col(corner[1]) - origin).cross(packing.positions.col(corner[2]) - origin);
         if (area.squaredNorm() > 0) {
             const Eigen::Vector3d normal = area.normalized();
             planes.push_back({normal, normal.dot(origin)});

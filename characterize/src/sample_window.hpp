@@ -6,9 +6,9 @@
 namespace coagula::characterize {
 
 struct SampleWindow {
-    Eigen::VectorXd depth;    ///< N: distance of each centre from the surface of the window [m]; infinite if periodic
-    double density = 0;       ///< centres per volume [1/m^3]; of an open packing those that are no corner of the hull over the volume
-                              ///< of the hull, which is unbiased (Baldin and Reiss, Stoch. Process. Appl. 126 (2016) 3716)
+    Eigen::VectorXd depth;  ///< N: distance of each centre from the surface of the window [m]; infinite if periodic
+    double density = 0;     ///< centres per volume [1/m^3]; of an open packing those that are no corner of the hull over the volume
+                            ///< of the hull, which is unbiased (Baldin and Reiss, Stoch. Process. Appl. 126 (2016) 3716)
     double pair_density = 0;  ///< other centres per volume that an ideal gas would have around a particle: (N - 1) / V if periodic
     double volume = 0;        ///< of the window [m^3]
     Eigen::Vector3d centre;   ///< of the largest known ball in the window; of the box, if periodic

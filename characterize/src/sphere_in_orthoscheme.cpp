@@ -5,12 +5,17 @@
 namespace coagula::characterize {
 
 Orthoscheme::Orthoscheme(double a_, double b_, double c_)
-    : a(a_), b(b_), c(c_), d1(std::sqrt(a * a + b * b)), d2(std::sqrt(d1 * d1 + c * c)), phi(std::atan2(c, b)),
+    : a(a_),
+      b(b_),
+      c(c_),
+      d1(std::sqrt(a * a + b * b)),
+      d2(std::sqrt(d1 * d1 + c * c)),
+      phi(std::atan2(c, b)),
       psi(std::atan2(a * c, b * d2)) {}
 
-// The volume is that of volume_inside_ball (ball_orthoscheme.cpp). Its derivative by rho is the area: rho^2 times the solid angle in
-// which the tetrahedron reaches beyond the sphere. The circle on the plane has the radius s = sqrt(rho^2 - a^2); of its angle phi at F
-// the part theta = acos(b / s) lies beyond the edge E V.
+// The volume is that of volume_inside_ball (ball_orthoscheme.cpp). Its derivative by rho is the area: rho^2 times the solid angle
+// in which the tetrahedron reaches beyond the sphere. The circle on the plane has the radius s = sqrt(rho^2 - a^2); of its angle
+// phi at F the part theta = acos(b / s) lies beyond the edge E V.
 SpherePart sphere_part(const Orthoscheme& tetrahedron, double rho) {
     const auto& [a, b, c, d1, d2, phi, psi] = tetrahedron;
     if (rho >= d2) {

@@ -18,9 +18,9 @@ constexpr double pi = std::numbers::pi;
 using Multiples = Eigen::Array3i;
 
 struct Shells {
-    Eigen::Array3d spacing;                      ///< 2 pi / length
-    std::vector<std::vector<Multiples>> vectors; ///< of shell k: about (k + 1) mean spacings
-    Eigen::Array3i most;                         ///< largest multiples
+    Eigen::Array3d spacing;                       ///< 2 pi / length
+    std::vector<std::vector<Multiples>> vectors;  ///< of shell k: about (k + 1) mean spacings
+    Eigen::Array3i most;                          ///< largest multiples
 };
 
 /// Half of all wave vectors (q and -q scatter alike) up to `largest`, thinned evenly to `limit` in a shell.
@@ -107,8 +107,8 @@ struct Phases {
 };
 
 /// sum_j w_j exp(i q x_j) of one batch for all vectors, added to the amplitudes.
-void add_batch(const Packing& packing, const Taper& taper, const SampleWindow& window, const Shells& shells, Index begin, Index count,
-               std::vector<std::complex<double>>& amplitudes) {
+void add_batch(const Packing& packing, const Taper& taper, const SampleWindow& window, const Shells& shells, Index begin,
+               Index count, std::vector<std::complex<double>>& amplitudes) {
     std::array<Phases, 3> phases;
     for (int axis = 0; axis < 3; ++axis) {
         const Eigen::ArrayXd place = packing.positions.row(axis).segment(begin, count).transpose().array() - window.centre[axis];
@@ -211,8 +211,8 @@ void add_transformed(const Packing& packing, const SampleWindow& window, Structu
     }
     const double reach = width * static_cast<double>(bins);
     const PairHistogram histogram = count_pairs(packing, window, reach, bins, PairDistance::by_mean_diameter);
-    Eigen::VectorXd excess = (histogram.pairs.rowwise().sum() - histogram.expected.rowwise().sum()).array() /
-                             histogram.centres.array().max(1.0);
+    Eigen::VectorXd excess =
+        (histogram.pairs.rowwise().sum() - histogram.expected.rowwise().sum()).array() / histogram.centres.array().max(1.0);
     for (Index bin = 0; bin < bins; ++bin) {
         excess[bin] *= 0.5 * (1 + std::cos(pi * (static_cast<double>(bin) + 0.5) / static_cast<double>(bins)));
     }
@@ -231,7 +231,8 @@ void add_transformed(const Packing& packing, const SampleWindow& window, Structu
         const double second = (above - 2 * here + below) / (step * step);
         const double first = (above - below) / (2 * step);
         const double bias = pi * pi / (4 * reach * reach) * std::abs(second + 2 * first / q);
-        // The squared window has the transform of a shell 8 pi / (3 R) wide: its modes are V q^2 / (4 pi^2) times that, q and -q once.
+        // The squared window has the transform of a shell 8 pi / (3 R) wide: its modes are V q^2 / (4 pi^2) times that, q and -q
+        // once.
         const double counting = here * here * 3 * pi * reach / (2 * window.volume * q * q);
         result.transformed[k] = here;
         result.transformed_error[k] = std::sqrt(bias * bias + counting);
@@ -263,7 +264,8 @@ double fit_at_zero(Index shells, StructureFactor& result) {
 /// The highest shells are left out while the parabola does not describe them.
 void extrapolate(double range, StructureFactor& result) {
     constexpr double good = 1.5;  // of chi^2 per degree of freedom
-    const double* const end = std::upper_bound(result.wave_number.data(), result.wave_number.data() + result.wave_number.size(), range);
+    const double* const end =
+        std::upper_bound(result.wave_number.data(), result.wave_number.data() + result.wave_number.size(), range);
     for (Index shells = end - result.wave_number.data(); shells >= 4; --shells) {
         const double misfit = fit_at_zero(shells, result);
         if (misfit <= good) {

@@ -12,10 +12,10 @@ namespace {
 struct Piece {
     int site;
     int neighbour;
-    double area;             ///< of the triangle between the edge and the foot of the line of sites, signed
-    double birth;            ///< of the edge
+    double area;   ///< of the triangle between the edge and the foot of the line of sites, signed
+    double birth;  ///< of the edge
     double signed_distance;
-    bool foot_inside;        ///< whether the foot lies on the facet's side of the edge
+    bool foot_inside;  ///< whether the foot lies on the facet's side of the edge
 };
 
 void add_pieces(const PowerDiagram& diagram, const DiagramEdge& edge, std::vector<Piece>& pieces) {

@@ -14,7 +14,7 @@ struct VoronoiFacet {
     int site;       ///< the counted cell
     int neighbour;  ///< the cell beyond
     double area;
-    double birth;   ///< least power of a point of the facet
+    double birth;            ///< least power of a point of the facet
     double signed_distance;  ///< from the site to the plane of the facet
 };
 

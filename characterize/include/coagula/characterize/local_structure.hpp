@@ -20,7 +20,7 @@ struct BondAngleOptions {
 struct BondAngles {
     Eigen::VectorXd angle;           ///< middle of each bin [rad]
     Eigen::VectorXd density;         ///< probability density [1/rad]; independent directions have sin(angle) / 2
-    Eigen::VectorXd density_stderr;  ///< jackknife over 27 blocks of space
+    Eigen::VectorXd density_stderr;  ///< from blocks of space (blocks.hpp)
     Index angles = 0;                ///< pairs of contacts; without any the density is 0
     double mean = unset;             ///< [rad]; NaN if there are no angles
     double mean_stderr = unset;
@@ -35,12 +35,12 @@ struct CommonNeighbourOptions {
 };
 
 /// Common-neighbour analysis (Honeycutt and Andersen, J. Phys. Chem. 91 (1987) 4950), by contacts: of each contact the number of
-/// common neighbours, of the contacts among these, and of those in their longest chain. And the kind of lattice around each particle
-/// by the adaptive analysis of Stukowski (Modelling Simul. Mater. Sci. Eng. 20 (2012) 045021), which needs no cut-off.
+/// common neighbours, of the contacts among these, and of those in their longest chain. And the kind of lattice around each
+/// particle by the adaptive analysis of Stukowski (Modelling Simul. Mater. Sci. Eng. 20 (2012) 045021), which needs no cut-off.
 struct CommonNeighbours {
     std::map<std::array<int, 3>, double> fraction;  ///< of the contacts of inner particles, by signature; (4, 2, 1) is all of fcc
     double mean = unset;                            ///< common neighbours of a contact; 0 without contacts
-    double mean_stderr = unset;                     ///< jackknife over 27 blocks of space, as the following
+    double mean_stderr = unset;                     ///< from blocks of space (blocks.hpp), as the following
     /// Fractions of the inner particles; the rest has no such order.
     double fcc = unset, hcp = unset, bcc = unset, icosahedral = unset;
     double fcc_stderr = unset, hcp_stderr = unset, bcc_stderr = unset, icosahedral_stderr = unset;
@@ -57,7 +57,7 @@ struct NeighbourDistanceOptions {
 /// surfaces. In an open packing the nearest neighbour of an inner particle is certain, farther ones nearly always.
 struct NeighbourDistances {
     Eigen::VectorXd mean;         ///< to the k-th neighbour [m], k = 1, 2 ...
-    Eigen::VectorXd mean_stderr;  ///< jackknife over 27 blocks of space
+    Eigen::VectorXd mean_stderr;  ///< from blocks of space (blocks.hpp)
     Eigen::VectorXd distance;     ///< middle of each bin [m]
     Eigen::VectorXd density;      ///< H(r), probability density of the nearest distance [1/m]
     double smallest = unset;      ///< [m]
