@@ -16,7 +16,7 @@ struct SpherePart {
     double volume = 0;  ///< of the ball inside the tetrahedron
     double area = 0;    ///< of the sphere inside it
     double bend = 0;    ///< length of the circle on F E V inside the triangle times the angle asin(a / rho) between the sphere's
-                      ///< normal on it and the plane
+                        ///< normal on it and the plane
 };
 
 /// @param rho radius of the sphere, > 0.

@@ -27,9 +27,9 @@ struct Minkowski {
     Index inner_particles = 0;             ///< whose cells were measured (all, if periodic)
     double volume = unset;                 ///< measured, at dilation 0 [m^3]
     double percolation_dilation = unset;   ///< where the Euler characteristic first passes zero, by linear interpolation [m]: near
-                                          ///< it spheres that grow begin to span the sample (Mecke and Wagner, J. Stat. Phys. 64
-                                          ///< (1991) 843). 0 if it is not positive at first
-    double surface_stderr = unset;  ///< of the undilated functionals: from blocks of space (blocks.hpp)
+                                           ///< it spheres that grow begin to span the sample (Mecke and Wagner, J. Stat. Phys. 64
+                                           ///< (1991) 843). 0 if it is not positive at first
+    double surface_stderr = unset;         ///< of the undilated functionals: from blocks of space (blocks.hpp)
     double mean_curvature_stderr = unset;
     double euler_characteristic_stderr = unset;
     double volume_fraction_stderr = unset;

@@ -29,8 +29,8 @@ struct RadialDistribution {
 struct PairCorrelation {
     RadialDistribution by_distance;  ///< edges in m
     RadialDistribution by_contact;   ///< edges in units of r_i + r_j of each pair: contacts of spheres of any size lie at 1. For
-                                    ///< equal spheres the same distribution
-    double contact_peak = unset;  ///< mean number of neighbours in the contact bin
+                                     ///< equal spheres the same distribution
+    double contact_peak = unset;     ///< mean number of neighbours in the contact bin
     double contact_peak_stderr = unset;
     double contact_value =
         unset;  ///< g at r_i + r_j, extrapolated from outside the contact bin by a parabola over a quarter of

@@ -29,9 +29,9 @@ struct StructureFactor {
         transformed;  ///< 1 + n int (g - 1) w sin(qr) / (qr) dr^3 up to the largest distance R, w = (1 + cos(pi r / R)) / 2
     Eigen::VectorXd transformed_error;  ///< counting error of a shell as wide as the window makes it, and the bias of the window,
                                         ///< which is pi^2 / (4 R^2) |S'' + 2 S' / q|, added in quadrature
-    Eigen::VectorXi vectors;  ///< used in each shell (q and -q count once)
-    double at_zero = unset;   ///< S(0) = n k T compressibility in equilibrium; from S = S(0) + b q^2 + c q^4; shells that it does
-                              ///< not fit are left out from above, without the
+    Eigen::VectorXi vectors;            ///< used in each shell (q and -q count once)
+    double at_zero = unset;  ///< S(0) = n k T compressibility in equilibrium; from S = S(0) + b q^2 + c q^4; shells that it does
+                             ///< not fit are left out from above, without the
     double at_zero_stderr = unset;    ///< of the least squares; NaN if fewer than four shells are in range
     double peak = unset;              ///< largest S of the direct sum
     double peak_wave_number = unset;  ///< where [1/m]
