@@ -78,19 +78,36 @@ private:
         }
     }
 
+    /// One-sided derivative along one axis as (t - time) sqrt(weight).
+    struct Upwind {
+        double time = infinity;
+        double weight = 0;
+
+        bool operator<(const Upwind& other) const { return time < other.time; }
+    };
+
+    double final_time(Index voxel) const {
+        return voxel >= 0 && final_[static_cast<std::size_t>(voxel)] != 0 ? time_[static_cast<std::size_t>(voxel)] : infinity;
+    }
+
+    /// Of second order where the voxel behind the neighbour is earlier still, (3 t - 4 t1 + t2) / (2 edge); else of first order.
+    Upwind upwind(Index voxel, int axis) const {
+        const double inverse = 1 / (grid_.edge[axis] * grid_.edge[axis]);
+        Upwind best;
+        for (const int side : {-1, 1}) {
+            const Index next = neighbour(voxel, axis, side);
+            const double near = final_time(next);
+            if (near < best.time) {
+                const double far = final_time(neighbour(next, axis, side));
+                best = far <= near ? Upwind{near + (near - far) / 3, 2.25 * inverse} : Upwind{near, inverse};
+            }
+        }
+        return best;
+    }
+
     /// Solves sum_axis ((t - t_axis) / edge)^2 = 1 over the earlier neighbours.
     double arrival(Index voxel) const {
-        std::array<std::pair<double, double>, 3> earlier;  // time and 1 / edge^2
-        for (int axis = 0; axis < 3; ++axis) {
-            double time = infinity;
-            for (const int side : {-1, 1}) {
-                const Index other = neighbour(voxel, axis, side);
-                if (other >= 0 && final_[static_cast<std::size_t>(other)] != 0) {
-                    time = std::min(time, time_[static_cast<std::size_t>(other)]);
-                }
-            }
-            earlier[static_cast<std::size_t>(axis)] = {time, 1 / (grid_.edge[axis] * grid_.edge[axis])};
-        }
+        std::array<Upwind, 3> earlier = {upwind(voxel, 0), upwind(voxel, 1), upwind(voxel, 2)};
         std::sort(earlier.begin(), earlier.end());
         double a = 0, b = 0, c = -1, found = infinity;
         for (const auto& [time, weight] : earlier) {

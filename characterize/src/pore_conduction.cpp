@@ -6,6 +6,11 @@ namespace coagula::characterize {
 
 namespace {
 
+/// Fewer voxels are not worth the start of threads.
+bool is_large(const Eigen::Array3i& count) {
+    return count.prod() > 30000;
+}
+
 /// Calls visit(voxel, neighbours -x +x -y +y -z +z) for the voxels of one row; those of odd or even x + y + z only, if step is 2.
 template <class Visit>
 void for_row(const Eigen::Array3i& n, int y, int z, int first, int step, Visit&& visit) {
@@ -21,7 +26,7 @@ void for_row(const Eigen::Array3i& n, int y, int z, int first, int step, Visit&&
 
 template <class Visit>
 void for_all(const Eigen::Array3i& n, Visit&& visit) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (is_large(n))
     for (int z = 0; z < n[2]; ++z) {
         for (int y = 0; y < n[1]; ++y) {
             for_row(n, y, z, 0, 1, visit);
@@ -54,7 +59,7 @@ Eigen::ArrayXd diagonal_of(const FaceConductances& g) {
 void relax(const FaceConductances& g, const Eigen::ArrayXd& inverse_diagonal, const Eigen::ArrayXd& right_side, int colour,
            Eigen::ArrayXd& u) {
     const NeighbourSum sum(g, u);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (is_large(g.count))
     for (int z = 0; z < g.count[2]; ++z) {
         for (int y = 0; y < g.count[1]; ++y) {
             for_row(g.count, y, z, (y + z + colour) & 1, 2, [&](Index here, auto... neighbours) {
@@ -93,7 +98,7 @@ double dot(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
     constexpr Index chunk = 65536;
     const Index chunks = (a.size() + chunk - 1) / chunk;
     Eigen::ArrayXd partial(chunks);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (chunks > 1)
     for (Index k = 0; k < chunks; ++k) {
         const Index count = std::min(chunk, a.size() - k * chunk);
         partial[k] = (a.segment(k * chunk, count) * b.segment(k * chunk, count)).sum();
@@ -181,7 +186,9 @@ Eigen::ArrayXd ConductionSolver::solve(int axis, double spacing, double toleranc
     for (int iteration = 0; iteration < most && steep > goal; ++iteration) {
         Eigen::ArrayXd applied(u.size());
         const NeighbourSum sum(g, direction);
-        for_all(g.count, [&](Index here, auto... neighbours) { applied[here] = diagonal[here] * direction[here] - sum(here, neighbours...); });
+        for_all(g.count, [&](Index here, auto... neighbours) {
+            applied[here] = diagonal[here] * direction[here] - sum(here, neighbours...);
+        });
         const double step = steep / dot(direction, applied);
         u += step * direction;
         residual -= step * applied;

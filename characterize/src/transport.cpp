@@ -50,19 +50,21 @@ OnGrid measure_on(const Packing& packing, const VoxelGrid& grid, const Progress&
 
 /// @param ratio of the voxels of the coarse grid to those of the fine one. @param order of the method in the size of a voxel.
 DirectionalValue directional(const Eigen::Array3d& fine, const Eigen::Array3d& coarse, double ratio, double order) {
+    const Eigen::Array3d change = (fine - coarse) / (std::pow(ratio, order) - 1);
     DirectionalValue value;
-    value.by_axis = fine;
-    value.mean = fine.mean();
-    value.grid_error = ratio > 1.1 ? std::abs(fine.mean() - coarse.mean()) / (std::pow(ratio, order) - 1) : unset;
-    value.axis_stderr = std::sqrt((fine - fine.mean()).square().sum() / 6);
+    value.by_axis = fine + change;
+    value.mean = value.by_axis.mean();
+    value.grid_error = std::abs(change.mean()) / 2;
+    value.axis_stderr = std::sqrt((value.by_axis.array() - value.mean).square().sum() / 6);
     return value;
 }
 
 VoxelGrid finest_grid(const Packing& packing, const TransportOptions& options) {
     const double edge = std::max(1 / options.voxels_per_radius, std::cbrt(packing.cell.volume() / options.most_voxels));
     const VoxelGrid grid = make_grid(packing, edge);
-    require(grid.edge.maxCoeff() <= 1, "the packing would have voxels larger than its mean radius: transport needs more voxels than " +
-                                           to_text(options.most_voxels));
+    require(grid.edge.maxCoeff() <= 1,
+            "the packing would have voxels larger than its mean radius: transport needs more voxels than " +
+                to_text(options.most_voxels));
     return grid;
 }
 
@@ -79,6 +81,8 @@ Transport measure_transport(const Packing& packing, const TransportOptions& opti
     const Minkowski space = measure_minkowski(reduced, {.dilations = 2});
     const VoxelGrid fine = finest_grid(reduced, options);
     const VoxelGrid coarse = make_grid(reduced, 1.5 * std::cbrt(fine.edge.prod()));
+    require((coarse.count < fine.count).all(), "the packing is too small for two grids of " + to_text(options.voxels_per_radius) +
+                                                   " voxels per radius and fewer: more are needed");
     const OnGrid roughly = measure_on(reduced, coarse, progress, 0, 0.25);
     const OnGrid found = measure_on(reduced, fine, progress, 0.25, 1);
     constexpr double closed = 1e-9;

@@ -21,8 +21,8 @@ struct VoxelGrid {
 /// that coarser grids can be made.
 VoxelGrid make_grid(const Packing& packing, double edge);
 
-/// Distance to the nearest surface at one point of each voxel, negative inside spheres; only right within three voxels of a surface,
-/// farther away at least that. @param offset of the point from the voxel's lower corner, in edges.
+/// Distance to the nearest surface at one point of each voxel, negative inside spheres; only right within three voxels of a
+/// surface, farther away at least that. @param offset of the point from the voxel's lower corner, in edges.
 std::vector<double> surface_distances(const Packing& packing, const VoxelGrid& grid, double offset);
 
 /// Open fraction of the face between each voxel and the next along each axis, from the distances at its corners by linear
