@@ -1,8 +1,7 @@
 #include <coagula/characterize/bond_order.hpp>
+#include <coagula/characterize/inner_particles.hpp>
 
 #include "averaged_particles.hpp"
-#include "counted_diagram.hpp"
-#include "voronoi_facets.hpp"
 
 namespace coagula::characterize {
 
@@ -21,23 +20,24 @@ struct CellOrder {
     int facets;
 };
 
+struct Face {
+    Eigen::Vector3d normal;
+    double area;
+};
+
 /// By the addition theorem sum_m |sum_f a_f Y_lm(n_f)|^2 = (2 l + 1) / (4 pi) sum_fg a_f a_g P_l(n_f . n_g).
-CellOrder measure_cell(const PowerDiagram& diagram, const VoronoiFacet* begin, const VoronoiFacet* end) {
+CellOrder measure_cell(const std::vector<Face>& faces) {
     constexpr double negligible = 1e-6;
-    std::vector<Eigen::Vector3d> normals;
-    std::vector<double> areas;
     double surface = 0;
-    for (const VoronoiFacet* facet = begin; facet != end; ++facet) {
-        normals.push_back((diagram.positions.col(facet->neighbour) - diagram.positions.col(facet->site)).normalized());
-        areas.push_back(facet->area);
-        surface += facet->area;
+    for (const Face& face : faces) {
+        surface += face.area;
     }
     CellOrder order{0, 0, 0};
-    for (std::size_t f = 0; f < areas.size(); ++f) {
-        order.facets += areas[f] > negligible * surface ? 1 : 0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        order.facets += faces[f].area > negligible * surface ? 1 : 0;
         for (std::size_t g = 0; g <= f; ++g) {
-            const double cosine = normals[f].dot(normals[g]);
-            const double weight = (f == g ? 1 : 2) * areas[f] * areas[g] / (surface * surface);
+            const double cosine = faces[f].normal.dot(faces[g].normal);
+            const double weight = (f == g ? 1 : 2) * faces[f].area * faces[g].area / (surface * surface);
             order.q4 += weight * legendre_4(cosine * cosine);
             order.q6 += weight * legendre_6(cosine * cosine);
         }
@@ -47,33 +47,48 @@ CellOrder measure_cell(const PowerDiagram& diagram, const VoronoiFacet* begin, c
     return order;
 }
 
+std::vector<std::vector<Face>> faces_by_cell(const VoronoiFaces& faces) {
+    std::vector<std::vector<Face>> cells(static_cast<std::size_t>(faces.neighbours.particles));
+    for (Index k = 0; k < faces.neighbours.size(); ++k) {
+        const Eigen::Vector3d normal = faces.neighbours.branch.col(k).normalized();
+        for (int end = 0; end < 2; ++end) {  // the sign of the normal does not matter: l is even
+            cells[static_cast<std::size_t>(faces.neighbours.ends(end, k))].push_back({normal, faces.areas[k]});
+        }
+    }
+    return cells;
+}
+
 }  // namespace
 
 BondOrder measure_bond_order(const Packing& packing) {
     check(packing);
-    const PowerDiagram diagram = counted_diagram(packing);
-    const std::vector<VoronoiFacet> facets = voronoi_facets(diagram);
-    const SpaceBlocks blocks = space_blocks(packing);
+    return measure_bond_order(packing, measure_voronoi_faces(packing), inner_particles(packing));
+}
+
+BondOrder measure_bond_order(const Packing& packing, const VoronoiFaces& faces, const std::vector<bool>& inner) {
+    const std::vector<std::vector<Face>> cells = faces_by_cell(faces);
+    const Blocks shares = make_blocks(packing, inner);
+    const Index blocks = std::max<Index>(1, shares.count);
     BondOrder result;
     result.q4 = result.q6 = Eigen::VectorXd::Constant(packing.size(), unset);
-    BlockSums q4(blocks.count), q6(blocks.count), q4_squares(blocks.count), q6_squares(blocks.count), count(blocks.count);
-    for (std::size_t first = 0; first < facets.size();) {
-        const int site = facets[first].site;
-        std::size_t last = first;
-        while (last < facets.size() && facets[last].site == site) {
-            ++last;
+    BlockSums q4(blocks), q6(blocks), q4_squares(blocks), q6_squares(blocks), count(blocks);
+    for (Index i = 0; i < packing.size(); ++i) {
+        const auto& cell = cells[static_cast<std::size_t>(i)];
+        if (!inner[static_cast<std::size_t>(i)] || cell.empty()) {
+            continue;
         }
-        const CellOrder order = measure_cell(diagram, facets.data() + first, facets.data() + last);
-        const int block = blocks.of_particle[static_cast<std::size_t>(site)];
-        result.q4[site] = order.q4;
-        result.q6[site] = order.q6;
+        const CellOrder order = measure_cell(cell);
+        const int block = std::max(0, shares.of_particle[i]);
+        result.q4[i] = order.q4;
+        result.q6[i] = order.q6;
         q4.add(block, order.q4);
         q6.add(block, order.q6);
         q4_squares.add(block, order.q4 * order.q4);
         q6_squares.add(block, order.q6 * order.q6);
         count.add(block, order.facets);
-        first = last;
     }
+    require(count.weight() > 0, "the packing is open and has " + std::to_string(packing.size()) +
+                                    " particles, but none lies so far inside that its Voronoi cell is certain");
     result.q4_mean = q4.mean();
     result.q4_mean_stderr = q4.mean_stderr();
     result.q6_mean = q6.mean();

@@ -3,10 +3,9 @@
 #include <coagula/common/parallel.hpp>
 
 #include "averaged_particles.hpp"
-#include "counted_diagram.hpp"
-#include "pair_histogram.hpp"
+#include "facet_births.hpp"
+#include "reduced_diagram.hpp"
 #include "sphere_in_orthoscheme.hpp"
-#include "voronoi_facets.hpp"
 
 #include <boost/math/tools/roots.hpp>
 
@@ -103,7 +102,7 @@ void add_edge(const PowerDiagram& diagram, const DiagramEdge& edge, const Levels
 
 /// Particles whose cells are not empty, and pairs.
 void add_small_simplices(const PowerDiagram& diagram, const Levels& levels, const SpaceBlocks& block, std::vector<Sums>& blocks) {
-    const std::vector<VoronoiFacet> facets = voronoi_facets(diagram);
+    const std::vector<FacetBirth> facets = facet_births(diagram);
     for (std::size_t first = 0; first < facets.size();) {
         const int site = facets[first].site;
         const double radius = diagram.radii[site];
@@ -143,6 +142,13 @@ std::vector<Sums> measure_diagram(const PowerDiagram& diagram, const Levels& lev
         }
     }
     return total;
+}
+
+/// The same cells, for spheres whose radii have grown by `growth`.
+PowerDiagram grown_diagram(const Packing& packing, const PowerDiagram& original, double growth) {
+    const Eigen::VectorXd radii = packing.radii.array() + growth;
+    return packing.cell.is_periodic() ? periodic_diagram(packing, radii, original.margin)
+                                      : open_diagram(packing, radii, original.counted);
 }
 
 double require_void(double largest_power) {
@@ -230,12 +236,11 @@ Minkowski measure_minkowski(const Packing& packing, const MinkowskiOptions& opti
     require(options.dilations == 0 || options.dilations >= 2, "the Minkowski functionals need at least 2 dilations");
     progress.update(stage, 0);
     const bool equal = is_monodisperse(packing);
-    const double unit = mean_radius(packing);
-    Packing reduced = in_units_of(unit, packing);
-    if (equal) {
-        reduced.radii.setConstant(1);
-    }
-    const PowerDiagram diagram = counted_diagram(reduced);
+    const ReducedDiagram base = reduced_diagram(packing);
+    require_inner(base);
+    const double unit = base.unit;
+    const Packing& reduced = base.packing;
+    const PowerDiagram& diagram = base.diagram;
     const SpaceBlocks block = space_blocks(packing);
     const Index steps = options.dilations > 0 ? options.dilations : (equal ? 60 : 20);
     const Eigen::VectorXd dilation = Eigen::VectorXd::LinSpaced(steps, 0, largest_dilation(reduced, diagram));
@@ -252,7 +257,7 @@ Minkowski measure_minkowski(const Packing& packing, const MinkowskiOptions& opti
     result.surface = total.col(area) / volume / unit;
     result.mean_curvature = total.col(curvature) / volume / (unit * unit);
     result.euler_characteristic = total.col(euler) / volume / (unit * unit * unit);
-    result.inner_particles = std::count(diagram.counted.begin(), diagram.counted.begin() + packing.size(), char{1});
+    result.inner_particles = base.inner_count();
     result.volume = volume[0] * unit * unit * unit;
     result.percolation_dilation = zero_of(result.euler_characteristic, result.dilation);
     add_standard_errors(blocks, unit, result);

@@ -2,6 +2,7 @@
 
 #include "averaged_particles.hpp"
 #include "pair_histogram.hpp"
+#include "reduced_diagram.hpp"
 
 #include <Eigen/Dense>
 

@@ -136,11 +136,4 @@ double largest_pair_distance(const Packing& packing, const SampleWindow& window)
     return *tenth;
 }
 
-Packing in_units_of(double unit, const Packing& packing) {
-    const Eigen::Vector3d lengths = packing.cell.lengths() / unit;
-    const Eigen::Vector3d origin = packing.cell.origin() / unit;
-    const bool periodic = packing.cell.is_periodic();
-    return {periodic ? Cell::periodic(lengths) : Cell::open(origin, lengths), packing.positions / unit, packing.radii / unit};
-}
-
 }  // namespace coagula::characterize

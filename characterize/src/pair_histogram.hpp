@@ -29,7 +29,4 @@ PairHistogram count_pairs(const Packing& packing, const SampleWindow& window, do
 /// one the depth that a tenth of the particles have.
 double largest_pair_distance(const Packing& packing, const SampleWindow& window);
 
-/// The packing with its lengths divided by `unit`.
-Packing in_units_of(double unit, const Packing& packing);
-
 }  // namespace coagula::characterize

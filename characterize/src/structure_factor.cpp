@@ -1,6 +1,7 @@
 #include <coagula/characterize/structure_factor.hpp>
 
 #include "pair_histogram.hpp"
+#include "reduced_diagram.hpp"
 
 #include <Eigen/Dense>
 

@@ -4,8 +4,8 @@
 #include <coagula/common/parallel.hpp>
 
 #include "geodesic.hpp"
-#include "pair_histogram.hpp"
 #include "pore_conduction.hpp"
+#include "reduced_diagram.hpp"
 
 #include <limits>
 

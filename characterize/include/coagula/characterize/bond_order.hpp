@@ -1,10 +1,13 @@
 // Bond-orientational order of the cells: Steinhardt's q4 and q6 with the Voronoi facets as weights.
 #pragma once
 
+#include <coagula/characterize/voronoi_cells.hpp>
 #include <coagula/common/checks.hpp>
 #include <coagula/common/packing.hpp>
 
 #include <Eigen/Core>
+
+#include <vector>
 
 namespace coagula::characterize {
 
@@ -22,5 +25,8 @@ struct BondOrder {
 
 /// Throws std::invalid_argument for an open packing without inner particles.
 BondOrder measure_bond_order(const Packing& packing);
+
+/// The same from faces that are known (voronoi_cells.hpp). @param inner N flags (inner_particles.hpp).
+BondOrder measure_bond_order(const Packing& packing, const VoronoiFaces& faces, const std::vector<bool>& inner);
 
 }  // namespace coagula::characterize

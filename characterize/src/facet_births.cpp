@@ -1,4 +1,4 @@
-#include "voronoi_facets.hpp"
+#include "facet_births.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,6 @@ namespace {
 struct Piece {
     int site;
     int neighbour;
-    double area;   ///< of the triangle between the edge and the foot of the line of sites, signed
     double birth;  ///< of the edge
     double signed_distance;
     bool foot_inside;  ///< whether the foot lies on the facet's side of the edge
@@ -20,13 +19,12 @@ struct Piece {
 
 void add_pieces(const PowerDiagram& diagram, const DiagramEdge& edge, std::vector<Piece>& pieces) {
     const EdgeGeometry geometry = measure_edge(diagram, edge);
-    const double length = geometry.height[0] + geometry.height[1];
     const double birth = edge_birth(geometry);
     const auto add = [&](int from, int to, double distance, double foot_distance) {
         const int site = edge.around[static_cast<std::size_t>(from)];
         if (diagram.counted[static_cast<std::size_t>(site)] != 0) {
             const int neighbour = edge.around[static_cast<std::size_t>(to)];
-            pieces.push_back({site, neighbour, foot_distance * length / 2, birth, distance, foot_distance >= 0});
+            pieces.push_back({site, neighbour, birth, distance, foot_distance >= 0});
         }
     };
     for (const EdgeSide& side : geometry.sides) {
@@ -42,7 +40,7 @@ double edge_birth(const EdgeGeometry& geometry) {
     return foot_inside ? geometry.foot_power : std::min(geometry.end_power(0), geometry.end_power(1));
 }
 
-std::vector<VoronoiFacet> voronoi_facets(const PowerDiagram& diagram) {
+std::vector<FacetBirth> facet_births(const PowerDiagram& diagram) {
     std::vector<Piece> pieces;
     pieces.reserve(6 * diagram.edges.size());
     for (const DiagramEdge& edge : diagram.edges) {
@@ -51,14 +49,13 @@ std::vector<VoronoiFacet> voronoi_facets(const PowerDiagram& diagram) {
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& one, const Piece& other) {
         return one.site != other.site ? one.site < other.site : one.neighbour < other.neighbour;
     });
-    std::vector<VoronoiFacet> facets;
+    std::vector<FacetBirth> facets;
     for (std::size_t first = 0; first < pieces.size();) {
         const Piece& piece = pieces[first];
         const double radius = diagram.radii[piece.site];
-        VoronoiFacet facet{piece.site, piece.neighbour, 0, std::numeric_limits<double>::infinity(), piece.signed_distance};
+        FacetBirth facet{piece.site, piece.neighbour, std::numeric_limits<double>::infinity(), piece.signed_distance};
         bool foot_inside = true;
         for (; first < pieces.size() && pieces[first].site == facet.site && pieces[first].neighbour == facet.neighbour; ++first) {
-            facet.area += pieces[first].area;
             facet.birth = std::min(facet.birth, pieces[first].birth);
             foot_inside = foot_inside && pieces[first].foot_inside;
         }
