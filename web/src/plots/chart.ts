@@ -218,7 +218,8 @@ export class Chart {
         x: { time: false, distr: this.logX ? 3 : 1, range: (_, low, high) => widened(low, high, this.logX, bars > 0 ? 0.04 : 0.015) },
         y: { distr: this.logY ? 3 : 1, range: (_, low, high) => this.rangeY(low, high, series, bars > 0) },
       },
-      axes: [axis(this.spec.x.label, 44), axis(this.spec.y.label, 62)],
+      padding: [10, 14, 0, 0],
+      axes: [axis(this.spec.x.label, 28), axis(this.spec.y.label, 48)],
       series: [{}, ...series.map((one) => seriesOptions(one, one.kind === "bars" ? { number: bar++, of: bars } : { number: 0, of: 1 }))],
       hooks: {
         drawClear: [(plot) => this.drawBand(plot)],
@@ -246,7 +247,7 @@ export class Chart {
       const reach = Math.max(4, Math.abs(from), Math.abs(to)) * 1.08;
       return [-reach, reach];
     }
-    return fromZero && !this.logY && from >= 0 ? [0, to * 1.05] : widened(from, to, this.logY, 0.05);
+    return (fromZero || from < 0.1 * to) && !this.logY && from >= 0 ? [0, to * 1.05] : widened(from, to, this.logY, 0.05);
   }
 
   private drawBand(plot: uPlot): void {
@@ -334,11 +335,21 @@ function axis(label: string, size: number): uPlot.Axis {
   return {
     label, size, labelSize: 20, labelGap: 0, gap: 4, font: `12px ${fontFamily()}`, labelFont: `12.5px ${fontFamily()}`,
     stroke: () => colour("--ink"),
-    grid: { stroke: () => colour("--grid"), width: 1 },
+    grid: { stroke: () => colour("--grid"), width: 1, filter: decades },
     ticks: { stroke: () => colour("--rule"), width: 1, size: 5 },
     border: { show: true, stroke: () => colour("--rule"), width: 1 },
+    filter: decades,
     values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : printed(tick, 3).replace(/^1 × /, ""))),
   };
+}
+
+/** On a logarithmic axis over several decades lines at the powers of ten are enough. */
+function decades(plot: uPlot, splits: number[], axisNumber: number): (number | null)[] {
+  const scale = plot.scales[axisNumber === 0 ? "x" : "y"]!;
+  if (scale.distr !== 3 || (scale.max ?? 1) / (scale.min ?? 1) < 50) {
+    return splits;
+  }
+  return splits.map((split) => (Math.abs(Math.log10(split) - Math.round(Math.log10(split))) < 1e-6 ? split : null));
 }
 
 function seriesOptions(series: Series, bar: { number: number; of: number }): uPlot.Series {

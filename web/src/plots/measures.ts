@@ -70,7 +70,10 @@ export function coordinationChart(structures: Structure[]): ChartSpec | null {
   };
 }
 
-const forceBins = 64;
+/** The rule of Rice: bins grow with the cube root of the number of values. */
+function binsFor(values: number): number {
+  return Math.min(64, Math.max(12, Math.round(2 * Math.cbrt(values))));
+}
 
 /** Distribution of the forces under one shear plane, over their mean magnitude. Tension and compression have opposite signs. */
 export function forceChart(models: Model[], plane: Plane): ChartSpec | null {
@@ -86,11 +89,12 @@ export function forceChart(models: Model[], plane: Plane): ChartSpec | null {
       const mean = loaded.reduce((sum, force) => sum + Math.abs(force), 0) / loaded.length;
       const sorted = loaded.map((force) => force / mean).sort();
       const [low, high] = [sorted[Math.floor(0.0005 * sorted.length)]!, sorted[Math.ceil(0.9995 * sorted.length) - 1]!];
-      const width = (high - low) / forceBins || 1;
-      const counts = new Array<number>(forceBins).fill(0);
+      const bins = binsFor(sorted.length);
+      const width = (high - low) / bins || 1;
+      const counts = new Array<number>(bins).fill(0);
       for (const force of sorted) {
         const bin = Math.floor((force - low) / width);
-        if (bin >= 0 && bin < forceBins) {
+        if (bin >= 0 && bin < bins) {
           ++counts[bin]!;
         }
       }

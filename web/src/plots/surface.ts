@@ -129,7 +129,7 @@ function drawSurfaces(host: HTMLElement, surfaces: Surface[]): void {
   host.append(canvas, ...surfaces.map((one, k) => el("p", { class: "label", style: `grid-area: ${Math.floor(k / 2) + 1} / ${(k % 2) + 1}` },
     el("b", {}, one.title), el("br"), one.note)));
   const camera = new PerspectiveCamera(30, 1, 0.1, 50);
-  camera.position.set(2.6, 2, 3.6);
+  camera.position.set(2.8, 2.1, 3.9);
   const controls = new OrbitControls(camera, canvas);
   controls.enablePan = false;
   controls.enableZoom = false;

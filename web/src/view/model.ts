@@ -30,9 +30,6 @@ const labels: Record<string, string> = {
   energy_share: "participation (share of the energy)",
   nonaffine_displacement: "non-affine displacement",
   rotation: "rotation",
-  normal_force: "normal force",
-  shear_force: "shear force",
-  backbone: "backbone",
 };
 
 export class Model {
@@ -122,7 +119,7 @@ export class Model {
     const name = match ? match[1]! : field.name;
     const plane = match ? (match[2] as Plane) : "";
     const entry = fields.get(name) ?? {
-      label: labels[name] ?? name.replaceAll("_", " "),
+      label: (fields === this.fields ? labels[name] : null) ?? name.replaceAll("_", " "),
       unit: field.unit,
       description: field.description.replace(/ under shear (xy|xz|yz)/, "").replace(/ (xy|xz|yz)( |$)/, "$2"),
       values: new Map<Plane | "", Numbers>(),

@@ -40,10 +40,10 @@ vec3 lit(vec3 base, vec3 normal, vec3 direction) {
   float diffuse = 0.5 + 0.5 * dot(normal, light);
   float facing = max(dot(normal, -direction), 0.0);
   float gloss = pow(max(dot(reflect(-light, normal), -direction), 0.0), 24.0);
-  return base * (0.22 + 0.85 * diffuse * diffuse) * (0.55 + 0.45 * smoothstep(0.0, 0.55, facing)) + 0.16 * gloss;
+  return base * (0.38 + 0.88 * diffuse * diffuse) * (0.5 + 0.5 * smoothstep(0.0, 0.5, facing)) + 0.14 * gloss;
 }
 vec3 hazy(vec3 base, float depth) {
-  return mix(base, haze, 0.55 * smoothstep(hazeRange.x, hazeRange.y, depth));
+  return mix(base, haze, 0.4 * smoothstep(hazeRange.x, hazeRange.y, depth));
 }`;
 
 export const sphereFragment = `

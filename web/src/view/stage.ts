@@ -1,10 +1,8 @@
 // One view on the page: canvas, colour bars, what was picked, keyboard.
 
-import { gradient } from "../colours";
-import { el, printed, quantity } from "../dom";
+import { el, quantity } from "../dom";
 import type { Painter } from "./build";
 import type { Model } from "./model";
-import type { Legend } from "./paint";
 import type { Settings } from "./settings";
 import { Viewer } from "./viewer";
 
@@ -15,22 +13,20 @@ export class Stage {
   readonly element: HTMLElement;
   /** Null where the browser cannot draw in three dimensions. */
   readonly viewer: Viewer | null;
-  private readonly legends = el("div", { class: "legends" });
   private readonly picked = el("aside", { class: "picked", "aria-live": "polite" });
 
   constructor(readonly model: Model, private settings: Settings, painter: Painter, named: boolean) {
     const host = el("div", { class: "canvas" });
-    this.element = el("section", { class: "stage" }, host, this.legends, this.picked);
+    this.element = el("section", { class: "stage" }, host, this.picked);
     if (named) {
       this.element.append(el("h2", {}, model.structure.name));
     }
     this.viewer = this.makeViewer(host, painter);
   }
 
-  apply(settings: Settings, painter: Painter, legends: Legend[]): void {
+  apply(settings: Settings, painter: Painter): void {
     this.settings = settings;
     this.viewer?.apply(settings, painter);
-    this.legends.replaceChildren(...(this.viewer ? legends.map(legendElement) : []));
     this.showPicked(this.viewer?.selected ?? null);
   }
 
@@ -124,15 +120,4 @@ export class Stage {
     const note = columns.length > 0 ? el("p", { class: "soft" }, `Forces per unit shear strain ${this.settings.plane}.`) : null;
     return el("div", {}, el("table", {}, el("thead", {}, head), el("tbody", {}, ...rows)), note);
   }
-}
-
-function legendElement(legend: Legend): HTMLElement {
-  const { range } = legend;
-  const title = legend.title + (legend.unit ? ` [${legend.unit}]` : "") + (range.logarithmic ? ", logarithmic" : "");
-  const scale = legend.steps
-    ? el("div", { class: "steps" }, ...legend.steps.map((step) => el("span", {},
-      el("i", { style: `background: rgb(${step.colour.map(Math.round).join(",")})` }), step.label)))
-    : el("div", { class: "bar" }, el("i", { style: `background: ${gradient(range.scale)}` }),
-      el("span", {}, printed(range.low, 3)), el("span", {}, printed(range.high, 3)));
-  return el("figure", { class: "legend", title: legend.description }, el("figcaption", {}, title), scale);
 }

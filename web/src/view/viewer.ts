@@ -87,7 +87,7 @@ export class Viewer {
   }
 
   reset(): void {
-    this.setCamera({ position: [1.9, 1.45, 2.7], target: [0, 0, 0], up: [0, 1, 0] });
+    this.setCamera({ position: [1.76, 1.32, 2.46], target: [0, 0, 0], up: [0, 1, 0] });
     this.onCamera(this.cameraState());
   }
 

@@ -2,6 +2,7 @@
 
 import type { Structure } from "../data";
 import { checkbox, el, labelled, select, slider } from "../dom";
+import { legendElement } from "./legend";
 import { Model } from "./model";
 import { bondColours, paint, particleColours, wantsLogarithm } from "./paint";
 import { defaults, planes, type Plane, type Settings } from "./settings";
@@ -15,6 +16,7 @@ export class Views {
   stages: Stage[] = [];
   private readonly settings: Settings = structuredClone(defaults);
   private readonly row = el("div", { class: "stages" });
+  private readonly legends = el("div", { class: "legends" });
   private readonly controls = el("form", { class: "controls", "aria-label": "What the views show", onsubmit: (event: Event) => event.preventDefault() });
   private shown: number[];
   private linked = true;
@@ -26,7 +28,7 @@ export class Views {
     if (!this.models.some((model) => model.structure.bonds)) {
       this.settings.colourBy = "radius";
     }
-    this.element.append(this.row, this.controls);
+    this.element.append(this.row, this.legends, this.controls);
     this.makeControls();
     this.makeStages();
   }
@@ -65,7 +67,8 @@ export class Views {
 
   private refresh(): void {
     const { painters, legends } = paint(this.drawn, this.settings);
-    this.stages.forEach((stage, k) => stage.apply(this.settings, painters[k]!, k === 0 ? legends : []));
+    this.stages.forEach((stage, k) => stage.apply(this.settings, painters[k]!));
+    this.legends.replaceChildren(...(this.stages.some((stage) => stage.viewer) ? legends.map(legendElement) : []));
   }
 
   private adjust(): void {
