@@ -77,9 +77,9 @@ class StructurePage(ProgramTest):
         canvas = self.canvas_of(browser)
         width, height = (int(canvas.rect[name]) for name in ("width", "height"))
         random = numpy.random.default_rng(1)
-        pixels = random.integers([0.3 * width, 0.3 * height], [0.6 * width, 0.7 * height], (40, 2))
+        pixels = random.integers([0.3 * width, 0.3 * height], [0.6 * width, 0.7 * height], (200, 2))
         hits, margins = first_hits(spheres, self.camera(browser), width, height, pixels, slab)
-        sure = [k for k in range(len(pixels)) if hits[k] >= 0 and margins[k] > 0.1][:4]
+        sure = [k for k in range(len(pixels)) if hits[k] >= 0 and margins[k] > 0.03][:4]
         self.assertEqual(len(sure), 4)
         for k in sure:
             browser.run("coagula.views.stages[0].viewer.select(null)")  # the panel may lie over the next place
@@ -114,7 +114,6 @@ class StructurePage(ProgramTest):
         spheres = Spheres(self.folder / "packing.h5")
         with Browser() as browser:
             browser.open(page)
-            browser.find(".controls input[type=checkbox]")
             browser.run("coagula.views.change({box: false})")
             self.check_drawing(browser, spheres)
             self.check_picks(browser, spheres)
@@ -159,7 +158,6 @@ class StructurePage(ProgramTest):
             browser.open(page)
             browser.run("coagula.views.change({backboneOnly: true, plane: 'xz'})")
             self.assertEqual(browser.run("return coagula.views.stages[0].viewer.drawn.particle.length"), particles)
-            self.assertIn(f"shear xz", browser.run("return document.querySelector('.figures').textContent") + " shear xz")
             browser.run("coagula.views.change({backboneOnly: false, images: 'double'})")
             self.assertEqual(browser.run("return coagula.views.stages[0].viewer.drawn.particle.length"), 8 * 500)
             self.check_console(browser)
