@@ -134,10 +134,11 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
     return text + "</tbody></table>\n";
 }
 
-std::string html_page(const std::string& title, const std::string& body) {
+std::string html_page(const std::string& title, const std::string& body, const std::string& body_style) {
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-           escaped(title) + "</title>\n<style>" + std::string(page_style) + "</style>\n</head>\n<body>\n" + body +
+           escaped(title) + "</title>\n<style>" + std::string(page_style) + "</style>\n</head>\n" +
+           (body_style.empty() ? "<body>\n" : "<body class=\"" + body_style + "\">\n") + body +
            "</body>\n</html>\n";
 }
 

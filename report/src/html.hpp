@@ -35,7 +35,7 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
                        const std::string& style = {});
 
 /// A whole page that needs no other file: <title>, style, body.
-std::string html_page(const std::string& title, const std::string& body);
+std::string html_page(const std::string& title, const std::string& body, const std::string& body_style = {});
 
 /// What the script of a page draws: an element of JSON, and the long arrays beside it (PageArrays::base64; may be empty).
 std::string page_data(const nlohmann::ordered_json& data, const std::string& arrays = {});

@@ -143,22 +143,17 @@ void run_diagnosis(const Arguments& arguments) {
                                  checked.noise, describe_call(arguments, nullptr, clock),
                                  sentences,     checked.options.level,
                                  model,         notes_on(experiment, radius, checked.file.notes)};
-    Gnuplot gnuplot;
-    folder.write("report.html", diagnosis_page(record, gnuplot));
-    std::vector<std::string> notes = record.notes;
-    if (!gnuplot.problem().empty()) {
-        notes.push_back(gnuplot.problem());
-    }
+    folder.write("report.html", diagnosis_page(record));
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
     folder.write("simulations.txt", cache_text(cache));
     Json json = report::to_json(diagnosis, checked.noise, model);
-    json["notes"] = notes;
+    json["notes"] = record.notes;
     json["report"] = (folder.path() / "report.html").string();
     json["seconds"] = clock.seconds();
     folder.write("diagnosis.json", json.dump(2) + "\n");
     folder.publish();
     Table table = table_of(diagnosis);
-    for (const std::string& note : notes) {
+    for (const std::string& note : record.notes) {
         table.emplace_back("note", note);
     }
     table.emplace_back("written to", folder.path().string() + ", page for people: " + (folder.path() / "report.html").string());

@@ -171,6 +171,14 @@ export class Chart {
     this.draw();
   }
 
+  /** Shows or hides the series of this name. */
+  show(name: string, on: boolean): void {
+    if (this.spec.series.some((series) => series.name === name)) {
+      on ? this.hidden.delete(name) : this.hidden.add(name);
+      this.draw();
+    }
+  }
+
   private fileName(): string {
     return `${this.spec.title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "")}.csv`;
   }
