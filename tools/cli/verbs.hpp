@@ -13,6 +13,7 @@ Verb diagnose_verb();
 Verb info_verb();
 Verb import_verb();
 Verb export_verb();
+Verb report_verb();
 Verb calibrate_verb();
 Verb fit_power_law_verb();
 
