@@ -90,7 +90,7 @@ std::string as_element(std::string svg, int number, const std::string& title) {
     if (begin == std::string::npos || end == std::string::npos) {
         return {};
     }
-    svg = without(without(svg.substr(begin, end + 6 - begin), "title"), "desc");
+    svg = without_names(svg.substr(begin, end + 6 - begin));
     const std::string mark = "p" + std::to_string(number) + "-";
     for (const std::string place : {"id=\"", "id='", "href=\"#", "href='#", "url(#"}) {
         svg = replaced(std::move(svg), place, place + mark);
@@ -100,6 +100,10 @@ std::string as_element(std::string svg, int number, const std::string& title) {
 }
 
 }  // namespace
+
+std::string without_names(std::string svg) {
+    return without(without(std::move(svg), "title"), "desc");
+}
 
 GnuplotOutput run_gnuplot(const std::string& commands) {
     const MemoryFile script;

@@ -15,5 +15,6 @@ Verb import_verb();
 Verb export_verb();
 Verb calibrate_verb();
 Verb fit_power_law_verb();
+Verb plot_verb();
 
 }  // namespace coagula::tools

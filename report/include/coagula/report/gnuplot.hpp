@@ -15,6 +15,9 @@ struct GnuplotOutput {
 /// @param commands beginning with those that set the terminal.
 GnuplotOutput run_gnuplot(const std::string& commands);
 
+/// The SVG without gnuplot's names of curves, which a browser would show under the mouse.
+std::string without_names(std::string svg);
+
 /// Draws with gnuplot, if it is installed; asks for it once.
 class Gnuplot {
 public:
