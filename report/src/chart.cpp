@@ -25,7 +25,7 @@ std::string terminal(PictureFormat format, const PictureSize& size) {
     }
     if (format == PictureFormat::pdf) {
         return "set terminal pdfcairo enhanced size " + pair_text(100 * size.width, 100 * size.height, "cm") + " " + font +
-               " fontscale 1 linewidth 0.7 rounded\n";
+               " fontscale 1 linewidth 1.3 rounded\n";
     }
     const double dots = size.resolution / 72.0;
     return "set terminal pngcairo enhanced size " +
@@ -81,8 +81,8 @@ PictureSize default_size(const Drawing& drawing) {
 }
 
 PictureFormat picture_format(const std::string& path, const std::string& option) {
-    for (const auto& [ending, format] : {std::pair(".svg", PictureFormat::svg), std::pair(".png", PictureFormat::png),
-                                         std::pair(".pdf", PictureFormat::pdf)}) {
+    for (const auto& [ending, format] :
+         {std::pair(".svg", PictureFormat::svg), std::pair(".png", PictureFormat::png), std::pair(".pdf", PictureFormat::pdf)}) {
         if (path.ends_with(ending)) {
             return format;
         }
@@ -94,8 +94,8 @@ std::string draw(const Drawing& drawing, PictureFormat format, const PictureSize
     for (const Chart& chart : drawing.panels) {
         if (std::none_of(chart.series.begin(), chart.series.end(), [&](const Series& s) { return is_shown(chart, s); })) {
             throw InputError("there is nothing to draw: no value of " + chart.y.plain + " against " + chart.x.plain +
-                             " is a number" + (chart.x.logarithmic || chart.y.logarithmic ? " above zero, as a logarithmic axis needs"
-                                                                                          : ""));
+                             " is a number" +
+                             (chart.x.logarithmic || chart.y.logarithmic ? " above zero, as a logarithmic axis needs" : ""));
         }
     }
     const GnuplotOutput output = run_gnuplot(terminal(format, size) + gnuplot_commands(drawing) + "unset output\n");

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 
 namespace coagula::report {
 
@@ -34,16 +36,37 @@ std::string unit_markup(const std::string& unit) {
     return text;
 }
 
-/// 1, 2 and 5 times powers of ten within the range.
+/// 1, 2 or 5 times a power of ten, so that some six steps make the range.
+double tick_distance(double range) {
+    constexpr double ticks = 6;
+    const double rough = range / ticks;
+    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    for (const double digit : {1.0, 2.0, 5.0}) {
+        if (digit * power >= rough) {
+            return digit * power;
+        }
+    }
+    return 10 * power;
+}
+
+/// Of a logarithmic axis of few decades: 1, 2 and 5 times powers of ten, or equal steps where it has less than one decade.
 std::string ticks_between(double low, double high) {
-    std::string ticks;
-    for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power) {
-        for (const double digit : {1.0, 2.0, 5.0}) {
-            const double place = digit * std::pow(10.0, power);
-            if (place >= low && place <= high) {
-                ticks += (ticks.empty() ? "" : ",") + to_text(place);
+    std::vector<double> places;
+    if (high < 10 * low) {
+        const double step = tick_distance(high - low);
+        for (double k = std::ceil(low / step); k * step <= high; ++k) {
+            places.push_back(k * step);
+        }
+    } else {
+        for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power) {
+            for (const double digit : {1.0, 2.0, 5.0}) {
+                places.push_back(digit * std::pow(10.0, power));
             }
         }
+    }
+    std::string ticks;
+    for (const double place : places) {
+        ticks += (ticks.empty() ? "" : ",") + to_text(place);
     }
     return ticks;
 }
@@ -105,20 +128,32 @@ std::string axis_commands(const SettledAxis& axis, const std::string& name) {
         commands += "set logscale " + name + "\n";
         if (axis.high / axis.low < few_decades) {
             commands += "set " + name + "tics (" + ticks_between(axis.low, axis.high) + ")\n";
+            if (axis.high < 0.01) {
+                commands += "set format " + name + " '%.0l⋅10^{%T}'\n";
+            }
         } else {
             commands += "set format " + name + " '10^{%T}'\n";
         }
+    } else {
+        commands += "set " + name + "tics " + to_text(tick_distance(axis.high - axis.low)) + "\n";
     }
     const std::string unit = axis.unit.empty() ? "" : " (" + unit_markup(axis.unit) + ")";
     return commands + "set " + name + "label \"" + axis.axis.name + unit + "\"\n";
 }
 
 std::string quoted_text(const std::string& text) {
-    std::string quoted = "'";
+    std::string quoted = "\"";
     for (const char c : printable(text)) {
-        quoted += c == '\'' ? std::string("''") : std::string(1, c);
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x80 || std::isalnum(byte) != 0 || c == ' ') {
+            quoted += c;
+        } else {
+            std::array<char, 8> escape{};
+            std::snprintf(escape.data(), escape.size(), "\\%03o", static_cast<unsigned>(byte));
+            quoted += escape.data();
+        }
     }
-    return quoted + "'";
+    return quoted + "\"";
 }
 
 }  // namespace coagula::report

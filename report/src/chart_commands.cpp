@@ -1,4 +1,5 @@
 #include "chart_axis.hpp"
+#include "chart_legend.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,6 @@ namespace {
 constexpr std::array palette = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f"};
 constexpr std::array filled = {7, 5, 9, 13, 11};  // circle, square, triangle, diamond, triangle
 constexpr std::array hollow = {6, 4, 8, 12, 10};
-constexpr std::size_t entries_inside = 4;
 constexpr double bar_share = 0.8;  // of the distance between neighbours
 
 const std::string style = R"(set encoding utf8
@@ -20,16 +20,8 @@ set border 15 linewidth 0.8
 set tics in scale 0.7,0.35 font ',7'
 set mxtics 2
 set mytics 2
-set bars 0.6
 set style fill solid 1.0 noborder
 )";
-
-struct ChartAxes {
-    SettledAxis x;
-    SettledAxis y;
-    SettledAxis second;
-    bool has_second = false;
-};
 
 std::size_t number_of(int colour, std::size_t count) {
     return static_cast<std::size_t>(std::max(colour, 0)) % count;
@@ -92,7 +84,10 @@ std::string block_of(const Chart& chart, const ChartAxes& axes, const Series& se
         } else if (is_bar(series)) {
             block += ' ' + to_text(width / axes.x.scale);
         } else if (!series.error.empty()) {
-            block += ' ' + (std::isfinite(series.error[k]) ? to_text(series.error[k] / y_scale) : std::string("0"));
+            const SettledAxis& axis = series.second_axis ? axes.second : axes.y;
+            const double bar = std::isfinite(series.error[k]) ? series.error[k] / y_scale : 0;
+            const double low = std::max(series.y[k] / y_scale - bar, axis.low);
+            block += ' ' + to_text(low) + ' ' + to_text(series.y[k] / y_scale + bar - low);
         }
         block += '\n';
     }
@@ -113,7 +108,7 @@ std::string look_of(const Series& series) {
         case Mark::line:
             return "with lines linewidth 1.6 " + colour;
         case Mark::dashed_line:
-            return "with lines linewidth 1.2 dashtype (8,4) " + colour;
+            return "with lines linewidth 1.2 dashtype (16,10) " + colour;
         case Mark::points:
         case Mark::open_points:
             return "with points linewidth 1 " + colour + point_of(series, series.mark == Mark::open_points);
@@ -135,35 +130,20 @@ std::string plot_of(const Series& series, const std::string& block) {
     const std::string axis = series.second_axis ? " axes x1y2" : "";
     const std::string columns = series.mark == Mark::discs ? "1:2:3:4" : is_bar(series) ? "1:2:3" : "1:2";
     std::string plot;
-    if (!series.error.empty() && !is_bar(series)) {
-        plot = block + " using 1:2:3" + axis + " with yerrorbars linewidth 0.8 pointtype 0 " + colour_of(series) + " notitle, ";
+    if (!series.error.empty() && !is_bar(series)) {  // gnuplot's own bars leave a gap around the point
+        plot = block + " using 1:3:(0):4" + axis + " with vectors heads size graph 0.008,90 linewidth 0.8 " + colour_of(series) +
+               " notitle, ";
     }
     const std::string title = series.name.empty() ? " notitle" : " title " + quoted_text(series.name) + " noenhanced";
     return plot + block + " using " + columns + axis + " " + look_of(series) + title;
-}
-
-std::string legend_commands(const Chart& chart) {
-    const auto entries = static_cast<std::size_t>(
-        std::count_if(chart.series.begin(), chart.series.end(), [](const Series& series) { return !series.name.empty(); }));
-    if (entries == 0) {
-        return "unset key\n";
-    }
-    const std::string look = " samplen 1.8 spacing 1.1 font ',7'\n";
-    if (entries > entries_inside) {
-        return "set key above horizontal Left reverse" + look;
-    }
-    const bool top = chart.legend == Legend::top_right || chart.legend == Legend::top_left;
-    const bool right = chart.legend == Legend::top_right || chart.legend == Legend::bottom_right;
-    return std::string("set key inside ") + (top ? "top " : "bottom ") + (right ? "right right" : "left Left") + " vertical " +
-           (right ? "noreverse" : "reverse") + look;
 }
 
 /// Lines below the legend's corner: at the same side, in the other half.
 std::string note_commands(const Chart& chart) {
     std::string commands;
     for (std::size_t k = 0; k < chart.notes.size(); ++k) {
-        commands += "set label " + std::to_string(k + 1) + " " + quoted_text(chart.notes[k]) +
-                    " at graph 0.96, graph " + to_text(0.62 - 0.075 * static_cast<double>(k)) + " right noenhanced font ',7' front\n";
+        commands += "set label " + std::to_string(k + 1) + " " + quoted_text(chart.notes[k]) + " at graph 0.96, graph " +
+                    to_text(0.62 - 0.075 * static_cast<double>(k)) + " right noenhanced font ',7' front\n";
     }
     return commands;
 }
@@ -180,11 +160,12 @@ std::string frame_commands(const Chart& chart, const ChartAxes& axes) {
 }
 
 std::string chart_commands(const Chart& chart) {
-    const ChartAxes axes = settle_axes(chart);
+    ChartAxes axes = settle_axes(chart);
+    const std::string legend = place_legend(chart, axes);
     const auto bars = static_cast<double>(std::count_if(chart.series.begin(), chart.series.end(), is_bar));
     const double width = bar_share * bar_distance(chart) / std::max(bars, 1.0);
     double bar = 0;
-    std::string commands = frame_commands(chart, axes) + legend_commands(chart) + note_commands(chart);
+    std::string commands = frame_commands(chart, axes) + legend + note_commands(chart);
     std::string plots;
     for (std::size_t k = 0; k < chart.series.size(); ++k) {
         const Series& series = chart.series[k];

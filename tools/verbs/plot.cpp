@@ -141,10 +141,9 @@ void append_series(Table& table, const Drawing& drawing) {
             table.emplace_back(series.name, std::to_string(report::shown_places(chart, series).size()) + " points");
             const auto mean = over_structures(series, series.y);
             if (mean && mean->count > 1) {
-                table.emplace_back("  mean " + chart.y.plain,
-                                   with_unit(mean->mean, chart.y.unit) + ", standard error " +
-                                       with_unit(mean->standard_error, chart.y.unit) + " over " + std::to_string(mean->count) +
-                                       " structures");
+                table.emplace_back("  mean " + chart.y.plain, with_unit(mean->mean, chart.y.unit) + ", standard error " +
+                                                                  with_unit(mean->standard_error, chart.y.unit) + " over " +
+                                                                  std::to_string(mean->count) + " structures");
             }
         }
     }
@@ -168,8 +167,12 @@ void plot_figure(const Arguments& arguments) {
     }
     io::write_file(path, picture, force);
 
-    Json json = {{"figure", figure.name},  {"output", path},        {"width", size.width}, {"height", size.height},
-                 {"series", series_json(drawing)}, {"caption", drawing.caption}};
+    Json json = {{"figure", figure.name},
+                 {"output", path},
+                 {"width", size.width},
+                 {"height", size.height},
+                 {"series", series_json(drawing)},
+                 {"caption", drawing.caption}};
     Table table{{"figure", figure.name}};
     append_series(table, drawing);
     if (arguments.has("data")) {
@@ -216,7 +219,9 @@ void plot_paper(const Arguments& arguments) {
     std::string first_missing;
     for (const report::PaperFigure& figure : figures) {
         const std::string name = "figure" + std::to_string(figure.number);
-        Json entry = {{"number", figure.number}, {"figure", figure.figure}, {"drawn", figure.drawing.has_value()},
+        Json entry = {{"number", figure.number},
+                      {"figure", figure.figure},
+                      {"drawn", figure.drawing.has_value()},
                       {"missing", figure.missing}};
         if (figure.drawing) {
             folder.write(name + ending, report::draw(*figure.drawing, format, size_of(arguments, *figure.drawing)));
@@ -275,7 +280,8 @@ Verb plot_verb() {
             .options = {choice("figure", names, "what is drawn, see below", ""),
                         flag("paper", "draw the figures of the paper with the published points beside"),
                         required(output("picture, its format by the ending .svg, .png or .pdf; a folder with --paper")),
-                        text("labels", "LIST", "names of the files in the legend, such as 'slow,fast'; files of one name share a series"),
+                        text("labels", "LIST",
+                             "names of the files in the legend, such as 'slow,fast'; files of one name share a series"),
                         flag("published", "with the published points beside, where there are some"),
                         choice("log", {"none", "x", "y", "xy"}, "axes that are logarithmic; by the figure when not given", ""),
                         quantity("width", "m", "of the picture; 85mm or, for two charts, 170mm when not given", "", picture_length),

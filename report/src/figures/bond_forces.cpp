@@ -41,6 +41,15 @@ Series density_of(const FigureSource& source) {
     return series;
 }
 
+/// Largest force that some bond has.
+double last_filled(const Series& density) {
+    double last = tail_begins;
+    for (std::size_t k = 0; k < density.x.size(); ++k) {
+        last = density.y[k] > 0 ? std::max(last, density.x[k]) : last;
+    }
+    return last;
+}
+
 /// The exponential through the forces beyond twice the mean, in the plane xy.
 Series tail_of(const FigureSource& source, double end) {
     const std::string path = group + "xy/force_distribution/";
@@ -59,13 +68,14 @@ Series tail_of(const FigureSource& source, double end) {
 }  // namespace
 
 Drawing draw_bond_forces(const Sources& sources) {
-    Chart chart{.x = {.name = "bond force |{/:Italic f}_n| / ⟨|{/:Italic f}_n|⟩", .plain = "normal force over its mean", .from_zero = true},
-                .y = {.name = "probability density", .plain = "probability density", .logarithmic = true}};
+    Chart chart{
+        .x = {.name = "bond force |{/:Italic f}_n| / ⟨|{/:Italic f}_n|⟩", .plain = "normal force over its mean", .from_zero = true},
+        .y = {.name = "probability density", .plain = "probability density", .logarithmic = true}};
     for (std::size_t k = 0; k < sources.size(); ++k) {
         Series density = density_of(sources[k]);
         density.name = legend_name(sources, k);
         density.colour = static_cast<int>(k);
-        Series tail = tail_of(sources[k], density.x.empty() ? tail_begins : density.x.back());
+        Series tail = tail_of(sources[k], last_filled(density));
         chart.series.push_back(std::move(density));
         if (sources.size() == 1 && !tail.x.empty()) {
             tail.name = "exp(−" + with_digits(sources[k].number(group + "xy/force_distribution/tail_slope"), 3) + " f / ⟨f⟩)";
@@ -73,8 +83,9 @@ Drawing draw_bond_forces(const Sources& sources) {
         }
     }
     return {.panels = {chart},
-            .caption = "Distribution of the normal forces in the bonds under simple shear, in units of their mean; average of the planes "
-                       "xy, xz and yz. Dashed: the exponential fitted to the forces beyond twice the mean (plane xy)."};
+            .caption =
+                "Distribution of the normal forces in the bonds under simple shear, in units of their mean; average of the planes "
+                "xy, xz and yz. Dashed: the exponential fitted to the forces beyond twice the mean (plane xy)."};
 }
 
 }  // namespace coagula::report

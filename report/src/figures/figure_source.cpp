@@ -34,13 +34,13 @@ const io::Contents& FigureSource::structure() const {
 
 const io::Dataset* FigureSource::find(const std::string& path) const {
     const std::vector<io::Dataset>& results = structure().results;
-    const auto found = std::find_if(results.begin(), results.end(), [&](const io::Dataset& dataset) { return dataset.path == path; });
+    const auto found =
+        std::find_if(results.begin(), results.end(), [&](const io::Dataset& dataset) { return dataset.path == path; });
     return found == results.end() ? nullptr : &*found;
 }
 
 std::string FigureSource::command_for(const std::string& path) const {
-    const auto maker =
-        std::find_if(makers.begin(), makers.end(), [&](const Maker& one) { return path.starts_with(one.group); });
+    const auto maker = std::find_if(makers.begin(), makers.end(), [&](const Maker& one) { return path.starts_with(one.group); });
     std::string command = maker->command;
     return command.replace(command.find("FILE"), 4, file);
 }
@@ -74,9 +74,8 @@ const std::string& FigureSource::unit(const std::string& path) const {
 }
 
 FigureSource read_figure_source(const std::string& file, const std::string& label) {
-    FigureSource source{.file = file,
-                        .label = label.empty() ? std::filesystem::path(file).stem().string() : label,
-                        .labelled = !label.empty()};
+    FigureSource source{
+        .file = file, .label = label.empty() ? std::filesystem::path(file).stem().string() : label, .labelled = !label.empty()};
     if (!file.ends_with(".csv")) {
         source.contents = io::read_contents(file);
     }

@@ -20,13 +20,18 @@ HistogramFigure contacts() {
 
 const std::vector<Figure>& figures() {
     static const std::vector<Figure> all = {
-        {.name = "pore-curve", .meaning = "exclusion probability of the pores with the fitted error function", .draw = draw_pore_curve},
+        {.name = "pore-curve",
+         .meaning = "exclusion probability of the pores with the fitted error function",
+         .draw = draw_pore_curve},
         {.name = "contacts", .meaning = "fraction of the particles with 0, 1, 2 ... contacts", .draw = histogram(contacts())},
         {.name = "bond-forces", .meaning = "distribution of the bond forces under shear", .draw = draw_bond_forces},
         {.name = "frequency", .meaning = "G' and G'' against frequency", .draw = draw_frequency_response},
         {.name = "amplitude", .meaning = "G' and G'' against the amplitude of the strain", .draw = draw_amplitude_response},
         {.name = "stress-strain", .meaning = "stress against strain of a quasi-static ramp", .draw = draw_stress_strain},
-        {.name = "oscillations", .meaning = "stress and strain of the explicit shear test", .draw = draw_oscillations, .one_file = true},
+        {.name = "oscillations",
+         .meaning = "stress and strain of the explicit shear test",
+         .draw = draw_oscillations,
+         .one_file = true},
         {.name = "modulus-stiffness",
          .meaning = "G' against the particle stiffness, from tables of 'coagula calibrate -o'",
          .draw = draw_modulus_stiffness,
@@ -49,7 +54,10 @@ const std::vector<Figure>& figures() {
          .meaning = "G' against the volume fraction, one point per structure",
          .draw = draw_modulus_volume_fraction},
         {.name = "packing", .meaning = "the spheres as seen from afar", .draw = draw_packing, .one_file = true},
-        {.name = "rheometer", .meaning = "the sample between the plates of the shear test", .draw = draw_rheometer, .one_file = true},
+        {.name = "rheometer",
+         .meaning = "the sample between the plates of the shear test",
+         .draw = draw_rheometer,
+         .one_file = true},
         {.name = "overview", .meaning = "the spheres beside the pore curve", .draw = draw_overview, .one_file = true}};
     return all;
 }
@@ -58,7 +66,8 @@ const Figure& figure_named(const std::string& name) {
     const auto found = std::find_if(figures().begin(), figures().end(), [&](const Figure& figure) { return figure.name == name; });
     if (found == figures().end()) {
         std::vector<std::string> names;
-        std::transform(figures().begin(), figures().end(), std::back_inserter(names), [](const Figure& figure) { return figure.name; });
+        std::transform(figures().begin(), figures().end(), std::back_inserter(names),
+                       [](const Figure& figure) { return figure.name; });
         throw InputError("'" + name + "' is not one of " + list_of(names));
     }
     return *found;

@@ -86,9 +86,8 @@ std::function<Drawing(const Sources&)> histogram(HistogramFigure figure) {
             chart.x.unit = source.unit(figure.path);
         }
         for (std::size_t k = 0; k < sources.size(); ++k) {
-            Series series{.name = legend_name(sources, k),
-                          .mark = figure.counted ? Mark::bars : Mark::line,
-                          .colour = static_cast<int>(k)};
+            Series series{
+                .name = legend_name(sources, k), .mark = figure.counted ? Mark::bars : Mark::line, .colour = static_cast<int>(k)};
             if (figure.counted) {
                 add_counts(series, sources[k].numbers(figure.path));
             } else {

@@ -137,7 +137,8 @@ mechanics::PowerLawAnalysis fitted(const mechanics::PowerLawData& data) {
 /// The law from near a0 on, in equal steps of ln(a - a0), for it is steep there.
 Series line_of_law(const mechanics::PowerLaw& law, double largest_a) {
     constexpr int steps = 200;
-    Series line{.name = "fit, a0 = " + with_digits(law.a0, 3) + ", β = " + with_digits(law.beta, 3), .mark = Mark::line, .colour = -1};
+    Series line{
+        .name = "fit, a0 = " + with_digits(law.a0, 3) + ", β = " + with_digits(law.beta, 3), .mark = Mark::line, .colour = -1};
     const double reach = largest_a - law.a0;
     for (int k = 0; k <= steps; ++k) {
         const double distance = reach * std::exp(-14.0 * (1 - static_cast<double>(k) / steps));
@@ -166,7 +167,7 @@ Drawing draw_modulus_volume_fraction(const Sources& sources) {
                      source.number(method.group + "storage_modulus/std")};
     };
     const Chart chart{.x = {.name = "volume fraction {/Symbol F}", .plain = "volume fraction"},
-                      .y = modulus_axis_of("shear modulus {/:Italic G}'", "shear modulus"),
+                      .y = modulus_axis_of("shear modulus {/:Italic G}′", "shear modulus"),
                       .series = scattered(sources, place),
                       .legend = Legend::top_left};
     return {.panels = {chart},
@@ -183,14 +184,15 @@ Drawing draw_heterogeneity_coordination(const Sources& sources) {
                       .y = heterogeneity_axis(),
                       .series = scattered(sources, place)};
     return {.panels = {chart},
-            .caption = "Degree of heterogeneity, as measured by the parameter a, against the coordination number C. The bars are the "
-                       "standard error of the fit of a."};
+            .caption =
+                "Degree of heterogeneity, as measured by the parameter a, against the coordination number C. The bars are the "
+                "standard error of the fit of a."};
 }
 
 Drawing draw_modulus_heterogeneity(const Sources& sources) {
     ModuliOverHeterogeneity found = moduli_over_heterogeneity(sources);
     Chart chart{.x = heterogeneity_axis(),
-                .y = modulus_axis_of("shear modulus {/:Italic G}'", "shear modulus"),
+                .y = modulus_axis_of("shear modulus {/:Italic G}′", "shear modulus"),
                 .series = found.series,
                 .legend = Legend::bottom_right};
     std::string fit = ". Fewer than " + std::to_string(fewest_for_fit) + " structures: no power law is fitted";
@@ -201,10 +203,8 @@ Drawing draw_modulus_heterogeneity(const Sources& sources) {
         const bool threshold = law.a0 > found.data.a.minCoeff() - span;
         chart.series.push_back(line_of_law(law, found.data.a.maxCoeff()));
         if (threshold) {
-            chart.series.push_back({.x = {law.a0, law.a0},
-                                    .y = {0, found.data.modulus.maxCoeff()},
-                                    .mark = Mark::dashed_line,
-                                    .colour = -1});
+            chart.series.push_back(
+                {.x = {law.a0, law.a0}, .y = {0, found.data.modulus.maxCoeff()}, .mark = Mark::dashed_line, .colour = -1});
         } else {
             chart.x.low = found.data.a.minCoeff() - 0.1 * span;
         }
@@ -230,14 +230,15 @@ Drawing draw_critical_value(const Sources& sources) {
     const double smallest = found.data.a.minCoeff();
     const double span = found.data.a.maxCoeff() - smallest;
     const double low = analysis.fit.bounded_below ? smallest - 2.5 * (smallest - analysis.fit.a0_low) : smallest - span;
-    const Chart chart{.x = {.name = "critical value {/:Italic a}_0", .plain = "critical value a0", .low = low, .high = smallest},
-                      .y = {.name = "confidence of exclusion", .plain = "confidence of exclusion", .low = 0, .high = 1.02},
-                      .series = {profile,
-                                 {.name = "95 %", .x = {low, smallest}, .y = {0.95, 0.95}, .mark = Mark::dashed_line, .colour = 1}},
-                      .legend = Legend::bottom_left};
+    const Chart chart{
+        .x = {.name = "critical value {/:Italic a}_0", .plain = "critical value a0", .low = low, .high = smallest},
+        .y = {.name = "confidence of exclusion", .plain = "confidence of exclusion", .low = 0, .high = 1.02},
+        .series = {profile, {.name = "95 %", .x = {low, smallest}, .y = {0.95, 0.95}, .mark = Mark::dashed_line, .colour = 1}},
+        .legend = Legend::bottom_left};
     return {.panels = {chart},
-            .caption = "Confidence at which each critical value a0 of the power law is excluded by the moduli. The part below the dashed "
-                       "line is the 95 % confidence interval."};
+            .caption =
+                "Confidence at which each critical value a0 of the power law is excluded by the moduli. The part below the dashed "
+                "line is the 95 % confidence interval."};
 }
 
 std::vector<Series> published_heterogeneity_coordination() {

@@ -40,7 +40,7 @@ Drawing draw_modulus_stiffness(const Sources& sources) {
                       .plain = "normal particle stiffness",
                       .unit = "N/m",
                       .from_zero = true},
-                .y = modulus_axis_of("shear modulus {/:Italic G}'", "shear modulus"),
+                .y = modulus_axis_of("shear modulus {/:Italic G}′", "shear modulus"),
                 .legend = Legend::top_left};
     int structures = 0;
     for (const FigureSource& source : sources) {
@@ -55,8 +55,9 @@ Drawing draw_modulus_stiffness(const Sources& sources) {
         }
     }
     return {.panels = {chart},
-            .caption = "Simulated shear modulus G' against the normal stiffness k_n of the particles. The bars are the standard deviation "
-                       "over six orientations. Dashed: proportional to k_n."};
+            .caption =
+                "Simulated shear modulus G' against the normal stiffness k_n of the particles. The bars are the standard deviation "
+                "over six orientations. Dashed: proportional to k_n."};
 }
 
 std::vector<Series> published_modulus_stiffness() {

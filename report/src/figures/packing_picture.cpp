@@ -62,8 +62,8 @@ std::vector<bool> visible(const Eigen::Matrix3Xd& seen, const Eigen::VectorXd& r
         const double radius = radii[particle] / cell;
         for (int i = std::max(0, static_cast<int>(centre.x() - radius)); i < std::min<double>(size.x(), centre.x() + radius); ++i) {
             const double half = std::sqrt(std::max(0.0, radius * radius - std::pow(i - centre.x(), 2)));
-            for (int j = std::max(0, static_cast<int>(std::ceil(centre.y() - half))); j < std::min<double>(size.y(), centre.y() + half);
-                 ++j) {
+            for (int j = std::max(0, static_cast<int>(std::ceil(centre.y() - half)));
+                 j < std::min<double>(size.y(), centre.y() + half); ++j) {
                 raster(i, j) = static_cast<int>(particle);
             }
         }
@@ -81,9 +81,9 @@ std::vector<bool> visible(const Eigen::Matrix3Xd& seen, const Eigen::VectorXd& r
 Eigen::Matrix3Xd seen_from_afar(const Packing& packing) {
     constexpr double turn = 32 * degree;
     constexpr double tilt = 24 * degree;
-    Eigen::Matrix3d axes;  // rows: across, up, towards the eye
-    axes << std::cos(turn), -std::sin(turn), 0,                                                                //
-        std::sin(tilt) * std::sin(turn), std::sin(tilt) * std::cos(turn), std::cos(tilt),                      //
+    Eigen::Matrix3d axes;                                                                  // rows: across, up, towards the eye
+    axes << std::cos(turn), -std::sin(turn), 0,                                            //
+        std::sin(tilt) * std::sin(turn), std::sin(tilt) * std::cos(turn), std::cos(tilt),  //
         -std::cos(tilt) * std::sin(turn), -std::cos(tilt) * std::cos(turn), std::sin(tilt);
     return axes * (packing.positions.colwise() - packing.positions.rowwise().mean());
 }
@@ -121,8 +121,9 @@ void add_outlined(Series& discs, double x, double z, double radius, int inside) 
 
 Drawing draw_packing(const Sources& sources) {
     const Packing& packing = sources.front().structure().structure.packing;
-    return {.panels = {picture_of(packing)},
-            .caption = std::to_string(packing.size()) + " spheres, volume fraction " + with_digits(volume_fraction(packing), 3) + "."};
+    return {
+        .panels = {picture_of(packing)},
+        .caption = std::to_string(packing.size()) + " spheres, volume fraction " + with_digits(volume_fraction(packing), 3) + "."};
 }
 
 Drawing draw_overview(const Sources& sources) {
@@ -132,8 +133,8 @@ Drawing draw_overview(const Sources& sources) {
     curve.notes = {"degree of heterogeneity a = " + with_digits(source.number("/characterization/doh/a"), 3),
                    "coordination number C = " + with_digits(source.number("/characterization/coordination"), 3)};
     if (source.find("/mechanics/linear/storage_modulus/mean") != nullptr) {
-        curve.notes.push_back("shear modulus G' = " +
-                              with_digits(source.number("/mechanics/linear/storage_modulus/mean") / 1e6, 3) + " MPa");
+        curve.notes.push_back(
+            "shear modulus G' = " + with_digits(source.number("/mechanics/linear/storage_modulus/mean") / 1e6, 3) + " MPa");
     }
     const Drawing packing = draw_packing(sources);
     return {.panels = {packing.panels.front(), curve}, .caption = packing.caption + " " + pores.caption};
@@ -149,9 +150,9 @@ Drawing draw_rheometer(const Sources& sources) {
     const double radius = mean_radius(packing);
     const double plate = layers * 2 * radius;
     Series discs{.mark = Mark::discs};
-    const auto order = back_to_front((Eigen::Matrix3Xd(3, packing.size()) << packing.positions.row(0), packing.positions.row(2),
-                                      -packing.positions.row(1))
-                                         .finished());
+    const auto order = back_to_front(
+        (Eigen::Matrix3Xd(3, packing.size()) << packing.positions.row(0), packing.positions.row(2), -packing.positions.row(1))
+            .finished());
     for (const Index particle : order) {
         const Eigen::Vector3d place = packing.positions.col(particle);
         if (std::abs(place.y() - lengths.y() / 2) > 1.5 * radius) {
@@ -160,17 +161,20 @@ Drawing draw_rheometer(const Sources& sources) {
         for (const int period : {-1, 0, 1}) {
             const double z = place.z() + period * lengths.z();
             if (z > -plate && z < lengths.z() + plate) {
-                add_outlined(discs, place.x(), z, packing.radii[particle], rgb_of(period == 0 ? Colour{255, 255, 255} : Colour{150, 155, 160}));
+                add_outlined(discs, place.x(), z, packing.radii[particle],
+                             rgb_of(period == 0 ? Colour{255, 255, 255} : Colour{150, 155, 160}));
             }
         }
     }
     const double top = lengths.z() + plate + 3 * radius;
     const Series arrow{.x = {0.25 * lengths.x(), 0.75 * lengths.x()}, .y = {top, top}, .mark = Mark::arrow, .colour = 1};
-    const Chart chart{.x = {.plain = "x", .unit = "m"}, .y = {.plain = "z", .unit = "m"}, .series = {discs, arrow}, .picture = true};
+    const Chart chart{
+        .x = {.plain = "x", .unit = "m"}, .y = {.plain = "z", .unit = "m"}, .series = {discs, arrow}, .picture = true};
     return {.panels = {chart},
-            .caption = "Set-up of the shear test, a slice through " + sources.front().label +
-                       ". White: the sample, periodic along x and y. Grey: three layers of its periodic repetition; the lower ones stand "
-                       "still, the upper ones move along x (arrow)."};
+            .caption =
+                "Set-up of the shear test, a slice through " + sources.front().label +
+                ". White: the sample, periodic along x and y. Grey: three layers of its periodic repetition; the lower ones stand "
+                "still, the upper ones move along x (arrow)."};
 }
 
 }  // namespace coagula::report

@@ -20,7 +20,8 @@ constexpr std::array<PaperEntry, 6> entries{
      {3, "rheometer", "As fig. 3 of the paper, a drawing without numbers."},
      {4, "oscillations", "As fig. 4 of the paper, whose points are published as a picture only and are not drawn."},
      {5, "modulus-stiffness",
-      "As fig. 5 of the paper. Of its simulated points those at 100 N/m are published as numbers (table 2, 0 and 15 mV); its measured "
+      "As fig. 5 of the paper. Of its simulated points those at 100 N/m are published as numbers (table 2, 0 and 15 mV); its "
+      "measured "
       "ones are not."},
      {6, "modulus-heterogeneity", "As fig. 6 of the paper, whose law has a0 = 0.373 and β = 0.187."}}};
 

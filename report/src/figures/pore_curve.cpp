@@ -39,15 +39,16 @@ Drawing draw_pore_curve(const Sources& sources) {
     }
     for (std::size_t k = 0; k < sources.size(); ++k) {
         Series fit = in_radii(sources[k], group + "pore_curve/fit", sources[k].number(group + "mean_radius"));
-        fit.name = k == 0 ? "1 − erf[(r/r0 − b) / (a√2)]" : "";
+        fit.name = k > 0 ? "" : sources.size() > 1 ? "fit" : "1 − erf[(r/r0 − b) / (a√2)]";
         fit.mark = Mark::dashed_line;
         fit.colour = -1;
         chart.series.push_back(fit);
     }
     return {.panels = {chart},
-            .caption = "Probability that a point of the pore space is farther than r from every sphere. Solid: exact, from the union of "
-                       "balls cut along the Voronoi cells. Dashed: the fitted error function, whose width a is the degree of "
-                       "heterogeneity."};
+            .caption =
+                "Probability that a point of the pore space is farther than r from every sphere. Solid: exact, from the union of "
+                "balls cut along the Voronoi cells. Dashed: the fitted error function, whose width a is the degree of "
+                "heterogeneity."};
 }
 
 }  // namespace coagula::report

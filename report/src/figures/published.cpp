@@ -18,8 +18,8 @@ std::vector<PublishedStructure> published_structures() {
         for (std::string& word : field) {
             std::getline(fields, word, ',');
         }
-        rows.push_back({field[0], std::stod(field[1]), std::stod(field[3]), std::stod(field[4]), std::stod(field[5]),
-                        std::stod(field[6])});
+        rows.push_back(
+            {field[0], std::stod(field[1]), std::stod(field[3]), std::stod(field[4]), std::stod(field[5]), std::stod(field[6])});
     }
     return rows;
 }

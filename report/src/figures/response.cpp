@@ -13,7 +13,7 @@ const std::string quasistatic_group = "/mechanics/quasistatic/";
 const std::string dem_group = "/mechanics/dem/";
 
 ChartAxis logarithmic_moduli() {
-    return {.name = "moduli {/:Italic G}', {/:Italic G}''", .plain = "modulus", .unit = "Pa", .logarithmic = true};
+    return {.name = "moduli {/:Italic G}′, {/:Italic G}″", .plain = "modulus", .unit = "Pa", .logarithmic = true};
 }
 
 std::string symbol_with(const std::string& name, const std::string& symbol) {
@@ -22,7 +22,8 @@ std::string symbol_with(const std::string& name, const std::string& symbol) {
 
 /// G' filled and G'' open, with the spread over the orientations; a G'' of zero is not there.
 void add_moduli(Chart& chart, const std::string& name, int colour, const std::vector<double>& x, const std::vector<double>& storage,
-                const std::vector<double>& storage_spread, const std::vector<double>& loss, const std::vector<double>& loss_spread) {
+                const std::vector<double>& storage_spread, const std::vector<double>& loss,
+                const std::vector<double>& loss_spread) {
     chart.series.push_back({.name = symbol_with(name, "G'"),
                             .x = x,
                             .y = storage,
@@ -99,12 +100,14 @@ Drawing draw_frequency_response(const Sources& sources) {
     for (std::size_t k = 0; k < sources.size(); ++k) {
         const FigureSource& source = sources[k];
         add_moduli(chart, legend_name(sources, k), static_cast<int>(k), source.numbers(frequency_group + "frequency"),
-                   source.numbers(frequency_group + "storage_modulus/mean"), source.numbers(frequency_group + "storage_modulus/std"),
-                   source.numbers(frequency_group + "loss_modulus/mean"), source.numbers(frequency_group + "loss_modulus/std"));
+                   source.numbers(frequency_group + "storage_modulus/mean"),
+                   source.numbers(frequency_group + "storage_modulus/std"), source.numbers(frequency_group + "loss_modulus/mean"),
+                   source.numbers(frequency_group + "loss_modulus/std"));
     }
     return {.panels = {chart},
-            .caption = "Storage modulus G' (filled) and loss modulus G'' (open) against frequency; mean of six orientations. The bars are "
-                       "the standard deviation over the orientations."};
+            .caption =
+                "Storage modulus G' (filled) and loss modulus G'' (open) against frequency; mean of six orientations. The bars are "
+                "the standard deviation over the orientations."};
 }
 
 Drawing draw_amplitude_response(const Sources& sources) {
@@ -115,8 +118,9 @@ Drawing draw_amplitude_response(const Sources& sources) {
         add_amplitudes(chart, sources[k], legend_name(sources, k), static_cast<int>(k));
     }
     return {.panels = {chart},
-            .caption = "Storage modulus G' (filled) and loss modulus G'' (open) against the amplitude of the strain; mean of the "
-                       "orientations. The bars are the standard deviation over the orientations."};
+            .caption =
+                "Storage modulus G' (filled) and loss modulus G'' (open) against the amplitude of the strain; mean of the "
+                "orientations. The bars are the standard deviation over the orientations."};
 }
 
 Drawing draw_stress_strain(const Sources& sources) {
@@ -139,7 +143,7 @@ Drawing draw_stress_strain(const Sources& sources) {
 }
 
 Drawing draw_oscillations(const Sources& sources) {
-    constexpr double shown_per_oscillation = 24;
+    constexpr double shown_per_oscillation = 20;
     const FigureSource& source = sources.front();
     const std::vector<double> strain = first_run(source, dem_group + "samples/strain");
     const std::vector<double> stress = first_run(source, dem_group + "samples/stress");
@@ -147,13 +151,15 @@ Drawing draw_oscillations(const Sources& sources) {
     const double samples = static_cast<double>(stress.size()) / oscillations;  // of one oscillation
     const auto step = static_cast<std::size_t>(std::max(1.0, std::round(samples / shown_per_oscillation)));
     Series shown_stress{.name = "stress (left)", .mark = Mark::open_points, .colour = 1};
-    Series shown_strain{.name = "strain (right)", .mark = Mark::line_points, .colour = 0, .second_axis = true};
-    for (std::size_t k = 0; k < std::min(strain.size(), stress.size()); k += step) {
+    Series shown_strain{.name = "strain (right)", .mark = Mark::line, .colour = 0, .second_axis = true};
+    for (std::size_t k = 0; k < std::min(strain.size(), stress.size()); ++k) {
         const double cycle = static_cast<double>(k + 1) / samples;
-        shown_stress.x.push_back(cycle);
-        shown_stress.y.push_back(stress[k]);
         shown_strain.x.push_back(cycle);
         shown_strain.y.push_back(strain[k]);
+        if ((k + 1) % step == 0) {
+            shown_stress.x.push_back(cycle);
+            shown_stress.y.push_back(stress[k]);
+        }
     }
     const Chart chart{.x = {.name = "oscillation cycle", .plain = "oscillation cycle", .low = 0},
                       .y = {.name = "shear stress {/Symbol s}", .plain = "shear stress", .unit = "Pa"},
@@ -161,9 +167,10 @@ Drawing draw_oscillations(const Sources& sources) {
                       .series = {shown_strain, shown_stress},
                       .legend = Legend::top_left};
     return {.panels = {chart},
-            .caption = "Shear stress (open squares, left scale) and shear strain (full circles, right scale) against the oscillation "
-                       "cycle; explicit discrete elements, first orientation of " +
-                       source.label + "."};
+            .caption =
+                "Shear stress (open squares, left scale) and shear strain (line, right scale) against the oscillation "
+                "cycle; explicit discrete elements, first orientation of " +
+                source.label + "."};
 }
 
 }  // namespace coagula::report

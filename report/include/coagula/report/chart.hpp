@@ -30,8 +30,8 @@ struct Series {
     std::vector<double> y = {};
     std::vector<double> error = {};  ///< half the length of the bar at each point; empty: no bars
     Mark mark = Mark::line;
-    int colour = 0;            ///< number in the palette; series of one file share it. -1: black
-    bool second_axis = false;  ///< y belongs to the axis at the right
+    int colour = 0;                   ///< number in the palette; series of one file share it. -1: black
+    bool second_axis = false;         ///< y belongs to the axis at the right
     std::vector<double> radius = {};  ///< of discs, in the unit of x
     std::vector<int> rgb = {};        ///< of discs, red in the highest byte
     bool per_structure = false;       ///< one place per structure, so that mean and standard error over structures mean something
@@ -39,12 +39,12 @@ struct Series {
 
 /// What an axis shows. `name` may carry gnuplot's markup and is never what a user wrote.
 struct ChartAxis {
-    std::string name = {};    ///< such as "shear modulus {/:Italic G}'"
-    std::string plain = {};   ///< the same without markup, for tables
-    std::string unit = "1";   ///< of the data, as in a file; lengths and pressures are shown with the prefix that fits
+    std::string name = {};   ///< such as "shear modulus {/:Italic G}'"
+    std::string plain = {};  ///< the same without markup, for tables
+    std::string unit = "1";  ///< of the data, as in a file; lengths and pressures are shown with the prefix that fits
     bool logarithmic = false;
-    bool from_zero = false;   ///< a linear axis begins at zero
-    double low = unset;       ///< ends in the unit of the data; unset: from the data
+    bool from_zero = false;  ///< a linear axis begins at zero
+    double low = unset;      ///< ends in the unit of the data; unset: from the data
     double high = unset;
 };
 

@@ -14,8 +14,8 @@ namespace coagula::report {
 /// A file that a figure is drawn from: a structure with results, or a table.
 struct FigureSource {
     std::string file;
-    std::string label;                    ///< in the legend
-    bool labelled = false;                ///< by the user, not by the name of the file
+    std::string label;                          ///< in the legend
+    bool labelled = false;                      ///< by the user, not by the name of the file
     std::optional<io::Contents> contents = {};  ///< empty for a table (.csv)
 
     /// The data set at this path, or nothing.
@@ -61,8 +61,8 @@ Drawing draw_figure(const Figure& figure, const std::vector<FigureSource>& sourc
 /// A figure of Schenker et al. 2012, made of what is there.
 struct PaperFigure {
     int number;
-    std::string figure;                   ///< name in the table
-    std::optional<Drawing> drawing = {};  ///< nothing when results are missing
+    std::string figure;                     ///< name in the table
+    std::optional<Drawing> drawing = {};    ///< nothing when results are missing
     std::vector<std::string> missing = {};  ///< sentences: what is missing and the command that makes it
 };
 
