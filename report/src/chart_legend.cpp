@@ -93,7 +93,8 @@ std::string place_legend(const Chart& chart, ChartAxes& axes) {
     if (entries == 0 || alone) {
         return "unset key\n";
     }
-    const std::string look = " Left reverse samplen 1.8 spacing 1.1 font ',7' width " + to_text(-0.15 * static_cast<double>(longest)) + "\n";
+    const std::string look =
+        " Left reverse samplen 1.8 spacing 1.1 font ',7' width " + to_text(-0.15 * static_cast<double>(longest)) + "\n";
     if (entries > entries_inside) {
         return "set key above horizontal" + look;
     }
@@ -102,7 +103,8 @@ std::string place_legend(const Chart& chart, ChartAxes& axes) {
     const std::vector<InFrame> places = drawn_places(chart, axes);
     std::array<Corner, 5> corners{{preferred(chart.legend), {true, true}, {true, false}, {false, true}, {false, false}}};
     const auto free = std::find_if(corners.begin(), corners.end(), [&](const Corner& corner) {
-        return std::none_of(places.begin(), places.end(), [&](const InFrame& place) { return is_in(place, corner, width, height); });
+        return std::none_of(places.begin(), places.end(),
+                            [&](const InFrame& place) { return is_in(place, corner, width, height); });
     });
     Corner corner = free == corners.end() ? corners.front() : *free;
     if (free == corners.end()) {
@@ -112,7 +114,8 @@ std::string place_legend(const Chart& chart, ChartAxes& axes) {
             make_room_above(axes.second, height);
         }
     }
-    return std::string("set key inside ") + (corner.top ? "top " : "bottom ") + (corner.right ? "right" : "left") + " vertical" + look;
+    return std::string("set key inside ") + (corner.top ? "top " : "bottom ") + (corner.right ? "right" : "left") + " vertical" +
+           look;
 }
 
 }  // namespace coagula::report

@@ -1,4 +1,7 @@
 // What the figures share, and their functions for the table.
+//
+// Results are read before a chart or series is put into braces: where an initialiser inside braces throws, GCC 12 destroys the
+// members before it twice.
 #pragma once
 
 #include "published_structures.hpp"
@@ -44,7 +47,7 @@ ChartAxis modulus_axis_of(const std::string& name, const std::string& plain);
 /// Legend entry of a file among several; nothing where there is one file without a label, for it needs no legend.
 std::string legend_name(const Sources& sources, std::size_t k);
 
-/// "a.h5: " where there are several, for a number that belongs to one file.
+/// The number with so many significant digits.
 std::string with_digits(double value, int digits);
 
 }  // namespace coagula::report

@@ -166,9 +166,10 @@ Drawing draw_modulus_volume_fraction(const Sources& sources) {
         return Place{source.number(characterization + "volume_fraction"), source.number(method.group + "storage_modulus/mean"),
                      source.number(method.group + "storage_modulus/std")};
     };
+    std::vector<Series> series = scattered(sources, place);
     const Chart chart{.x = {.name = "volume fraction {/Symbol F}", .plain = "volume fraction"},
                       .y = modulus_axis_of("shear modulus {/:Italic G}′", "shear modulus"),
-                      .series = scattered(sources, place),
+                      .series = std::move(series),
                       .legend = Legend::top_left};
     return {.panels = {chart},
             .caption = "Shear modulus G' against the volume fraction, simulated by " + method.words +
@@ -180,9 +181,10 @@ Drawing draw_heterogeneity_coordination(const Sources& sources) {
         return Place{source.number(characterization + "coordination"), source.number(characterization + "doh/a"),
                      source.number(characterization + "doh/a_stderr")};
     };
+    std::vector<Series> series = scattered(sources, place);
     const Chart chart{.x = {.name = "coordination number {/:Italic C}", .plain = "coordination number"},
                       .y = heterogeneity_axis(),
-                      .series = scattered(sources, place)};
+                      .series = std::move(series)};
     return {.panels = {chart},
             .caption =
                 "Degree of heterogeneity, as measured by the parameter a, against the coordination number C. The bars are the "

@@ -9,7 +9,9 @@ namespace {
 const std::string group = "/characterization/";
 
 Series in_radii(const FigureSource& source, const std::string& path, double r0) {
-    Series series{.x = source.numbers(group + "pore_curve/radius"), .y = source.numbers(path)};
+    Series series;
+    series.x = source.numbers(group + "pore_curve/radius");
+    series.y = source.numbers(path);
     for (double& radius : series.x) {
         radius /= r0;
     }

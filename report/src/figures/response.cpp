@@ -132,11 +132,10 @@ Drawing draw_stress_strain(const Sources& sources) {
         for (const std::string& orientation : ramps_of(sources[k])) {
             const std::string path = quasistatic_group + "ramp/" + orientation + "/";
             const std::string name = legend_name(sources, k);
-            chart.series.push_back({.name = name.empty() ? orientation : name + ", " + orientation,
-                                    .x = sources[k].numbers(path + "strain"),
-                                    .y = sources[k].numbers(path + "stress"),
-                                    .mark = Mark::line,
-                                    .colour = colour++});
+            Series series{.name = name.empty() ? orientation : name + ", " + orientation, .colour = colour++};
+            series.x = sources[k].numbers(path + "strain");
+            series.y = sources[k].numbers(path + "stress");
+            chart.series.push_back(std::move(series));
         }
     }
     return {.panels = {chart}, .caption = "Shear stress against shear strain in quasi-static equilibria."};
