@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <cstdio>
 
 namespace coagula::report {
 
@@ -144,13 +142,12 @@ std::string axis_commands(const SettledAxis& axis, const std::string& name) {
 std::string quoted_text(const std::string& text) {
     std::string quoted = "\"";
     for (const char c : printable(text)) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x80 || std::isalnum(byte) != 0 || c == ' ') {
-            quoted += c;
+        if (c == '\\' || c == '"') {
+            quoted += std::string("\\") + c;
+        } else if (c == '`' || c == '@') {  // commands and macros; the digits of an octal escape end with the quote
+            quoted += std::string(c == '`' ? "\\140" : "\\100") + "\" . \"";
         } else {
-            std::array<char, 8> escape{};
-            std::snprintf(escape.data(), escape.size(), "\\%03o", static_cast<unsigned>(byte));
-            quoted += escape.data();
+            quoted += c;
         }
     }
     return quoted + "\"";

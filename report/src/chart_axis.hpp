@@ -23,7 +23,7 @@ SettledAxis settle(const ChartAxis& axis, const std::vector<double>& values);
 /// Range, scale, ticks and label of axis "x", "y" or "y2".
 std::string axis_commands(const SettledAxis& axis, const std::string& name);
 
-/// The text in quotes, on one line, all but letters, digits and spaces as octal escapes: gnuplot shows it and carries nothing out.
+/// The text in quotes, on one line: gnuplot shows it and carries nothing out.
 std::string quoted_text(const std::string& text);
 
 }  // namespace coagula::report

@@ -134,7 +134,7 @@ std::string plot_of(const Series& series, const std::string& block) {
         plot = block + " using 1:3:(0):4" + axis + " with vectors heads size graph 0.008,90 linewidth 0.8 " + colour_of(series) +
                " notitle, ";
     }
-    const std::string title = series.name.empty() ? " notitle" : " title " + quoted_text(series.name) + " noenhanced";
+    const std::string title = series.name.empty() ? " notitle" : " title (" + quoted_text(series.name) + ") noenhanced";
     return plot + block + " using " + columns + axis + " " + look_of(series) + title;
 }
 
@@ -142,7 +142,7 @@ std::string plot_of(const Series& series, const std::string& block) {
 std::string note_commands(const Chart& chart) {
     std::string commands;
     for (std::size_t k = 0; k < chart.notes.size(); ++k) {
-        commands += "set label " + std::to_string(k + 1) + " " + quoted_text(chart.notes[k]) + " at graph 0.96, graph " +
+        commands += "set label " + std::to_string(k + 1) + " (" + quoted_text(chart.notes[k]) + ")" + " at graph 0.96, graph " +
                     to_text(0.62 - 0.075 * static_cast<double>(k)) + " right noenhanced font ',7' front\n";
     }
     return commands;

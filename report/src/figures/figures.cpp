@@ -85,7 +85,9 @@ Drawing draw_figure(const Figure& figure, const Sources& sources, bool published
         std::vector<Series>& series = drawing.panels.front().series;
         const std::vector<Series> points = figure.published();
         series.insert(series.end(), points.begin(), points.end());
-        drawing.caption += " Open: table 2 of Schenker et al., Granular Matter 14 (2012) 333, with its bars.";
+        drawing.caption +=
+            " VEM: void expansion; BD: Brownian dynamics. Open: table 2 of Schenker et al., Granular Matter 14 (2012) 333, with "
+            "its bars.";
     }
     return drawing;
 }

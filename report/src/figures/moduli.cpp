@@ -40,7 +40,7 @@ std::string kind_of(const FigureSource& source) {
         return source.label;
     }
     const std::string& stage = source.contents->history.front().stage;
-    return stage == "generate vem" ? "void expansion" : stage == "generate brownian" ? "Brownian dynamics" : source.label;
+    return stage == "generate vem" ? "VEM" : stage == "generate brownian" ? "BD" : source.label;
 }
 
 struct Place {
@@ -57,7 +57,7 @@ std::vector<Series> scattered(const Sources& sources, const PlaceOf& place_of) {
         const std::string kind = kind_of(source);
         auto found = std::find_if(series.begin(), series.end(), [&](const Series& one) { return one.name == kind; });
         if (found == series.end()) {
-            const int colour = kind == "void expansion" ? 0 : kind == "Brownian dynamics" ? 1 : static_cast<int>(series.size()) + 2;
+            const int colour = kind == "VEM" ? 0 : kind == "BD" ? 1 : static_cast<int>(series.size()) + 2;
             found = series.insert(found, {.name = kind, .mark = Mark::points, .colour = colour, .per_structure = true});
         }
         const Place place = place_of(source);
@@ -137,8 +137,7 @@ mechanics::PowerLawAnalysis fitted(const mechanics::PowerLawData& data) {
 /// The law from near a0 on, in equal steps of ln(a - a0), for it is steep there.
 Series line_of_law(const mechanics::PowerLaw& law, double largest_a) {
     constexpr int steps = 200;
-    Series line{
-        .name = "fit, a0 = " + with_digits(law.a0, 3) + ", β = " + with_digits(law.beta, 3), .mark = Mark::line, .colour = -1};
+    Series line{.name = "fit", .mark = Mark::line, .colour = -1};
     const double reach = largest_a - law.a0;
     for (int k = 0; k <= steps; ++k) {
         const double distance = reach * std::exp(-14.0 * (1 - static_cast<double>(k) / steps));
@@ -210,7 +209,8 @@ Drawing draw_modulus_heterogeneity(const Sources& sources) {
         } else {
             chart.x.low = found.data.a.minCoeff() - 0.1 * span;
         }
-        fit = ". Solid: power law c (a − a0)^β by least squares" + std::string(threshold ? "; dashed: a0" : "");
+        fit = ". Solid: power law c (a − a0)^β by least squares, a0 = " + with_digits(law.a0, 3) +
+              ", β = " + with_digits(law.beta, 3) + std::string(threshold ? "; dashed: a0" : "");
     }
     return {.panels = {chart},
             .caption = "Shear modulus G' against the degree of heterogeneity a" + found.method + fit +

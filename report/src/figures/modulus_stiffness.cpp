@@ -61,8 +61,8 @@ Drawing draw_modulus_stiffness(const Sources& sources) {
 }
 
 std::vector<Series> published_modulus_stiffness() {
-    Series least{.name = "published, 0 mV", .mark = Mark::open_points, .colour = 0};
-    Series most{.name = "published, 15 mV", .mark = Mark::open_points, .colour = 1};
+    Series least{.name = "published BD, 0 mV", .mark = Mark::open_points, .colour = 0};
+    Series most{.name = "published BD, 15 mV", .mark = Mark::open_points, .colour = 1};
     for (const PublishedStructure& row : published_structures()) {
         if (row.generator == "brownian" && (row.parameter == 0 || row.parameter == 15)) {
             Series& series = row.parameter == 0 ? least : most;

@@ -26,8 +26,8 @@ std::vector<PublishedStructure> published_structures() {
 
 std::vector<Series> published_series(double (*x)(const PublishedStructure&), double (*y)(const PublishedStructure&),
                                      double (*error)(const PublishedStructure&)) {
-    Series vem{.name = "published, void expansion", .mark = Mark::open_points, .colour = 0};
-    Series brownian{.name = "published, Brownian dynamics", .mark = Mark::open_points, .colour = 1};
+    Series vem{.name = "published VEM", .mark = Mark::open_points, .colour = 0};
+    Series brownian{.name = "published BD", .mark = Mark::open_points, .colour = 1};
     for (const PublishedStructure& row : published_structures()) {
         Series& series = row.generator == "vem" ? vem : brownian;
         series.x.push_back(x(row));
