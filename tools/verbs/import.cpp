@@ -4,6 +4,7 @@
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "stages.hpp"
 
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/text_formats.hpp>
@@ -60,11 +61,10 @@ void run(const Arguments& arguments) {
     const Progress progress = make_progress(arguments.flag("quiet"));
     const std::string output = arguments.text("output");
     const bool force = arguments.flag("force");
-    const io::TextFormat format = chosen_format(arguments);
-    const io::ImportOptions options = import_options(arguments);
+    chosen_format(arguments);
+    import_options(arguments);
     check_output(output, force);
-    const Packing packing = io::read_text(arguments.input(), format, options);
-    check(packing, arguments.input());
+    const Packing packing = import_packing(arguments);
     progress.update("writing", 1.0);
     io::write_structure(output, {packing, std::nullopt}, {}, {}, describe_call(arguments, nullptr, clock), force);
 
@@ -83,6 +83,13 @@ void run(const Arguments& arguments) {
 }
 
 }  // namespace
+
+Packing import_packing(const Arguments& arguments) {
+    const io::TextFormat format = chosen_format(arguments);
+    Packing packing = io::read_text(arguments.input(), format, import_options(arguments));
+    check(packing, arguments.input());
+    return packing;
+}
 
 Verb import_verb() {
     return {

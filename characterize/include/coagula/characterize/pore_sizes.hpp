@@ -45,4 +45,14 @@ struct SampledPores {
 };
 SampledPores sample_pores(const Packing& packing, const Eigen::VectorXd& radius, Index points, std::uint64_t seed);
 
+/// The sampled curve held against the exact one.
+struct SampledCheck {
+    SampledPores sampled;
+    /// (sampled - exact) / standard error, largest absolute value over the radii where the binomial distribution is close to a
+    /// normal one (expected P (1 - P) n >= 25).
+    double largest_z = unset;
+    Index radii = 0;  ///< that were compared
+};
+SampledCheck compare_with_samples(const Packing& packing, const PoreSizes& exact, Index points, std::uint64_t seed);
+
 }  // namespace coagula::characterize

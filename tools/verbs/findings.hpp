@@ -1,4 +1,4 @@
-// What one method of `coagula shear` finds.
+// What a verb finds.
 #pragma once
 
 #include "cli/report.hpp"
@@ -18,6 +18,7 @@ struct Findings {
     Table table;
     Results bond_results = {};  ///< one value per bond each: for the file only
     std::vector<io::BondField> bond_fields = {};
+    std::vector<std::string> notes = {};  ///< sentences that a user should know
 };
 
 }  // namespace coagula::tools
