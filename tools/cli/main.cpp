@@ -30,7 +30,7 @@ constexpr int wrong_usage = 2;
 std::vector<Verb> all_verbs() {
     return {generate_vem_verb(),  generate_brownian_verb(), characterize_verb(), shear_verb(),  calibrate_verb(),
             fit_power_law_verb(), diagnose_verb(),          info_verb(),         import_verb(), export_verb(),
-            report_verb()};
+            plot_verb(),          report_verb()};
 }
 
 void print_program_help() {

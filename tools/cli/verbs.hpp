@@ -16,5 +16,6 @@ Verb export_verb();
 Verb report_verb();
 Verb calibrate_verb();
 Verb fit_power_law_verb();
+Verb plot_verb();
 
 }  // namespace coagula::tools

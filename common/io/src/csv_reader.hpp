@@ -29,6 +29,7 @@ public:
     bool next();
     /// The field as a finite number.
     double number(const Column& column) const { return file_->number_in(fields_[column.index], column.name); }
+    std::string_view text(const Column& column) const { return fields_[column.index]; }
     const LineReader& file() const { return *file_; }
 
 private:
