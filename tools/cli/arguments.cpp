@@ -1,6 +1,7 @@
 #include "arguments.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/spelling.hpp>
 #include <coagula/io/units.hpp>
 #include <coagula/report/printable.hpp>
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <sstream>
 
 namespace coagula::tools {
@@ -49,6 +51,18 @@ bool takes_many(const Verb& verb, const std::vector<std::string>& words) {
     return verb.many_inputs || beside;
 }
 
+/// The end of the sentence about an option that does not exist.
+std::string meant_option(const std::string& written, const std::vector<Option>& options) {
+    std::vector<std::string> names;
+    for (const Option& option : options) {
+        if (option.name != "input") {
+            names.push_back(option.name);
+        }
+    }
+    const std::size_t begin = written.find_first_not_of('-');
+    return begin == std::string::npos ? std::string{} : did_you_mean(written.substr(begin), names, "--");
+}
+
 po::variables_map read_words(const Verb& verb, const std::vector<Option>& options, const std::vector<std::string>& words,
                              bool many_inputs) {
     po::options_description description;
@@ -78,6 +92,9 @@ po::variables_map read_words(const Verb& verb, const std::vector<Option>& option
     } catch (const po::too_many_positional_options_error&) {
         throw InputError("coagula " + verb.name + (verb.input.empty() ? " takes no argument" : " takes one " + verb.input) +
                          " besides its options" + hint(verb.name));
+    } catch (const po::unknown_option& error) {
+        throw InputError("there is no option '" + error.get_option_name() + "'" + meant_option(error.get_option_name(), options) +
+                         hint(verb.name));
     } catch (const po::error& error) {
         throw InputError(error.what() + hint(verb.name));
     }
@@ -85,21 +102,28 @@ po::variables_map read_words(const Verb& verb, const std::vector<Option>& option
 }
 
 std::int64_t parse_count(const std::string& word) {
+    const char* last = word.data() + word.size();
     std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size()) {
-        throw InputError("'" + word + "' is not a whole number" +
-                         (error == std::errc::result_out_of_range ? " that the program can hold" : ""));
+    const auto [end, error] = std::from_chars(word.data(), last, value);
+    if (error == std::errc{} && end == last) {
+        return value;
     }
-    return value;
+    double number = 0;  // such as 1e6; every whole number up to 2^53 is a double
+    const auto [number_end, number_error] = std::from_chars(word.data(), last, number);
+    const bool whole = number_error == std::errc{} && number_end == last && number == std::nearbyint(number);
+    if (whole && std::abs(number) <= 9007199254740992.0) {
+        return static_cast<std::int64_t>(number);
+    }
+    const bool too_large = error == std::errc::result_out_of_range || whole;
+    throw InputError("'" + word + "' is not a whole number" + (too_large ? " that the program can hold" : ""));
 }
 
 /// UDUNITS knows bytes under their full name only.
-double parse_bytes(std::string word) {
-    if (word.ends_with('B')) {
+double any_quantity(std::string word, const std::string& unit) {
+    if (unit == "byte" && word.ends_with('B')) {
         word.replace(word.size() - 1, 1, "byte");
     }
-    return io::parse_quantity(word, "byte");
+    return io::parse_quantity(word, unit);
 }
 
 void check_range(const Range& range, const std::string& unit, double value, const std::string& word) {
@@ -112,6 +136,34 @@ void check_range(const Range& range, const std::string& unit, double value, cons
 /// Whether the text is a number and nothing else.
 bool is_bare(const std::string& word) {
     return word.find_first_not_of("+-.0123456789eE \t") == std::string::npos;
+}
+
+/// Puts together what the shell took apart: "--ionic-strength 10 mM" as "--ionic-strength '10 mM'". A word that is no unit of the
+/// option's dimension, or the name of a file that exists, stays by itself.
+std::vector<std::string> with_units_joined(const std::vector<Option>& options, const std::vector<std::string>& words) {
+    std::vector<std::string> joined;
+    const auto is_unit_of_last = [&](const std::string& word) {
+        if (joined.size() < 2 || !is_bare(joined.back()) || word.empty() || word.starts_with('-') || is_bare(word)) {
+            return false;
+        }
+        const auto option = std::find_if(options.begin(), options.end(), [&](const Option& entry) {
+            return entry.kind == Option::Kind::quantity && joined[joined.size() - 2] == "--" + entry.name;
+        });
+        try {
+            return option != options.end() && std::isfinite(any_quantity(joined.back() + ' ' + word, option->unit)) &&
+                   !std::filesystem::exists(word);
+        } catch (const InputError&) {
+            return false;
+        }
+    };
+    for (const std::string& word : words) {
+        if (is_unit_of_last(word)) {
+            joined.back() += ' ' + word;
+        } else {
+            joined.push_back(word);
+        }
+    }
+    return joined;
 }
 
 /// A word as a shell would have to read it.
@@ -248,7 +300,9 @@ Option output(std::string meaning) {
     return option;
 }
 
-Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : verb_(verb.name) {
+Arguments::Arguments(const Verb& verb, const std::vector<std::string>& typed) : verb_(verb.name) {
+    const std::vector<Option> options = all_options(verb);
+    const std::vector<std::string> words = with_units_joined(options, typed);
     command_line_ = "coagula " + verb.name;
     for (const std::string& word : words) {
         if (!report::is_utf8(word)) {
@@ -256,7 +310,6 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : 
         }
         command_line_ += ' ' + quoted(word);
     }
-    const std::vector<Option> options = all_options(verb);
     const bool many_inputs = takes_many(verb, words);
     const po::variables_map map = read_words(verb, options, words, many_inputs);
     if (map.count("help") > 0) {
@@ -308,11 +361,7 @@ void Arguments::store(const Option& option, const std::string& word) {
         throw InputError("the value is empty");
     }
     if (!option.choices.empty() && std::find(option.choices.begin(), option.choices.end(), word) == option.choices.end()) {
-        std::string list;
-        for (const std::string& name : option.choices) {
-            list += (list.empty() ? "" : ", ") + name;
-        }
-        throw InputError("'" + word + "' is not one of " + list);
+        throw InputError("'" + word + "' is not one of " + list_of(option.choices) + did_you_mean(word, option.choices));
     }
     values_[option.name] = word;
 }
@@ -367,7 +416,7 @@ std::string help_text(const Verb& verb) {
 }
 
 double parse_quantity(const std::string& word, const std::string& unit, const Range& range, double largest_bare) {
-    const double value = unit == "byte" ? parse_bytes(word) : io::parse_quantity(word, unit);
+    const double value = any_quantity(word, unit);
     if (value > largest_bare && is_bare(word)) {
         throw InputError("'" + word + "' has no unit and would be " + to_text(value) + " " + unit +
                          ": give it with its unit, such as " + word + "um or " + word + unit);

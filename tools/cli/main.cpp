@@ -7,6 +7,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/progress.hpp>
+#include <coagula/common/spelling.hpp>
 #include <coagula/report/printable.hpp>
 
 #include <omp.h>
@@ -43,8 +44,19 @@ void print_program_help() {
     std::cout
         << "\noptions:\n"
            "  -h, --help    print this text; 'coagula VERB --help' lists the options of a verb\n"
-           "      --version print the version\n\n"
+           "  -V, --version print the version\n\n"
            "Quantities are SI numbers or carry a unit: 0.25um, 100N/m. Exit codes: 0 done, 1 failed, 2 wrong usage or bad input.\n";
+}
+
+/// The end of the sentence about words that begin with no verb; with the two words of a verb like "generate vem", if there are two.
+std::string suggestion(const std::vector<std::string>& words) {
+    std::vector<std::string> pairs;
+    std::vector<std::string> singles = {"generate", "fit"};
+    for (const Verb& verb : all_verbs()) {
+        (verb.name.find(' ') == std::string::npos ? singles : pairs).push_back(verb.name);
+    }
+    const std::string meant = words.size() > 1 ? did_you_mean(words[0] + ' ' + words[1], pairs) : std::string{};
+    return meant.empty() ? did_you_mean(words[0], singles) : meant;
 }
 
 /// The verb that the words begin with; they are removed.
@@ -60,11 +72,12 @@ Verb take_verb(std::vector<std::string>& words) {
         throw InputError("'fit' needs the name of a law, and the one law is 'fit power-law'");
     }
     if (words.front() == "generate") {
-        throw InputError(words.size() > 1 ? "'generate " + words[1] +
-                                                "' is not a verb: the generators are 'generate vem' and 'generate brownian'"
-                                          : "'generate' needs the name of a generator: 'generate vem' or 'generate brownian'");
+        throw InputError(words.size() > 1
+                             ? "'generate " + words[1] +
+                                   "' is not a verb: the generators are 'generate vem' and 'generate brownian'" + suggestion(words)
+                             : "'generate' needs the name of a generator: 'generate vem' or 'generate brownian'");
     }
-    throw InputError("'" + words.front() + "' is not a verb (see 'coagula --help')");
+    throw InputError("'" + words.front() + "' is not a verb" + suggestion(words) + " (see 'coagula --help')");
 }
 
 void run(std::vector<std::string> words) {
@@ -78,7 +91,7 @@ void run(std::vector<std::string> words) {
         flush_output();
         return;
     }
-    if (words.front() == "--version") {
+    if (words.front() == "--version" || words.front() == "-V") {
         std::cout << "coagula " << version_text() << '\n';
         flush_output();
         return;

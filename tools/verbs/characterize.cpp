@@ -6,6 +6,7 @@
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
 
+#include <coagula/common/spelling.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
@@ -25,7 +26,8 @@ std::set<std::string> chosen_measures(const Arguments& arguments) {
     std::set<std::string> chosen;
     for (const std::string& name : split(arguments.text("only"))) {
         if (std::find(measures.begin(), measures.end(), name) == measures.end()) {
-            throw InputError("--only: '" + name + "' is not one of coordination, doh, overlap, pores");
+            throw InputError("--only: '" + name + "' is not one of coordination, doh, overlap, pores" +
+                             did_you_mean(name, {"coordination", "doh", "overlap", "pores"}));
         }
         chosen.insert(name);
     }
