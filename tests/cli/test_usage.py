@@ -6,7 +6,7 @@ from pathlib import Path
 
 from support import ProgramTest, VEM
 
-VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "info", "import", "export"]
+VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "info", "import", "export", "completion", "man"]
 
 
 class Help(ProgramTest):

@@ -10,36 +10,12 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <sstream>
 
 namespace coagula::tools {
 
 namespace {
 
 namespace po = boost::program_options;
-
-/// What every verb understands.
-std::vector<Option> common_options() {
-    Option help = flag("help", "print this text");
-    help.letter = 'h';
-    return {flag("json", "print one JSON object and nothing else on standard output"),
-            count("threads", "number of threads; all cores when not given", "", within(1, 4096)),
-            flag("quiet", "no progress bar and no table"), help};
-}
-
-std::vector<Option> all_options(const Verb& verb) {
-    std::vector<Option> options;
-    if (!verb.input.empty()) {
-        Option input = text("input", verb.input, "the file to work on");
-        input.required = true;
-        options.push_back(input);
-    }
-    options.insert(options.end(), verb.options.begin(), verb.options.end());
-    for (Option& option : common_options()) {
-        options.push_back(std::move(option));
-    }
-    return options;
-}
 
 std::string hint(const std::string& verb) {
     return " (see 'coagula " + verb + " --help')";
@@ -181,124 +157,7 @@ std::string quoted(const std::string& word) {
     return text + "'";
 }
 
-std::string left_column(const Option& option) {
-    std::string text = option.letter != 0 ? std::string("  -") + option.letter + ", --" : std::string("      --");
-    text += option.name;
-    return option.kind == Option::Kind::flag ? text : text + " " + option.placeholder;
-}
-
-/// Unit, default and range in brackets.
-std::string remarks(const Option& option) {
-    std::vector<std::string> parts;
-    if (option.kind == Option::Kind::quantity) {
-        parts.push_back(option.unit == "1" ? "no unit" : "unit " + option.unit);
-    }
-    for (std::string choices; const std::string& name : option.choices) {
-        choices += (choices.empty() ? "" : ", ") + name;
-        if (name == option.choices.back()) {
-            parts.push_back(choices);
-        }
-    }
-    if (option.required) {
-        parts.emplace_back("required");
-    } else if (!option.fallback.empty()) {
-        parts.push_back("default " + option.fallback);
-    }
-    if (const std::string range = option.range.text(); !range.empty()) {
-        parts.push_back("range " + range);
-    }
-    std::string text;
-    for (const std::string& part : parts) {
-        text += (text.empty() ? " [" : "; ") + part;
-    }
-    return text.empty() ? text : text + "]";
-}
-
 }  // namespace
-
-bool Range::holds(double value) const {
-    return ends_included ? value >= low && value <= high : value > low && value < high;
-}
-
-std::string Range::text() const {
-    const bool has_low = std::isfinite(low);
-    const bool has_high = std::isfinite(high);
-    const std::string equal = ends_included ? "= " : " ";
-    if (has_low && has_high) {
-        return ends_included ? to_text(low) + " .. " + to_text(high) : "> " + to_text(low) + " and < " + to_text(high);
-    }
-    return has_low ? ">" + equal + to_text(low) : (has_high ? "<" + equal + to_text(high) : "");
-}
-
-Range at_least(double low) {
-    return {.low = low};
-}
-
-Range above(double low) {
-    return {.low = low, .ends_included = false};
-}
-
-Range between(double low, double high) {
-    return {.low = low, .high = high, .ends_included = false};
-}
-
-Range within(double low, double high) {
-    return {.low = low, .high = high};
-}
-
-Option flag(std::string name, std::string meaning) {
-    return {.kind = Option::Kind::flag, .name = std::move(name), .meaning = std::move(meaning)};
-}
-
-Option count(std::string name, std::string meaning, std::string fallback, Range range) {
-    return {.kind = Option::Kind::count,
-            .name = std::move(name),
-            .placeholder = "N",
-            .meaning = std::move(meaning),
-            .fallback = std::move(fallback),
-            .range = range};
-}
-
-Option quantity(std::string name, std::string unit, std::string meaning, std::string fallback, Range range) {
-    return {.kind = Option::Kind::quantity,
-            .name = std::move(name),
-            .placeholder = "X",
-            .meaning = std::move(meaning),
-            .unit = std::move(unit),
-            .fallback = std::move(fallback),
-            .range = range};
-}
-
-Option particle_radius(std::string meaning) {
-    Option option = quantity("radius", "m", std::move(meaning), "", physical::length);
-    option.largest_bare = 0.1;
-    return option;
-}
-
-Option text(std::string name, std::string placeholder, std::string meaning, std::string fallback) {
-    return {.kind = Option::Kind::text,
-            .name = std::move(name),
-            .placeholder = std::move(placeholder),
-            .meaning = std::move(meaning),
-            .fallback = std::move(fallback)};
-}
-
-Option choice(std::string name, std::vector<std::string> choices, std::string meaning, std::string fallback) {
-    Option option = text(std::move(name), "NAME", std::move(meaning), std::move(fallback));
-    option.choices = std::move(choices);
-    return option;
-}
-
-Option required(Option option) {
-    option.required = true;
-    return option;
-}
-
-Option output(std::string meaning) {
-    Option option = text("output", "FILE", std::move(meaning));
-    option.letter = 'o';
-    return option;
-}
 
 Arguments::Arguments(const Verb& verb, const std::vector<std::string>& typed) : verb_(verb.name) {
     const std::vector<Option> options = all_options(verb);
@@ -392,27 +251,6 @@ nlohmann::ordered_json Arguments::to_json() const {
         std::visit([&json, key = name](const auto& content) { json[key] = content; }, value);
     }
     return json;
-}
-
-std::string help_text(const Verb& verb) {
-    std::ostringstream text;
-    text << "usage: coagula " << verb.name << (verb.input.empty() ? "" : " " + verb.input) << " [options]\n\n"
-         << verb.summary << "\n\noptions:\n";
-    std::vector<Option> options = all_options(verb);
-    std::erase_if(options, [](const Option& option) { return option.name == "input"; });
-    std::size_t width = 0;
-    for (const Option& option : options) {
-        width = std::max(width, left_column(option).size());
-    }
-    for (const Option& option : options) {
-        std::string left = left_column(option);
-        left.resize(width + 2, ' ');
-        text << left << option.meaning << remarks(option) << '\n';
-    }
-    for (const std::string& note : verb.notes) {
-        text << (note == verb.notes.front() ? "\n" : "") << note << '\n';
-    }
-    return text.str();
 }
 
 double parse_quantity(const std::string& word, const std::string& unit, const Range& range, double largest_bare) {

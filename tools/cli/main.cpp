@@ -1,5 +1,6 @@
 // coagula: generate, characterize and shear random sphere packings. Chooses the verb and turns exceptions into exit codes.
 #include "arguments.hpp"
+#include "help_text.hpp"
 #include "interruption.hpp"
 #include "provenance.hpp"
 #include "report.hpp"
@@ -27,11 +28,6 @@ namespace {
 
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
-
-std::vector<Verb> all_verbs() {
-    return {generate_vem_verb(),  generate_brownian_verb(), characterize_verb(), shear_verb(),  calibrate_verb(),
-            fit_power_law_verb(), diagnose_verb(),          info_verb(),         import_verb(), export_verb()};
-}
 
 void print_program_help() {
     std::cout << "usage: coagula VERB [options]\n\n"

@@ -12,8 +12,8 @@ namespace coagula {
 std::size_t edit_distance(std::string_view first, std::string_view second);
 
 /// The name that `word` most likely is a misspelling of: the nearest in edit distance, if that is at most a third of the letters of
-/// the word; otherwise the shortest that begins with the word, of three letters or more. Upper case counts as lower case, '_' as '-'.
-/// Empty when there is none. Of equally near names the first.
+/// the word; otherwise the shortest that begins with the word, of three letters or more. Upper case counts as lower case, '_' as
+/// '-'. Empty when there is none. Of equally near names the first.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// "; did you mean 'NAME'?", or nothing when no name is near.
