@@ -1,5 +1,6 @@
 #include <coagula/common/spelling.hpp>
 
+#include <algorithm>
 #include <cctype>
 
 namespace coagula {

@@ -4,7 +4,6 @@
 
 #include <utility>
 
-
 namespace coagula::tools {
 
 namespace {
@@ -250,7 +249,8 @@ std::string filled(std::string text, const std::string& mark, const std::string&
 std::string bash_completion(const std::vector<Verb>& verbs) {
     std::string second;
     for (const auto& [first, words] : families(verbs)) {
-        second += "        " + first + ")\n            if ((COMP_CWORD == 2)); then\n                _coagula_words '" + joined(words) +
+        second += "        " + first + ")\n            if ((COMP_CWORD == 2)); then\n                _coagula_words '" +
+                  joined(words) +
                   "'\n                return\n            fi\n            verb+=\" ${COMP_WORDS[2]}\"\n            ;;\n";
     }
     std::string text = filled(filled(bash_head, "@WORDS@", joined(first_words(verbs))), "@FAMILIES@", second);

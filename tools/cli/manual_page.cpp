@@ -36,7 +36,8 @@ std::string italic(const std::string& text) {
 
 std::string title(const std::string& name, const std::string& version) {
     std::string capitals = name;
-    std::transform(capitals.begin(), capitals.end(), capitals.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     return ".TH " + escaped(capitals) + " 1 \"\" \"coagula " + escaped(version) + "\" \"coagula\"\n";
 }
 
@@ -63,9 +64,10 @@ std::string page_name(const Verb& verb) {
 }
 
 std::string program_page(const std::vector<Verb>& verbs, const std::string& version) {
-    std::string text = title("coagula", version) + ".SH NAME\ncoagula \\- random sphere packings and coagulated particle gels\n" +
-                       ".SH SYNOPSIS\n.B coagula\n.I VERB\n.RI [ options ]\n.br\n.B coagula \\-\\-help\n.br\n.B coagula \\-\\-version\n" +
-                       ".SH DESCRIPTION\nGenerates, characterizes and shears packings, and diagnoses measured moduli.\n.SH VERBS\n";
+    std::string text =
+        title("coagula", version) + ".SH NAME\ncoagula \\- random sphere packings and coagulated particle gels\n" +
+        ".SH SYNOPSIS\n.B coagula\n.I VERB\n.RI [ options ]\n.br\n.B coagula \\-\\-help\n.br\n.B coagula \\-\\-version\n" +
+        ".SH DESCRIPTION\nGenerates, characterizes and shears packings, and diagnoses measured moduli.\n.SH VERBS\n";
     std::string pages;
     for (const Verb& verb : verbs) {
         text += ".TP\n" + bold(verb.name) + "\n" + escaped(verb.summary) + "\n";

@@ -3,8 +3,12 @@
 namespace coagula::tools {
 
 std::vector<Verb> all_verbs() {
-    return {generate_vem_verb(),  generate_brownian_verb(), characterize_verb(), shear_verb(),  calibrate_verb(), fit_power_law_verb(),
-            diagnose_verb(),      info_verb(),              import_verb(),       export_verb(), completion_verb(), man_verb()};
+    return {generate_vem_verb(), generate_brownian_verb(),
+            characterize_verb(), shear_verb(),
+            calibrate_verb(),    fit_power_law_verb(),
+            diagnose_verb(),     info_verb(),
+            import_verb(),       export_verb(),
+            completion_verb(),   man_verb()};
 }
 
 }  // namespace coagula::tools

@@ -23,14 +23,16 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Verb completion_verb() {
-    return {.name = "completion",
-            .summary = "print the script that completes the command line in bash or zsh",
-            .input = "SHELL",
-            .options = {},
-            .run = run,
-            .notes = {"In bash: source <(coagula completion bash). In zsh: coagula completion zsh > FOLDER/_coagula, FOLDER one of $fpath.",
-                      "An installed coagula has brought both with it."},
-            .input_choices = {"bash", "zsh"}};
+    return {
+        .name = "completion",
+        .summary = "print the script that completes the command line in bash or zsh",
+        .input = "SHELL",
+        .options = {},
+        .run = run,
+        .notes =
+            {"In bash: source <(coagula completion bash). In zsh: coagula completion zsh > FOLDER/_coagula, FOLDER one of $fpath.",
+             "An installed coagula has brought both with it."},
+        .input_choices = {"bash", "zsh"}};
 }
 
 }  // namespace coagula::tools
