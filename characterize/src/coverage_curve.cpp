@@ -54,8 +54,8 @@ double closing_growth(const PowerDiagram& diagram, const std::array<int, 4>& sit
     return std::isfinite(there) ? std::max(there, 0.0) : growth + step;
 }
 
-/// Growth at which the largest vertex power vanishes: the last pore is closed. Each diagram names the vertex that is closed last, and
-/// where it closes the next diagram is made: a few are enough.
+/// Growth at which the largest vertex power vanishes: the last pore is closed. Each diagram names the vertex that is closed last,
+/// and where it closes the next diagram is made: a few are enough.
 double largest_pore(const Packing& packing, const PowerDiagram& original, double& margin) {
     constexpr double converged = 1e-11;
     constexpr int most_diagrams = 60;
@@ -119,8 +119,8 @@ Coverage merge_coverage(const Coverage& old_nodes, const Coverage& new_nodes) {
     return merged;
 }
 
-/// The power cells move as unequal balls grow, so that each growth needs a diagram of its own. The curve is computed at a few growths
-/// and interpolated by a cubic spline; their number is doubled until the spline through every second one meets the others.
+/// The power cells move as unequal balls grow, so that each growth needs a diagram of its own. The curve is computed at a few
+/// growths and interpolated by a cubic spline; their number is doubled until the spline through every second one meets the others.
 CoverageCurve cover_unequal(const Packing& packing, const PowerDiagram& original, Index intervals, double tolerance,
                             const Blocks& blocks, const Progress& progress) {
     constexpr double gain = 4;  // error of every second node over that of all nodes; 16 for a smooth curve
@@ -144,7 +144,8 @@ CoverageCurve cover_unequal(const Packing& packing, const PowerDiagram& original
         const Eigen::VectorXd found = uncovered_fraction(coverage)(Eigen::seqN(1, nodes / 2, 2));
         curve.error = (found - guess).cwiseAbs().maxCoeff() / gain;
         if (curve.error < tolerance) {
-            curve.coverage = {spline_interpolate(finer, coverage.covered, wanted), spline_interpolate(finer, coverage.cells, wanted)};
+            curve.coverage = {spline_interpolate(finer, coverage.covered, wanted),
+                              spline_interpolate(finer, coverage.cells, wanted)};
             return curve;
         }
     }

@@ -144,7 +144,8 @@ std::vector<Task> make_tasks(const std::vector<std::vector<int>>& lists) {
     for (std::size_t block = 0; block < lists.size(); ++block) {
         const std::size_t parts = (lists[block].size() + edges_per_task - 1) / edges_per_task;
         for (std::size_t part = 0; part < parts; ++part) {
-            tasks.push_back({static_cast<int>(block), lists[block].size() * part / parts, lists[block].size() * (part + 1) / parts});
+            tasks.push_back(
+                {static_cast<int>(block), lists[block].size() * part / parts, lists[block].size() * (part + 1) / parts});
         }
     }
     return tasks;

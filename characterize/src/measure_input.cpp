@@ -43,7 +43,11 @@ struct MeasureInput::Shared {
 };
 
 MeasureInput::MeasureInput(Packing packing, std::map<std::string, double> options, std::uint64_t seed, Progress progress)
-    : packing_(std::move(packing)), r0_(unset), options_(std::move(options)), seed_(seed), progress_(std::move(progress)),
+    : packing_(std::move(packing)),
+      r0_(unset),
+      options_(std::move(options)),
+      seed_(seed),
+      progress_(std::move(progress)),
       shared_(std::make_unique<Shared>()) {
     check(packing_);
     r0_ = mean_radius(packing_);
@@ -101,7 +105,9 @@ const VoronoiFaces& MeasureInput::voronoi_faces() const {
 }
 
 const PoreSizes& MeasureInput::pores() const {
-    return once(shared_->pores, [this] { return measure_pores(diagram(), {.radii = count("radii"), .tolerance = number("pore-tolerance")}, blocks(), progress_); });
+    return once(shared_->pores, [this] {
+        return measure_pores(diagram(), {.radii = count("radii"), .tolerance = number("pore-tolerance")}, blocks(), progress_);
+    });
 }
 
 bool MeasureInput::has_pores() const {

@@ -62,8 +62,8 @@ struct DiagramVertex {
 /// The vertex of largest power of the counted cells.
 DiagramVertex largest_vertex(const PowerDiagram& diagram);
 
-/// Power of the point that has the same power for four sites, whether or not it is a vertex of the diagram, when all radii are larger
-/// by `growth`; NaN if the sites lie in a plane.
+/// Power of the point that has the same power for four sites, whether or not it is a vertex of the diagram, when all radii are
+/// larger by `growth`; NaN if the sites lie in a plane.
 double power_of_vertex(const PowerDiagram& diagram, const std::array<int, 4>& sites, double growth);
 
 /// Diagram of the particles in a periodic box; all of them are counted. Images are added in a layer around the box, and the layer

@@ -8,14 +8,6 @@ namespace coagula::characterize {
 
 namespace {
 
-/// The packing with its lengths divided by `unit`.
-Packing in_units_of(double unit, const Packing& packing) {
-    const Eigen::Vector3d lengths = packing.cell.lengths() / unit;
-    const Eigen::Vector3d origin = packing.cell.origin() / unit;
-    const bool periodic = packing.cell.is_periodic();
-    return {periodic ? Cell::periodic(lengths) : Cell::open(origin, lengths), packing.positions / unit, packing.radii / unit};
-}
-
 /// The diagram of an open packing in which the inner particles are counted.
 PowerDiagram inner_diagram(const Packing& packing) {
     PowerDiagram diagram = open_diagram(packing, packing.radii, std::vector<char>(static_cast<std::size_t>(packing.size()), 1));
@@ -28,6 +20,13 @@ PowerDiagram inner_diagram(const Packing& packing) {
 
 }  // namespace
 
+Packing in_units_of(double unit, const Packing& packing) {
+    const Eigen::Vector3d lengths = packing.cell.lengths() / unit;
+    const Eigen::Vector3d origin = packing.cell.origin() / unit;
+    const bool periodic = packing.cell.is_periodic();
+    return {periodic ? Cell::periodic(lengths) : Cell::open(origin, lengths), packing.positions / unit, packing.radii / unit};
+}
+
 Index ReducedDiagram::inner_count() const {
     return std::count(diagram.counted.begin(), diagram.counted.begin() + packing.size(), char{1});
 }
@@ -36,7 +35,8 @@ ReducedDiagram reduced_diagram(const Packing& packing) {
     ReducedDiagram reduced;
     reduced.unit = mean_radius(packing);
     reduced.packing = in_units_of(reduced.unit, packing);
-    reduced.diagram = packing.cell.is_periodic() ? periodic_diagram(reduced.packing, reduced.packing.radii) : inner_diagram(reduced.packing);
+    reduced.diagram =
+        packing.cell.is_periodic() ? periodic_diagram(reduced.packing, reduced.packing.radii) : inner_diagram(reduced.packing);
     return reduced;
 }
 

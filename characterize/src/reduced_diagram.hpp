@@ -5,15 +5,16 @@
 
 namespace coagula::characterize {
 
+/// The packing with its lengths divided by `unit`.
+Packing in_units_of(double unit, const Packing& packing);
+
 struct ReducedDiagram {
     double unit = 1;       ///< mean radius r0 [m]
     Packing packing;       ///< lengths over r0
     PowerDiagram diagram;  ///< all particles are counted, or the inner ones of an open packing; edges around counted ones only
 
     /// N flags.
-    std::vector<bool> inner() const {
-        return {diagram.counted.begin(), diagram.counted.begin() + packing.size()};
-    }
+    std::vector<bool> inner() const { return {diagram.counted.begin(), diagram.counted.begin() + packing.size()}; }
     Index inner_count() const;
 };
 

@@ -36,8 +36,10 @@ Eigen::MatrixXd spline_interpolate(const Eigen::VectorXd& nodes, const Eigen::Ma
         const double step = nodes[k + 1] - nodes[k];
         const double right = (x[i] - nodes[k]) / step;
         const double left = 1 - right;
-        result.row(i) = left * values.row(k) + right * values.row(k + 1) +
-                        step * step / 6 * ((left * left * left - left) * curvature.row(k) + (right * right * right - right) * curvature.row(k + 1));
+        result.row(i) =
+            left * values.row(k) + right * values.row(k + 1) +
+            step * step / 6 *
+                ((left * left * left - left) * curvature.row(k) + (right * right * right - right) * curvature.row(k + 1));
     }
     return result;
 }

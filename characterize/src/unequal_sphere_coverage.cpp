@@ -14,7 +14,8 @@ void cover_edge(const PowerDiagram& diagram, const DiagramEdge& edge, const Bloc
         const int site = edge.around[static_cast<std::size_t>(corner)];
         if (diagram.counted[static_cast<std::size_t>(site)] != 0) {
             for (const double c : geometry.height) {
-                sums.col(blocks.of_particle[site]) += Eigen::Vector2d(volume_inside_ball(a, b, c, diagram.radii[site]), a * b * c / 6);
+                sums.col(blocks.of_particle[site]) +=
+                    Eigen::Vector2d(volume_inside_ball(a, b, c, diagram.radii[site]), a * b * c / 6);
             }
         }
     };

@@ -4,8 +4,10 @@
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "stages.hpp"
 
 #include <coagula/characterize/measure.hpp>
+#include <coagula/common/spelling.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
@@ -25,7 +27,7 @@ std::vector<std::string> chosen_measures(const Arguments& arguments) {
     const std::vector<std::string> chosen = split(arguments.text("only"));
     for (const std::string& name : chosen) {
         if (name != "all" && std::find(names.begin(), names.end(), name) == names.end()) {
-            throw InputError("--only: '" + name + "' is not one of " + list_of(names) + ", all");
+            throw InputError("--only: '" + name + "' is not one of " + list_of(names) + ", all" + did_you_mean(name, names));
         }
     }
     return chosen;
@@ -45,23 +47,20 @@ std::map<std::string, double> option_values(const Arguments& arguments) {
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
-    const std::vector<std::string> only = chosen_measures(arguments);
+    chosen_measures(arguments);
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
 
-    const characterize::MeasureInput input(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
-                                           progress);
-    characterize::MeasureResult found = characterize::run_measures(input, only);
-    check_finite(found.datasets);
+    Findings found = characterize_packing(arguments, packing, progress);
     progress.update("writing", 1.0);
-    io::add_results(arguments.input(), target, {"/characterization"}, std::nullopt, found.fields, found.datasets,
+    io::add_results(arguments.input(), target, {found.group}, std::nullopt, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));
 
-    Json json = to_json(found.datasets, "/characterization");
+    Json json = to_json(found.results, found.group);
     json["output"] = target;
     json["seconds"] = clock.seconds();
-    found.add_line("written to", target);
-    report(arguments, json, found.lines);
+    found.table.emplace_back("written to", target);
+    report(arguments, json, found.table);
 }
 
 /// An option of a measure as an option of the program.
@@ -99,6 +98,17 @@ std::vector<std::string> measure_notes() {
 }
 
 }  // namespace
+
+Findings characterize_packing(const Arguments& arguments, const Packing& packing, const Progress& progress) {
+    const characterize::MeasureInput input(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
+                                           progress);
+    characterize::MeasureResult found = characterize::run_measures(input, chosen_measures(arguments));
+    check_finite(found.datasets);
+    return {.group = "/characterization",
+            .results = std::move(found.datasets),
+            .fields = std::move(found.fields),
+            .table = std::move(found.lines)};
+}
 
 Verb characterize_verb() {
     return {.name = "characterize",

@@ -58,10 +58,8 @@ MeasureResult run(const MeasureInput& input) {
 }  // namespace
 
 Measure coordination_measure() {
-    return {.name = "coordination",
-            .summary = "contacts per particle, rattlers",
-            .run = run,
-            .options = {contact_tolerance_option()}};
+    return {
+        .name = "coordination", .summary = "contacts per particle, rattlers", .run = run, .options = {contact_tolerance_option()}};
 }
 
 }  // namespace coagula::characterize

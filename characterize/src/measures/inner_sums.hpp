@@ -4,6 +4,8 @@
 #include <coagula/characterize/measure.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 namespace coagula::characterize {
 
@@ -18,6 +20,18 @@ inline Eigen::VectorXd sum_inner(const MeasureInput& input, const Eigen::MatrixX
         }
     }
     return sums;
+}
+
+/// Standard errors of per-particle means over the inner particles, for structures of one number density.
+/// @param values Q x N, the first row of ones. @param estimate from sums of them to the quantities.
+inline Eigen::VectorXd errors_of_means(const MeasureInput& input, const Eigen::MatrixXd& values,
+                                       const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& estimate) {
+    Eigen::MatrixXd with_volume(values.rows() + 1, values.cols());
+    with_volume << values, input.voronoi_cells().volumes.transpose();
+    const Index rows = values.rows();
+    return block_errors(
+        sum_by_block(input.blocks(), with_volume), [&](const Eigen::VectorXd& sums) { return estimate(sums.head(rows)); },
+        [rows](const Eigen::VectorXd& sums) { return sums[0] / sums[rows]; });
 }
 
 }  // namespace coagula::characterize

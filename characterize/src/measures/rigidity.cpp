@@ -48,7 +48,7 @@ public:
             (rigid.of_particle.transpose().array() < 0).cast<double>();
         const auto shares = [](const Eigen::VectorXd& sums) -> Eigen::VectorXd { return sums.tail<2>() / sums[0]; };
         const Eigen::VectorXd share = shares(sum_inner(input_, values));
-        const Eigen::VectorXd error = block_errors(sum_by_block(input_.blocks(), values), shares);
+        const Eigen::VectorXd error = errors_of_means(input_, values, shares);
         const Index windings = count > 0 ? static_cast<Index>(rigid.clusters.front().windings.size()) : 0;
         count_of("rigid_clusters", count, "clusters of two or more particles that move as one in every floppy motion");
         add("largest_fraction", share[0], "particles in the largest rigid cluster over all", error[0]);
@@ -98,7 +98,7 @@ private:
             return Eigen::Vector4d(sums[1] / sums[0], sums[2] / sums[0], sums[2] / contact_sum, sums[4] / contact_sum);
         };
         const Eigen::VectorXd value = shares(sum_inner(input_, values));
-        const Eigen::VectorXd error = block_errors(sum_by_block(input_.blocks(), values), shares);
+        const Eigen::VectorXd error = errors_of_means(input_, values, shares);
         add("freedom_per_particle", value[0], "motions without stiffness per particle", error[0]);
         add("redundancy_per_particle", value[1], "states of self-stress per particle", error[1]);
         add("redundancy_per_contact", value[2], "states of self-stress per contact", error[2]);

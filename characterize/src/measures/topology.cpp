@@ -45,8 +45,7 @@ void add_clusters(const Topology& topology, double largest, double error, Measur
 MeasureResult run(const MeasureInput& input) {
     const Topology topology = measure_topology(input.packing(), input.contacts());
     const Eigen::MatrixXd values = particle_values(topology);
-    const Blocks& blocks = input.blocks();
-    const Eigen::VectorXd error = block_errors(sum_by_block(blocks, values), scalars);
+    const Eigen::VectorXd error = errors_of_means(input, values, scalars);
     const Eigen::VectorXd found = scalars(sum_inner(input, values));
     MeasureResult result;
     result.add("topology/contact_spread", found[0], "1", "standard deviation of the number of contacts of a particle", error[0]);
