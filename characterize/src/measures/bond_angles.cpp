@@ -15,9 +15,12 @@ namespace {
 MeasureResult run(const MeasureInput& input) {
     const BondAngles found = measure_bond_angles(input.packing(), {.contact_tolerance = input.number("contact-tolerance")});
     MeasureResult result;
-    result.add_vector("bond_angles/angle", found.angle, "rad", "middle of the bins of the angle between two contacts of a particle");
-    result.add_vector("bond_angles/density", found.density, "rad-1", "probability density; independent directions have sin(angle) / 2");
-    add_known(result, "bond_angles/density_stderr", found.density_stderr, "rad-1", "standard error of the density from sub-volumes");
+    result.add_vector("bond_angles/angle", found.angle, "rad",
+                      "middle of the bins of the angle between two contacts of a particle");
+    result.add_vector("bond_angles/density", found.density, "rad-1",
+                      "probability density; independent directions have sin(angle) / 2");
+    add_known(result, "bond_angles/density_stderr", found.density_stderr, "rad-1",
+              "standard error of the density from sub-volumes");
     result.add_count("bond_angles/angles", found.angles, "number of pairs of contacts");
     add_known(result, "bond_angles/mean", found.mean, "rad", "mean angle", found.mean_stderr);
     add_known(result, "bond_angles/below_65_degrees", found.below_equilateral, "1",
@@ -32,7 +35,10 @@ MeasureResult run(const MeasureInput& input) {
 }  // namespace
 
 Measure bond_angles_measure() {
-    return {.name = "bond_angles", .summary = "angles between the contacts of a particle", .run = run, .options = {contact_tolerance_option()}};
+    return {.name = "bond_angles",
+            .summary = "angles between the contacts of a particle",
+            .run = run,
+            .options = {contact_tolerance_option()}};
 }
 
 }  // namespace coagula::characterize

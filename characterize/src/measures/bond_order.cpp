@@ -10,7 +10,8 @@ Measure bond_order_measure();
 namespace {
 
 MeasureResult run(const MeasureInput& input) {
-    const BondOrder found = if_applicable([&] { return measure_bond_order(input.packing(), input.voronoi_faces(), input.inner()); });
+    const BondOrder found =
+        if_applicable([&] { return measure_bond_order(input.packing(), input.voronoi_faces(), input.inner()); });
     MeasureResult result;
     result.add("bond_order/q4", found.q4_mean, "1", "mean q4 of the Voronoi cells, facets weighted by area", found.q4_mean_stderr);
     result.add("bond_order/q6", found.q6_mean, "1", "mean q6 of the Voronoi cells, facets weighted by area", found.q6_mean_stderr);
@@ -28,7 +29,9 @@ MeasureResult run(const MeasureInput& input) {
 }  // namespace
 
 Measure bond_order_measure() {
-    return {.name = "bond_order", .summary = "bond-orientational order q4, q6, weighted by the facets of the Voronoi cells", .run = run};
+    return {.name = "bond_order",
+            .summary = "bond-orientational order q4, q6, weighted by the facets of the Voronoi cells",
+            .run = run};
 }
 
 }  // namespace coagula::characterize

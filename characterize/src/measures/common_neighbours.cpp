@@ -21,12 +21,14 @@ Eigen::MatrixXd table_of(const CommonNeighbours& found) {
 }
 
 MeasureResult run(const MeasureInput& input) {
-    const CommonNeighbours found = measure_common_neighbours(input.packing(), {.contact_tolerance = input.number("contact-tolerance")});
+    const CommonNeighbours found =
+        measure_common_neighbours(input.packing(), {.contact_tolerance = input.number("contact-tolerance")});
     MeasureResult result;
     if (!found.fraction.empty()) {
-        result.add_matrix("common_neighbours/signatures", table_of(found), "1",
-                          "rows: common neighbours of a contact, contacts among these, contacts of their largest connected set, fraction "
-                          "of all contacts");
+        result.add_matrix(
+            "common_neighbours/signatures", table_of(found), "1",
+            "rows: common neighbours of a contact, contacts among these, contacts of their largest connected set, fraction "
+            "of all contacts");
     }
     result.add("common_neighbours/mean", found.mean, "1", "mean number of common neighbours of a contact", found.mean_stderr);
     const std::string meaning = "fraction of particles with such surroundings (adaptive common-neighbour analysis)";
@@ -34,9 +36,10 @@ MeasureResult run(const MeasureInput& input) {
     result.add("common_neighbours/hcp", found.hcp, "1", meaning, found.hcp_stderr);
     result.add("common_neighbours/bcc", found.bcc, "1", meaning, found.bcc_stderr);
     result.add("common_neighbours/icosahedral", found.icosahedral, "1", meaning, found.icosahedral_stderr);
-    result.add_line("common neighbours", with_unit(found.mean, "1") + " of a contact; fcc " + with_unit(100 * found.fcc, "%") + ", hcp " +
-                                             with_unit(100 * found.hcp, "%") + ", bcc " + with_unit(100 * found.bcc, "%") +
-                                             ", icosahedral " + with_unit(100 * found.icosahedral, "%"));
+    result.add_line("common neighbours", with_unit(found.mean, "1") + " of a contact; fcc " + with_unit(100 * found.fcc, "%") +
+                                             ", hcp " + with_unit(100 * found.hcp, "%") + ", bcc " +
+                                             with_unit(100 * found.bcc, "%") + ", icosahedral " +
+                                             with_unit(100 * found.icosahedral, "%"));
     return result;
 }
 

@@ -14,9 +14,11 @@ MeasureResult run(const MeasureInput& input) {
         [&] { return measure_minkowski(input.packing(), {.dilations = input.count("dilations")}, input.progress()); });
     MeasureResult result;
     result.add_vector("minkowski/dilation", found.dilation, "m", "added to all radii");
-    result.add_vector("minkowski/volume_fraction", found.volume_fraction, "1", "volume of the union of the spheres over the volume measured");
+    result.add_vector("minkowski/volume_fraction", found.volume_fraction, "1",
+                      "volume of the union of the spheres over the volume measured");
     result.add_vector("minkowski/surface", found.surface, "m-1", "surface of the union over the volume");
-    result.add_vector("minkowski/mean_curvature", found.mean_curvature, "m-2", "integral of the mean curvature of the union's surface over the volume");
+    result.add_vector("minkowski/mean_curvature", found.mean_curvature, "m-2",
+                      "integral of the mean curvature of the union's surface over the volume");
     result.add_vector("minkowski/euler_characteristic", found.euler_characteristic, "m-3",
                       "Euler characteristic of the union (parts - tunnels + cavities) over the volume");
     result.add("minkowski/undilated/volume_fraction", found.volume_fraction[0], "1", "at dilation 0", found.volume_fraction_stderr);
@@ -36,7 +38,8 @@ Measure minkowski_measure() {
     return {.name = "minkowski",
             .summary = "volume, surface, mean curvature and Euler characteristic of the spheres as they grow, exact",
             .run = run,
-            .options = {{"dilations", "", "number of dilations of the Minkowski functionals; 0: 60 for equal spheres, else 20", 0, 0, 10000}}};
+            .options = {{"dilations", "", "number of dilations of the Minkowski functionals; 0: 60 for equal spheres, else 20", 0,
+                         0, 10000}}};
 }
 
 }  // namespace coagula::characterize

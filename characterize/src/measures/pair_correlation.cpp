@@ -29,8 +29,8 @@ MeasureResult run(const MeasureInput& input) {
     if (!is_monodisperse(input.packing())) {
         add_distribution(found.by_contact, "pair_correlation/by_contact", "1", "the distance of centres over r_i + r_j", result);
     }
-    add_known(result, "pair_correlation/contact_peak", found.contact_peak, "1", "mean number of neighbours in the bin of the contacts",
-              found.contact_peak_stderr);
+    add_known(result, "pair_correlation/contact_peak", found.contact_peak, "1",
+              "mean number of neighbours in the bin of the contacts", found.contact_peak_stderr);
     add_known(result, "pair_correlation/contact_value", found.contact_value, "1",
               "g at r_i + r_j, extrapolated from outside the bin of the contacts", found.contact_value_stderr);
     result.add("pair_correlation/number_density", found.number_density, "m-3", "particles per volume");

@@ -28,7 +28,8 @@ MeasureResult run(const MeasureInput& input) {
     result.add("transport/pore_length", found.pore_length, "m", "Johnson's Lambda = 2 / (d ln F / d r)");
     result.add("transport/permeability", found.permeability, "m2", "estimate Lambda^2 / (8 F)");
     result.add("transport/permeability_kozeny_carman", found.permeability_kozeny_carman, "m2", "estimate phi^3 / (5 s^2)");
-    result.add("transport/voxels_per_radius", found.voxels_per_radius, "1", "mean radius over the edge of a voxel of the finer grid");
+    result.add("transport/voxels_per_radius", found.voxels_per_radius, "1",
+               "mean radius over the edge of a voxel of the finer grid");
     result.add_line("formation factor", with_error(found.formation_factor.mean, found.formation_factor.grid_error));
     result.add_line("geodesic tortuosity", with_error(found.tortuosity.mean, found.tortuosity.grid_error));
     result.add_line("permeability", with_unit(found.permeability, "m2") + " estimated from the formation factor, " +
