@@ -15,6 +15,15 @@ Measure rigidity_measure();
 Measure rings_measure();
 Measure sampled_check_measure();
 Measure topology_measure();
+Measure pair_correlation_measure();
+Measure structure_factor_measure();
+Measure bond_angles_measure();
+Measure common_neighbours_measure();
+Measure neighbour_distances_measure();
+Measure bond_order_measure();
+Measure minkowski_measure();
+Measure chord_lengths_measure();
+Measure transport_measure();
 
 const std::vector<Measure>& measures() {
     static const std::vector<Measure> table = {
@@ -29,6 +38,15 @@ const std::vector<Measure>& measures() {
         fabric_measure(),
         rigidity_measure(),
         rigidity_central_measure(),
+        pair_correlation_measure(),
+        structure_factor_measure(),
+        bond_angles_measure(),
+        common_neighbours_measure(),
+        neighbour_distances_measure(),
+        bond_order_measure(),
+        minkowski_measure(),
+        chord_lengths_measure(),
+        transport_measure(),
         sampled_check_measure(),
     };
     return table;
