@@ -104,6 +104,31 @@ diagnose::DiagnosisOptions options_of(const Arguments& arguments) {
     return options;
 }
 
+constexpr double keeping_interval = 60;  // s
+constexpr const char* cache_name = "simulations.txt";
+
+/// Keeps what was simulated once a minute and when the user interrupts, so that the same call goes on from it.
+Progress keeping(const Progress& progress, ResultFolder& folder, const diagnose::SimulationCache& cache) {
+    return Progress([&progress, &folder, &cache, since = Stopwatch()](std::string_view stage, double fraction,
+                                                                      std::string_view remark) mutable {
+        try {
+            progress.update(stage, fraction, remark);
+        } catch (const Cancelled&) {
+            if (cache.empty()) {
+                throw;
+            }
+            folder.keep(cache_name, cache_text(cache));
+            throw std::runtime_error("interrupted: what was simulated so far is in " + (folder.path() / cache_name).string() +
+                                     ", and the same call goes on from it");
+        }
+        if (since.seconds() > keeping_interval) {
+            folder.keep(cache_name, cache_text(cache));
+            since = Stopwatch();
+        }
+        return true;
+    });
+}
+
 }  // namespace
 
 std::vector<Option> diagnosis_options() {
@@ -114,16 +139,17 @@ std::vector<Option> diagnosis_options() {
 }
 
 void run_diagnosis(const Arguments& arguments) {
-    const Progress progress = make_progress(arguments.flag("quiet"));
+    const Progress bar = make_progress(arguments.flag("quiet"));
     ResultFolder folder(arguments.text("output"), "diagnosis.json", {"report.html", "diagnosis.h5", "extended_model.toml"},
                         arguments.flag("force"));
     const Stopwatch clock;
     CheckedExperiment checked = check_experiment(arguments.input(), options_of(arguments));
     Experiment& experiment = checked.file.experiment;
     ExperimentStructures& structures = checked.structures;
-    naming(arguments.input(), [&] { make_structures(experiment, structures, progress); });
+    naming(arguments.input(), [&] { make_structures(experiment, structures, bar); });
 
-    diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
+    diagnose::SimulationCache cache = read_cache(folder.path() / cache_name);
+    const Progress progress = keeping(bar, folder, cache);
     const double radius = structures.packings.empty() ? unset : mean_radius(structures.packings.front());
     const std::vector<std::string> sentences = structure_sentences(experiment, structures);
     diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
@@ -150,7 +176,7 @@ void run_diagnosis(const Arguments& arguments) {
         notes.push_back(gnuplot.problem());
     }
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
-    folder.write("simulations.txt", cache_text(cache));
+    folder.write(cache_name, cache_text(cache));
     Json json = report::to_json(diagnosis, checked.noise, model);
     json["notes"] = notes;
     json["report"] = (folder.path() / "report.html").string();
