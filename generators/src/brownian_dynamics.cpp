@@ -211,6 +211,8 @@ private:
             observe();
             return;
         }
+        require(system_.steps() <= last_step_,
+                "the checkpoint is at " + to_text(time()) + " s, after the stop time of " + to_text(options_.stop_time) + " s");
         snapshots_ = control_.resume->snapshots;
         sampler_.resume(control_.resume->series, control_.resume->contacts);
     }
@@ -269,7 +271,8 @@ private:
 
     void watch() {
         constexpr std::int64_t pause = 16;
-        if (system_.steps() % pause != 0) {
+        if (system_.steps() % pause != 0 ||
+            system_.steps() >= last_step_) {  // a run to a later time has no sample at the end of this
             return;
         }
         const double coordination = sampler_.series().coordination.back();

@@ -156,6 +156,7 @@ RampResponse shear_to(const Packing& packing, const ContactNetwork& bonds, const
             "the strain of a ramp is " + to_text(options.strain) + ", but must be finite and not 0");
     require(options.steps >= 1, "the number of steps is " + std::to_string(options.steps) + ", but must be at least 1");
     StrainPath path(packing, bonds, model, options.solver, std::abs(options.strain), progress);
+    path.expect(options.steps);
     RampResponse response;
     response.points.push_back(path.point());
     const auto finish = [&] {
@@ -186,8 +187,10 @@ SweepResponse sweep_amplitudes(const Packing& packing, const ContactNetwork& bon
     check_sweep(options, model);
     const double largest = *std::max_element(options.amplitudes.begin(), options.amplitudes.end());
     StrainPath path(packing, bonds, model, options.solver, largest, progress);
+    const std::size_t sections = options.amplitudes.size();
+    path.expect(static_cast<Index>(sections) * options.cycles * options.steps_per_cycle);
     SweepResponse response;
-    for (std::size_t section = 0; section < options.amplitudes.size(); ++section) {
+    for (std::size_t section = 0; section < sections; ++section) {
         path.begin_section(static_cast<Index>(section), options.amplitudes[section]);
         if (is_ageing(model) && section > 0) {
             path.age(age_factor(model, static_cast<double>(section) * static_cast<double>(options.cycles) / options.frequency));
@@ -195,6 +198,8 @@ SweepResponse sweep_amplitudes(const Packing& packing, const ContactNetwork& bon
         const std::size_t before = path.broken().size();
         Loop loop;
         for (Index cycle = 0; cycle < options.cycles && !path.failure(); ++cycle) {
+            path.remark("amplitude " + std::to_string(section + 1) + " of " + std::to_string(sections) + ", cycle " +
+                        std::to_string(cycle + 1) + " of " + std::to_string(options.cycles));
             loop = run_cycle(path, options.amplitudes[section], options.steps_per_cycle);
         }
         if (path.failure()) {

@@ -26,10 +26,14 @@ StrainPath::StrainPath(const Packing& packing, const ContactNetwork& bonds, cons
     : options_(options),
       largest_strain_(largest_strain),
       progress_(progress),
+      told_([this](std::string_view /*stage*/, double /*fraction*/, std::string_view /*remark*/) {
+          tell();
+          return true;
+      }),
       network_(packing, bonds, model, options),
       solver_(options.tolerance, effort_),
       step_(std::numeric_limits<double>::infinity()) {
-    progress_.update("coming to rest", 0.0);
+    tell();
     settle();
     point_.stored = network_.energy(network_.memories());
     update_point();
@@ -40,6 +44,10 @@ void StrainPath::give_up(const std::string& what) const {
     throw NoEquilibrium("no equilibrium was found " + what + " at the strain " + to_text(network_.strain()) +
                         ": the rms force left on a particle is " + to_text(solver_.last_residual()) +
                         " times the contact stiffness and the mean radius");
+}
+
+void StrainPath::tell() const {
+    progress_.update("shearing", std::min(1.0, (static_cast<double>(reached_) + part_) / static_cast<double>(targets_)), remark_);
 }
 
 void StrainPath::update_point() {
@@ -58,10 +66,10 @@ double StrainPath::settle() {
     double energy = start;
     double dissipated = 0;
     for (int attempt = 0; attempt < most_settlements; ++attempt) {
-        progress_.update("coming to rest", 0.0);
+        tell();
         bool found = solver_.find(network_, 0.0, still, rest_) && network_.reach_used(0.0, rest_.motion) <= 1 &&
                      network_.energy(rest_.memory) + rest_.dissipated <= start + 1e-9 * std::abs(start);
-        found = found || solver_.minimise(network_, 0.0, still, rest_, progress_);
+        found = found || solver_.minimise(network_, 0.0, still, rest_, told_);
         const bool came_far = network_.reach_used(0.0, rest_.motion) > 1;
         const double left = network_.energy(rest_.memory) + rest_.dissipated;
         const bool came_down = left < energy - energy_rounding * start;
@@ -262,7 +270,7 @@ void StrainPath::jump(double increment, const Record& record) {
     velocity_.resize(0);
     const StrainPoint before = point_;
     Trial trial;
-    solver_.minimise(network_, increment, Motion::Zero(6 * network_.particles()), trial, progress_);
+    solver_.minimise(network_, increment, Motion::Zero(6 * network_.particles()), trial, told_);
     if (!std::isfinite(trial.rms_residual)) {
         give_up("by steps of strain as small as " + to_text(std::abs(increment)) + ", nor by a fall to lower energy,");
     }
@@ -278,8 +286,10 @@ void StrainPath::jump(double increment, const Record& record) {
 
 void StrainPath::go_to(double strain, const Record& record) {
     const double smallest = options_.smallest_step * largest_strain_;
+    const double way = std::abs(strain - network_.strain());
     while (!failure_ && std::abs(strain - network_.strain()) > 1e-13 * largest_strain_) {
-        progress_.update("shearing", std::min(1.0, std::abs(network_.strain()) / largest_strain_));
+        part_ = 1 - std::min(1.0, std::abs(strain - network_.strain()) / way);
+        tell();
         const double left = strain - network_.strain();
         const bool last = std::abs(left) <= step_ * (1 + 1e-9);
         const double increment = up_to_breakage(last ? left : std::copysign(step_, left));
@@ -293,6 +303,8 @@ void StrainPath::go_to(double strain, const Record& record) {
             step_ = 0.5 * length;
         }
     }
+    part_ = 0;
+    ++reached_;
 }
 
 /// New stiffness grows unstressed, so that no force changes; the network comes to rest again all the same.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace coagula::mechanics {
@@ -24,6 +25,11 @@ public:
 
     /// Follows the equilibria to a strain; `record` receives each of them, breakage of a bond giving one before and one after.
     void go_to(double strain, const std::function<void(const StrainPoint&)>& record);
+
+    /// How many calls of go_to() the whole run has, for its progress.
+    void expect(Index targets) { targets_ = targets; }
+    /// What is said beside the progress from here on, such as "cycle 2 of 3".
+    void remark(std::string text) { remark_ = std::move(text); }
 
     const StrainPoint& point() const { return point_; }
     const std::vector<BrokenBond>& broken() const { return broken_; }
@@ -56,11 +62,17 @@ private:
     Motion guess(double increment);
     void remember(const Trial& trial);
     void update_point();
+    void tell() const;
     [[noreturn]] void give_up(const std::string& what) const;
 
     QuasistaticOptions options_;
     double largest_strain_;
     const Progress& progress_;
+    Progress told_;  ///< what the solver says of itself, as that of the path
+    Index targets_ = 1;
+    Index reached_ = 0;  ///< targets
+    double part_ = 0;    ///< of the way to the next one
+    std::string remark_;
     SolverEffort effort_;
     ShearedNetwork network_;
     EquilibriumSolver solver_;

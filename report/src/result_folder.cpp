@@ -1,6 +1,7 @@
 #include <coagula/report/result_folder.hpp>
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/atomic_file.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -83,6 +84,13 @@ void ResultFolder::write(const std::string& name, const std::string& text) {
     if (!file) {
         throw std::runtime_error("cannot write " + (folder_ / name).string());
     }
+}
+
+void ResultFolder::keep(const std::string& name, const std::string& text) {
+    if (lock_ < 0) {
+        begin();
+    }
+    io::write_file((folder_ / name).string(), text, true);
 }
 
 void ResultFolder::publish() {

@@ -126,6 +126,18 @@ class Restart(ProgramTest):
         os.remove(self.folder / "pieces.h5")
         self.fail_with(2, *words, "--seed", "2", says="other options")
 
+    def test_a_checkpoint_goes_on_to_another_stop_time(self):
+        """With the samples as they began: the bytes are those of a run to the later time with the sample interval of the first."""
+        short = [*SUSPENSION, "--surface-potential", "12mV", "--checkpoint", "state.h5", "--checkpoint-interval", "0.01s"]
+        self.succeed(*short, "--stop-time", "0.4ms", "-o", "short.h5")
+        self.succeed(*short, "--stop-time", "0.8ms", "-o", "longer.h5")
+        self.fail_with(2, *short, "--stop-time", "0.1us", "-o", "x.h5", says=["the checkpoint is at", "after the stop time of"])
+        self.succeed(*short[:-4], "--stop-time", "0.8ms", "--sample-interval", "2us", "-o", "whole.h5")
+        longer, whole = data_sets(self.folder / "longer.h5"), data_sets(self.folder / "whole.h5")
+        self.assertEqual(longer.keys(), whole.keys())
+        for name in whole:
+            self.assertEqual(longer[name], whole[name], name)
+
     def test_a_checkpoint_belongs_to_one_run_at_a_time(self):
         words = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "1s", "--checkpoint", "state.h5", "--checkpoint-interval", "0s"]
         first = subprocess.Popen([PROGRAM, *words, "-o", "first.h5"], cwd=self.folder, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)

@@ -1,9 +1,11 @@
 """Quasi-static shear: keys, agreement with the linear response, options and models that are refused."""
 
 import math
+import subprocess
+import time
 import unittest
 
-from support import ProgramTest
+from support import PROGRAM, ProgramTest
 
 MODEL = """normal_strength = "12 nN"
 bending_stiffness = "3e-14 N.m"
@@ -31,6 +33,23 @@ class Quasistatic(ProgramTest):
         self.assertIn("seconds", found)
         for name in ("xy", "xz", "yx", "yz", "zx", "zy", "mean"):
             self.assertAlmostEqual(found["storage_modulus"][name] / linear["storage_modulus"][name], 1, delta=1e-3)
+
+    def test_a_killed_run_goes_on(self):
+        self.write("model.toml", MODEL)
+        for name, words in (("sweep", ["--amplitudes", "1e-4,1e-3", "--steps-per-cycle", "8"]), ("ramp", ["--ramp", "1e-3", "--ramp-steps", "8"])):
+            call = ["shear", "packing.h5", "--method", "quasistatic", "--model", "model.toml", "--orientation", "xy,zx", *words]
+            whole = self.succeed_json(*call, "-o", f"{name}_whole.h5")
+            checkpoint = f"{name}_state.h5"
+            running = subprocess.Popen([PROGRAM, *call, "-o", f"{name}.h5", "--checkpoint", checkpoint, "--quiet"], cwd=self.folder)
+            while running.poll() is None and not (self.folder / checkpoint).exists():
+                time.sleep(0.005)
+            running.kill()
+            running.wait()
+            again = self.succeed_json(*call, "-o", f"{name}.h5", "--checkpoint", checkpoint, "--force")
+            for entry in (whole, again):
+                del entry["seconds"], entry["output"]
+            self.assertEqual(again, whole)
+            self.fail_with(2, *call, "--cycles", "3", "-o", f"{name}.h5", "--force", "--checkpoint", checkpoint, says=[checkpoint, "other options"])
 
     def test_sweep_with_breakage(self):
         self.write("model.toml", MODEL)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -45,11 +46,13 @@ public:
             return;
         }
         constexpr int width = 30;
-        const double done = std::clamp(fraction, 0.0, 1.0);
+        begin(stage, now);
+        done_ = std::max(done_, std::clamp(fraction, 0.0, 1.0));
+        const double done = done_;
         std::string bar(static_cast<std::size_t>(done * width), '#');
         bar.resize(width, '.');
         const std::string line = std::string(stage) + " [" + bar + "] " + std::to_string(static_cast<int>(100 * done)) + " %  " +
-                                 estimate(stage, done, now) + std::string(remark);
+                                 estimate(now) + std::string(remark);
         std::fprintf(stderr, "\r%.100s\033[K", line.c_str());
         std::fflush(stderr);
         last_ = now;
@@ -59,24 +62,37 @@ public:
 private:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// From the pace since the stage began; empty in its first two seconds and as long as it has not moved.
-    std::string estimate(std::string_view stage, double done, Time now) {
-        if (stage != stage_ || done < first_done_) {
+    /// A stage begins where it goes on from, such as a checkpoint.
+    void begin(std::string_view stage, Time now) {
+        if (stage != stage_) {
             stage_ = stage;
-            first_done_ = done;
+            done_ = 0;
+            first_done_ = -1;
+            left_ = std::numeric_limits<double>::infinity();
             began_ = now;
         }
+    }
+
+    /// From the pace since the stage began; empty in its first two seconds and as long as it has not moved. It never grows: where
+    /// the work is slower than before, it waits.
+    std::string estimate(Time now) {
+        if (first_done_ < 0) {
+            first_done_ = done_;
+        }
         const std::chrono::duration<double> elapsed = now - began_;
-        if (elapsed.count() < 2 || done <= first_done_) {
+        if (elapsed.count() < 2 || done_ <= first_done_) {
             return "";
         }
-        return time_left(elapsed.count() * (1 - done) / (done - first_done_)) + "  ";
+        left_ = std::min(left_, elapsed.count() * (1 - done_) / (done_ - first_done_));
+        return time_left(left_) + "  ";
     }
 
     Time last_;
     bool drawn_ = false;
     std::string stage_;
-    double first_done_ = 0;
+    double done_ = 0;         ///< of the stage; the bar never goes back
+    double first_done_ = -1;  ///< when it began
+    double left_ = 0;         ///< as shown [s]
     Time began_;
 };
 

@@ -105,6 +105,31 @@ diagnose::DiagnosisOptions options_of(const Arguments& arguments) {
     return options;
 }
 
+constexpr double keeping_interval = 60;  // s
+constexpr const char* cache_name = "simulations.txt";
+
+/// Keeps what was simulated once a minute and when the user interrupts, so that the same call goes on from it.
+Progress keeping(const Progress& progress, ResultFolder& folder, const diagnose::SimulationCache& cache) {
+    return Progress([&progress, &folder, &cache, since = Stopwatch()](std::string_view stage, double fraction,
+                                                                      std::string_view remark) mutable {
+        try {
+            progress.update(stage, fraction, remark);
+        } catch (const Cancelled&) {
+            if (cache.empty()) {
+                throw;
+            }
+            folder.keep(cache_name, cache_text(cache));
+            throw std::runtime_error("interrupted: what was simulated so far is in " + (folder.path() / cache_name).string() +
+                                     ", and the same call goes on from it");
+        }
+        if (since.seconds() > keeping_interval) {
+            folder.keep(cache_name, cache_text(cache));
+            since = Stopwatch();
+        }
+        return true;
+    });
+}
+
 /// A diagnosis and all that its record needs.
 struct Diagnosed {
     CheckedExperiment checked;
@@ -143,8 +168,8 @@ struct Written {
 Written write_diagnosis(const Arguments& arguments, const std::string& path, const Progress& progress) {
     ResultFolder folder(path, "diagnosis.json", {"report.html", "diagnosis.h5", "extended_model.toml"}, arguments.flag("force"));
     const Stopwatch clock;
-    diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
-    const Diagnosed found = diagnosed(arguments, cache, progress);
+    diagnose::SimulationCache cache = read_cache(folder.path() / cache_name);
+    const Diagnosed found = diagnosed(arguments, cache, keeping(progress, folder, cache));
 
     const std::string model = found.contact.empty() ? "" : (folder.path() / "extended_model.toml").string();
     if (found.contact.empty()) {
@@ -162,7 +187,7 @@ Written write_diagnosis(const Arguments& arguments, const std::string& path, con
                                  found.notes()};
     folder.write("report.html", diagnosis_page(record));
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
-    folder.write("simulations.txt", cache_text(cache));
+    folder.write(cache_name, cache_text(cache));
     Json json = report::to_json(found.diagnosis, found.checked.noise, model);
     json["notes"] = record.notes;
     json["report"] = (folder.path() / "report.html").string();

@@ -71,18 +71,26 @@ Packing suspension_of(const Arguments& arguments, const BrownianOptions& run, co
         arguments.optional_quantity("equilibration-time").value_or(unset), progress);
 }
 
-/// What must be the same for a run to go on.
+/// What must be the same for a run to go on: everything but when it stops and where results go.
 std::string fingerprint(const Arguments& arguments) {
     Json options = arguments.to_json();
-    for (const char* name : {"output", "force", "quiet", "json", "threads", "checkpoint", "checkpoint-interval", "picture"}) {
+    for (const char* name : {"output", "force", "quiet", "json", "threads", "checkpoint", "checkpoint-interval", "picture",
+                             "stop-time", "stop-coordination"}) {
         options.erase(name);
     }
     return options.dump();
 }
 
+/// Samples that follow from the stop time go on as they began, whatever it is now. The first one is at time 0.
+void keep_sample_interval(const BrownianCheckpoint& checkpoint, BrownianOptions& options) {
+    if (std::isnan(options.sample_interval) && checkpoint.series.time.size() > 1) {
+        options.sample_interval = checkpoint.series.time[1];
+    }
+}
+
 /// The run, from its checkpoint if there is one.
 BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, const PairPotential& potential,
-                          const BrownianOptions& options, const Progress& progress) {
+                          BrownianOptions& options, const Progress& progress) {
     const std::string path = arguments.text("checkpoint", "");
     if (path.empty()) {
         return simulate_brownian(start, potential, options, progress);
@@ -92,6 +100,7 @@ BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, cons
     std::optional<BrownianCheckpoint> resumed;
     if (std::filesystem::exists(path)) {
         resumed = read_brownian_checkpoint(path, signature);
+        keep_sample_interval(*resumed, options);
     } else {
         check_output(path, false);
     }
@@ -214,7 +223,7 @@ Verb generate_brownian_verb() {
         quantity("sample-interval", "s", "of the time series; stop time/200 when not given", "", physical::time),
         text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),
         flag("heterogeneity", "measure the degree of heterogeneity at the start, at the snapshots and at the end"),
-        text("checkpoint", "FILE", "state of the run; a run that finds the file goes on from it"),
+        text("checkpoint", "FILE", "state of the run; a run that finds the file goes on from it, also to another stop time"),
         quantity("checkpoint-interval", "s", "between checkpoints, of wall-clock time", "60s", physical::duration),
         count("seed", "of the random numbers", "1", at_least(0)),
         output("HDF5 file to write"),

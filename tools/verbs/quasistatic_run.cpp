@@ -1,15 +1,23 @@
 #include "quasistatic_run.hpp"
 
 #include "broken_bonds.hpp"
+#include "cli/checkpoint_file.hpp"
+#include "cli/checkpoint_lock.hpp"
+#include "cli/output_file.hpp"
+#include "cli/progress_part.hpp"
 #include "logarithmic_sweep.hpp"
 #include "network_keys.hpp"
 #include "orientation_list.hpp"
+#include "quasistatic_checkpoint.hpp"
+#include "rheometer_run.hpp"
 
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/mechanics/quasistatic.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <iterator>
 #include <optional>
 
@@ -23,11 +31,7 @@ const std::string group = "/mechanics/quasistatic/";
 constexpr double small_strain = 1e-6;
 constexpr double yield_fraction = 0.9;
 
-struct Test {
-    ShearOrientation orientation;
-    mechanics::RampResponse ramp;
-    mechanics::SweepResponse sweep;
-};
+using Test = QuasistaticTest;
 
 double parse_strain(const std::string& word) {
     return parse_quantity(word, "1", physical::strain);
@@ -64,6 +68,35 @@ mechanics::RampOptions ramp_options(const Arguments& arguments, const ShearOrien
     return {.strain = arguments.optional_quantity("ramp").value_or(small_strain),
             .steps = arguments.has("ramp") ? arguments.count("ramp-steps") : 1,
             .solver = solver_options(arguments, orientation)};
+}
+
+/// All orientations, but for those that are finished in the checkpoint, if there is one.
+std::vector<Test> run_or_resume(const Arguments& arguments, const Packing& packing, const ContactModel& model,
+                                const Progress& progress, const std::function<void(Test&, const Progress&)>& run) {
+    const std::string path = arguments.text("checkpoint", "");
+    const std::string signature = path.empty() ? "" : run_signature(arguments, packing, model);
+    const std::vector<ShearOrientation> orientations = parse_orientations(arguments.text("orientation"));
+    std::optional<CheckpointLock> lock;
+    std::vector<Test> tests;
+    if (!path.empty()) {
+        lock.emplace(path);
+        if (std::filesystem::exists(path)) {
+            tests = read_quasistatic_checkpoint(path, signature);
+        } else {
+            check_output(path, false);
+        }
+    }
+    return with_checkpoint(path, [&] {
+        for (std::size_t k = tests.size(); k < orientations.size(); ++k) {
+            tests.push_back({orientations[k], {}, {}});
+            run(tests.back(),
+                part_of(progress, "shearing", k, orientations.size(), counted("orientation", k + 1, orientations.size())));
+            if (!path.empty()) {
+                write_quasistatic_checkpoint(path, signature, tests);
+            }
+        }
+        return tests;
+    });
 }
 
 std::vector<double> amplitudes_of(const Arguments& arguments) {
@@ -278,17 +311,15 @@ Findings quasistatic_response(const Arguments& arguments, const Packing& packing
     if (sweep && arguments.has("ramp")) {
         throw InputError("--amplitudes and --ramp exclude each other");
     }
-    std::vector<Test> tests;
     const std::vector<double> amplitudes = sweep ? amplitudes_of(arguments) : std::vector<double>{};
-    for (const ShearOrientation& orientation : parse_orientations(arguments.text("orientation"))) {
-        tests.push_back({orientation, {}, {}});
+    const std::vector<Test> tests = run_or_resume(arguments, packing, model, progress, [&](Test& test, const Progress& part) {
         if (sweep) {
-            const mechanics::SweepOptions options = sweep_options(arguments, amplitudes, frequencies, orientation);
-            tests.back().sweep = mechanics::sweep_amplitudes(packing, bonds, model, options, progress);
+            const mechanics::SweepOptions options = sweep_options(arguments, amplitudes, frequencies, test.orientation);
+            test.sweep = mechanics::sweep_amplitudes(packing, bonds, model, options, part);
         } else {
-            tests.back().ramp = mechanics::shear_to(packing, bonds, model, ramp_options(arguments, orientation), progress);
+            test.ramp = mechanics::shear_to(packing, bonds, model, ramp_options(arguments, test.orientation), part);
         }
-    }
+    });
     Findings found{.group = "/mechanics/quasistatic", .results = {}, .table = table_of(tests, sweep)};
     append_network(found.results, arguments, bonds, model);
     append_contact_stiffness(found.results, group, packing, bonds, model);

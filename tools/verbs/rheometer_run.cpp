@@ -2,6 +2,7 @@
 
 #include "cli/checkpoint_file.hpp"
 #include "cli/checkpoint_lock.hpp"
+#include "cli/progress_part.hpp"
 #include "network_keys.hpp"
 #include "orientation_list.hpp"
 #include "rheometer_checkpoint.hpp"
@@ -10,6 +11,7 @@
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -17,16 +19,33 @@ namespace coagula::tools {
 
 namespace {
 
-/// What must be the same for a run to go on: everything but where results go.
-std::string fingerprint(const Arguments& arguments, const Packing& packing, const ContactModel& model) {
+/// Of all orientations, with the oscillations counted; the runs name their orientation.
+Progress whole_test(const Progress& progress, const std::vector<mechanics::ShearOrientation>& orientations, int oscillations) {
+    return Progress([&progress, orientations, oscillations, reached = 0.0, said = std::string("coming to rest")](
+                        std::string_view stage, double fraction, std::string_view /*remark*/) mutable {
+        const auto count = orientations.size();
+        for (std::size_t k = 0; k < count; ++k) {
+            if (stage == "shear " + name_of(orientations[k])) {
+                reached = std::max(reached, (static_cast<double>(k) + fraction) / static_cast<double>(count));
+                const auto oscillation = std::min(static_cast<int>(fraction * oscillations) + 1, oscillations);
+                said = counted("orientation", k + 1, count) + ", " +
+                       counted("oscillation", static_cast<std::size_t>(oscillation), static_cast<std::size_t>(oscillations));
+            }
+        }
+        progress.update("shearing", reached, said);
+        return true;
+    });
+}
+
+}  // namespace
+
+std::string run_signature(const Arguments& arguments, const Packing& packing, const ContactModel& model) {
     nlohmann::ordered_json options = arguments.to_json();
     for (const char* name : {"output", "force", "quiet", "json", "threads", "checkpoint", "input", "model"}) {
         options.erase(name);
     }
     return options.dump() + "\n" + io::contact_model_text(model) + io::positions_sha256(packing);
 }
-
-}  // namespace
 
 std::vector<Option> rheometer_options() {
     return {choice("boundary", {"plates", "periodic"}, "dem: plates of three layers, or a periodic cell that is sheared", "plates"),
@@ -40,7 +59,9 @@ std::vector<Option> rheometer_options() {
             choice("rest-length", {"found", "radii"},
                    "dem, quasistatic: bonds are unstressed as found, or at a distance of r_i + r_j", "found"),
             text("orientation", "LIST", "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all", "all"),
-            text("checkpoint", "FILE", "dem: state after every oscillation; a run that finds the file goes on from it")};
+            text("checkpoint", "FILE",
+                 "dem, quasistatic: what is done after every oscillation, or orientation; a run that finds the file "
+                 "goes on from it")};
 }
 
 mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,
@@ -68,7 +89,7 @@ Findings rheometer_response(const Arguments& arguments, const Packing& packing, 
     const mechanics::RheometerOptions options = rheometer_options_of(arguments, model, frequencies);
     const auto orientations = parse_orientations(arguments.text("orientation"));
     const std::string path = arguments.text("checkpoint", "");
-    const std::string signature = path.empty() ? "" : fingerprint(arguments, packing, model);
+    const std::string signature = path.empty() ? "" : run_signature(arguments, packing, model);
 
     std::optional<CheckpointLock> lock;
     if (!path.empty()) {
@@ -85,8 +106,9 @@ Findings rheometer_response(const Arguments& arguments, const Packing& packing, 
             write_checkpoint(path, signature, checkpoint);
         };
     }
+    const Progress whole = whole_test(progress, orientations, options.oscillations);
     const mechanics::RheometerResult result =
-        with_checkpoint(path, [&] { return mechanics::run_rheometer(packing, bonds, options, orientations, progress, control); });
+        with_checkpoint(path, [&] { return mechanics::run_rheometer(packing, bonds, options, orientations, whole, control); });
     Findings found{.group = "/mechanics/dem",
                    .results = datasets_of(result, options, arguments.quantity("bond-tolerance")),
                    .table = table_of(result, options)};

@@ -17,6 +17,9 @@ namespace coagula::tools {
 /// What only this method needs.
 std::vector<Option> rheometer_options();
 
+/// What must be the same for a run to go on from its checkpoint: everything but where results go.
+std::string run_signature(const Arguments& arguments, const Packing& packing, const ContactModel& model);
+
 /// What the options say. @param frequencies at most one; empty: 1 Hz.
 mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,
                                                  const std::vector<double>& frequencies);

@@ -1,6 +1,8 @@
 #include <coagula/io/gsd_file.hpp>
 #include <coagula/io/input_file.hpp>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <map>
@@ -164,8 +166,8 @@ std::vector<double> values_of(const GsdFile& file, std::uint64_t frame, const st
         }
     }
     if (values.size() != count * columns) {
-        file.fail("'" + name + "' of frame " + std::to_string(frame) + " has " + std::to_string(values.size()) +
-                  " numbers, but " + std::to_string(count * columns) + " are expected");
+        file.fail("'" + name + "' of frame " + std::to_string(frame) + " has " + std::to_string(values.size()) + " numbers, but " +
+                  std::to_string(count * columns) + " are expected");
     }
     for (const double value : values) {
         if (!std::isfinite(value)) {
@@ -215,9 +217,9 @@ RawPacking read_frame(const GsdFile& file, std::uint64_t frame, double metres, b
     for (std::size_t i = 0; i < raw.coordinates.size(); ++i) {
         raw.coordinates[i] = raw.coordinates[i] * metres + corner[static_cast<Index>(i % 3)];
     }
-    for (const double diameter : values_of(file, frame, "particles/diameter", count, 1)) {
-        raw.radii.push_back(0.5 * diameter * metres);
-    }
+    const std::vector<double> diameters = values_of(file, frame, "particles/diameter", count, 1);
+    raw.radii.assign(count, 0.5 * metres);  // the default of the schema, which is not stored
+    std::transform(diameters.begin(), diameters.end(), raw.radii.begin(), [&](double value) { return 0.5 * value * metres; });
     const std::vector<double> time = file.numbers(frame, "log/coagula/time");
     raw.time = time.size() == 1 && std::isfinite(time[0]) ? time[0] : unset;
     return raw;

@@ -39,7 +39,8 @@ public:
     template <class T>
     void add(std::uint64_t frame, const std::string& name, const std::vector<T>& values, std::uint32_t columns = 1) {
         const auto location = static_cast<std::int64_t>(bytes_.size());
-        index_.push_back({frame, values.size() / columns, location, columns, number_of(name), static_cast<std::uint8_t>(type_of<T>()), 0});
+        index_.push_back(
+            {frame, values.size() / columns, location, columns, number_of(name), static_cast<std::uint8_t>(type_of<T>()), 0});
         append(values.data(), values.size() * sizeof(T));
     }
 
@@ -92,7 +93,8 @@ std::vector<float> centred(const Packing& packing, const Eigen::Matrix3Xd& posit
     std::vector<float> values;
     values.reserve(static_cast<std::size_t>(positions.size()));
     for (Index particle = 0; particle < positions.cols(); ++particle) {
-        const Eigen::Vector3d place = cell.is_periodic() ? cell.wrap(positions.col(particle)) : Eigen::Vector3d(positions.col(particle));
+        const Eigen::Vector3d place =
+            cell.is_periodic() ? cell.wrap(positions.col(particle)) : Eigen::Vector3d(positions.col(particle));
         for (int axis = 0; axis < 3; ++axis) {
             const auto half = static_cast<float>(0.5 * cell.lengths()[axis]);
             const auto value = static_cast<float>(place[axis] - middle[axis]);

@@ -11,8 +11,8 @@ namespace {
 class DataArray {
 public:
     DataArray(const std::string& type, const std::string& name, int components)
-        : text_("        <DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(components) +
-                "\" format=\"ascii\">\n") {}
+        : text_("        <DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                std::to_string(components) + "\" format=\"ascii\">\n") {}
     void line(const std::string& numbers) { text_ += numbers + '\n'; }
     std::string text() const { return text_ + "        </DataArray>\n"; }
 
@@ -65,12 +65,12 @@ void write_vtk(const std::string& path, const Structure& structure, bool overwri
             lines.push_back({structure.bonds->ends(0, bond), structure.bonds->ends(1, bond)});
         }
     }
-    const std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                             "header_type=\"UInt64\">\n  <PolyData>\n    <Piece NumberOfPoints=\"" +
-                             std::to_string(packing.size()) + "\" NumberOfVerts=\"" + std::to_string(vertices.size()) +
-                             "\" NumberOfLines=\"" + std::to_string(lines.size()) + "\">\n" + point_data(packing) +
-                             "      <Points>\n" + points.text() + "      </Points>\n" + cells_text("Verts", vertices) +
-                             cells_text("Lines", lines) + "    </Piece>\n  </PolyData>\n</VTKFile>\n";
+    const std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\">\n  <PolyData>\n    <Piece NumberOfPoints=\"" +
+        std::to_string(packing.size()) + "\" NumberOfVerts=\"" + std::to_string(vertices.size()) + "\" NumberOfLines=\"" +
+        std::to_string(lines.size()) + "\">\n" + point_data(packing) + "      <Points>\n" + points.text() + "      </Points>\n" +
+        cells_text("Verts", vertices) + cells_text("Lines", lines) + "    </Piece>\n  </PolyData>\n</VTKFile>\n";
     write_file(path, text, overwrite);
 }
 

@@ -199,7 +199,7 @@ TEST_F(TextFormats, BadOptions) {
     };
     ImportOptions options;
     options.box = box;
-    EXPECT_EQ(reading(options), path + " names no radii: give --radius (or a column 'radius')");
+    EXPECT_EQ(reading(options), path + " names no radii: give --radius (or a column 'radius' or 'diameter')");
     options.radius = -1;
     EXPECT_EQ(reading(options), path + ": the radius is -1 m, but must be finite and positive");
     options = in_box();

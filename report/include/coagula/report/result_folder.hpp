@@ -24,6 +24,8 @@ public:
     /// Where to write a file of this name until it is published.
     std::filesystem::path stage(const std::string& name);
     void write(const std::string& name, const std::string& text);
+    /// Writes a file at its place at once, for the next run to go on from should this one be killed.
+    void keep(const std::string& name, const std::string& text);
     /// What an earlier run left under this name is removed on publishing.
     void withdraw(const std::string& name) { withdrawn_.push_back(name); }
     void publish();

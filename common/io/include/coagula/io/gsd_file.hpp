@@ -10,8 +10,8 @@ namespace coagula::io {
 
 /// Reads particles/position, particles/diameter and the box, with the options and the rules for frames of read_frames. GSD has no
 /// units: lengths are in the unit that the file names in log/coagula/length_unit, as write_gsd does, or in `length_unit`. HOOMD
-/// knows periodic boxes only; a set with a free surface is told by log/coagula/periodic or by `open`. Throws InputError that names
-/// file and object.
+/// knows periodic boxes only, and diameters of 1 where a file has none; a set with a free surface is told by log/coagula/periodic
+/// or by `open`. Throws InputError that names file and object.
 ///
 /// Layout: https://gsd.readthedocs.io, "File layer" and "HOOMD Schema".
 Structure read_gsd(const std::string& path, const ImportOptions& options);
