@@ -80,7 +80,7 @@ function build(data: PageData): void {
       el("h2", {}, "All results"), ...resultTables(structures),
       el("h2", {}, "How these files were made"), ...structures.map((structure) => history(structure, structures.length > 1))),
     el("footer", { class: "soft" }, `Made by coagula ${data.version}.`));
-  Object.assign(window, { coagula: { views } });
+  Object.assign(window, { coagula: { views, ready: performance.now() } }); // for tests and scripts
 }
 
 async function main(): Promise<void> {

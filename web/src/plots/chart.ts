@@ -227,7 +227,7 @@ export class Chart {
         y: { distr: this.logY ? 3 : 1, range: (_, low, high) => this.rangeY(low, high, series, bars > 0) },
       },
       padding: [10, 14, 0, 0],
-      axes: [axis(this.spec.x.label, 28), axis(this.spec.y.label, 48)],
+      axes: [axis(this.spec.x.label, 28, this.logX), axis(this.spec.y.label, 48, this.logY)],
       series: [{}, ...series.map((one) => seriesOptions(one, one.kind === "bars" ? { number: bar++, of: bars } : { number: 0, of: 1 }))],
       hooks: {
         drawClear: [(plot) => this.drawBand(plot)],
@@ -247,7 +247,7 @@ export class Chart {
         const value = one.y[k];
         if (error !== null && value !== null && value !== undefined && value >= low && value <= high) {
           to = Math.max(to, value + error);
-          from = this.logY && value - error <= 0 ? from : Math.min(from, value - error);
+          from = Math.min(from, this.logY ? Math.max(value - error, 0.3 * value) : value - error); // a bar may reach beyond a logarithmic axis
         }
       });
     }
@@ -339,25 +339,39 @@ function fontFamily(): string {
   return getComputedStyle(document.body).fontFamily;
 }
 
-function axis(label: string, size: number): uPlot.Axis {
+function axis(label: string, size: number, logarithmic: boolean): uPlot.Axis {
   return {
     label, size, labelSize: 20, labelGap: 0, gap: 4, font: `12px ${fontFamily()}`, labelFont: `12.5px ${fontFamily()}`,
     stroke: () => colour("--ink"),
-    grid: { stroke: () => colour("--grid"), width: 1, filter: decades },
+    grid: { stroke: () => colour("--grid"), width: 1 },
     ticks: { stroke: () => colour("--rule"), width: 1, size: 5 },
     border: { show: true, stroke: () => colour("--rule"), width: 1 },
-    filter: decades,
+    filter: (_, splits) => splits,
+    splits: logarithmic ? (_plot, _axis, low, high) => logarithmicTicks(low, high) : undefined,
     values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : printed(tick, 3).replace(/^1 × /, ""))),
   };
 }
 
-/** On a logarithmic axis over several decades lines at the powers of ten are enough. */
-function decades(plot: uPlot, splits: number[], axisNumber: number): (number | null)[] {
-  const scale = plot.scales[axisNumber === 0 ? "x" : "y"]!;
-  if (scale.distr !== 3 || (scale.max ?? 1) / (scale.min ?? 1) < 50) {
-    return splits;
+/** Ticks of a logarithmic axis: powers of ten, over few decades also their multiples, over a part of one even steps. */
+export function logarithmicTicks(low: number, high: number): number[] {
+  const decades = Math.log10(high / low);
+  if (!(decades > 0.4) || !Number.isFinite(decades)) {
+    const step = niceStep((high - low) / 5);
+    const first = Math.ceil(low / step);
+    return Array.from({ length: Math.max(0, Math.min(20, Math.floor(high / step) - first + 1)) }, (_, k) => Number(((first + k) * step).toPrecision(12)));
   }
-  return splits.map((split) => (Math.abs(Math.log10(split) - Math.round(Math.log10(split))) < 1e-6 ? split : null));
+  const multiples = decades > 3 ? [1] : decades > 1.2 ? [1, 2, 5] : [1, 2, 3, 4, 5, 7];
+  const every = Math.ceil(decades / 9);
+  const ticks: number[] = [];
+  for (let exponent = Math.floor(Math.log10(low)); exponent <= Math.log10(high); exponent += every) {
+    ticks.push(...multiples.map((multiple) => Number(`${multiple}e${exponent}`)));
+  }
+  return ticks.filter((tick) => tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9));
+}
+
+function niceStep(rough: number): number {
+  const power = 10 ** Math.floor(Math.log10(rough));
+  return power * ([1, 2, 5, 10].find((multiple) => multiple * power >= rough) ?? 10);
 }
 
 function seriesOptions(series: Series, bar: { number: number; of: number }): uPlot.Series {

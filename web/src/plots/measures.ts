@@ -203,7 +203,8 @@ function withUnit(label: string, unit: string): string {
 }
 
 function title(path: string): string {
-  return path.split("/").slice(2).map(words).join(", ");
+  const text = path.split("/").slice(2).map(words).join(", ");
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /** A figure for each folder and unit of the data sets below `group` that no other figure shows. */
