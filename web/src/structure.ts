@@ -2,7 +2,8 @@
 
 import { numberAt, readPage, type PageData, type Structure } from "./data";
 import { el, printed, quantity } from "./dom";
-import { Chart, type ChartSpec } from "./plots/chart";
+import { Chart } from "./plots/chart";
+import type { ChartSpec } from "./plots/chart_spec";
 import { coordinationChart, forceChart, furtherCharts, poreChart, responseCharts } from "./plots/measures";
 import { elasticFigure } from "./plots/surface";
 import { differenceTable, history, resultTables } from "./tables";

@@ -4,7 +4,7 @@ import { listAt, numberAt, type Result, type Structure } from "../data";
 import { prefixOf, printed, words } from "../dom";
 import type { Model } from "../view/model";
 import type { Plane } from "../view/settings";
-import type { ChartSpec, Series } from "./chart";
+import type { ChartSpec, Series } from "./chart_spec";
 
 /** Colours of the structures, in their order. */
 const colours = ["--first", "--second", "--third", "--fourth", "--fifth", "--sixth"];
