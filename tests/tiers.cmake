@@ -17,7 +17,7 @@ set(coagula_slow_tests
   "StructureError[.].*"
   "StructureSeries[.].*"
   "Sedimentation[.].*"
-  "SolventDrag[.]IsNamed.*"
+  "SolventDrag[.](IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
   "SurfacePotential[.].*"
   "ThirdHarmonic[.](Of|Hertz).*"
   "VolumeFractionGradient[.].*"

@@ -52,4 +52,20 @@ SampledPores sample_pores(const Packing& packing, const Eigen::VectorXd& radius,
     return pores;
 }
 
+SampledCheck compare_with_samples(const Packing& packing, const PoreSizes& exact, Index points, std::uint64_t seed) {
+    SampledCheck check;
+    check.sampled = sample_pores(packing, exact.radius, points, seed);
+    check.largest_z = 0;
+    const auto trials = static_cast<double>(check.sampled.void_points);
+    for (Index k = 0; k < exact.radius.size(); ++k) {
+        const double p = exact.exclusion_probability[k];
+        if (trials * p * (1 - p) >= 25) {
+            const double z = (check.sampled.exclusion_probability[k] - p) / std::sqrt(p * (1 - p) / trials);
+            check.largest_z = std::max(check.largest_z, std::abs(z));
+            ++check.radii;
+        }
+    }
+    return check;
+}
+
 }  // namespace coagula::characterize

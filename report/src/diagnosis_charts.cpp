@@ -1,6 +1,6 @@
 #include "diagnosis_charts.hpp"
 
-#include "chart_axis.hpp"
+#include "page_axis.hpp"
 #include "html.hpp"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ const std::array<Pair, 5> pairs{{
 /// The rows of one table that belong to a pair, with the place of each along the axis.
 struct Shown {
     const Pair& pair;
-    ChartAxis x;
+    PageAxis x;
     std::vector<std::size_t> rows = {};  ///< of Diagnosis::rows
     std::vector<double> places = {};     ///< in the unit of the axis
 };
@@ -68,14 +68,14 @@ Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& dia
     return shown;
 }
 
-ChartAxis value_axis(const Shown& shown, const Diagnosis& diagnosis) {
+PageAxis value_axis(const Shown& shown, const Diagnosis& diagnosis) {
     double largest = 0;
     for (const std::size_t k : shown.rows) {
         largest = std::max(largest, diagnosis.rows[k].measured);
     }
-    ChartAxis y = shown.pair.of_moduli()                              ? modulus_axis(largest)
+    PageAxis y = shown.pair.of_moduli()                              ? modulus_axis(largest)
                   : shown.pair.scales() ? viscosity_axis(largest)
-                                        : ChartAxis{.label = shown.pair.label, .unit = shown.pair.unit};
+                                        : PageAxis{.label = shown.pair.label, .unit = shown.pair.unit};
     for (const std::size_t k : shown.rows) {
         const PredictedRow& row = diagnosis.rows[k];
         for (const double value : {row.measured, row.base}) {
@@ -125,7 +125,7 @@ Json points(const Shown& shown, const Diagnosis& diagnosis, std::size_t part) {
 /// Lines of the models below, what was measured above.
 Json data_chart(const Measurement& table, const Shown& shown, const Diagnosis& diagnosis, const std::string& cause) {
     static constexpr std::array colours = {"--third", "--fourth", "--fifth", "--sixth"};
-    const ChartAxis y = value_axis(shown, diagnosis);
+    const PageAxis y = value_axis(shown, diagnosis);
     Json series = Json::array();
     for (std::size_t part = 0; part < 2; ++part) {
         if (!has(shown, diagnosis, part)) {

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace coagula::report {
 
@@ -72,7 +73,28 @@ int spawn_gnuplot(const MemoryFile& commands, const MemoryFile& picture, const M
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
+/// gnuplot repeats the command before it says what is wrong with it.
+std::string last_line(std::string text) {
+    text.erase(text.find_last_not_of(" \n") + 1);
+    const std::size_t begin = text.rfind('\n');
+    text.erase(0, begin == std::string::npos ? 0 : text.find_first_not_of(' ', begin + 1));
+    return text;
+}
+
+/// The text without what stands in elements of this name: gnuplot names every curve, and a browser shows that under the mouse.
+std::string without(std::string text, const std::string& element) {
+    for (std::size_t begin = 0; (begin = text.find("<" + element + ">", begin)) != std::string::npos;) {
+        const std::size_t end = text.find("</" + element + ">", begin);
+        text.erase(begin, end == std::string::npos ? end : end + element.size() + 3 - begin);
+    }
+    return text;
+}
+
 }  // namespace
+
+std::string without_names(std::string svg) {
+    return without(without(std::move(svg), "title"), "desc");
+}
 
 GnuplotOutput run_gnuplot(const std::string& commands) {
     const MemoryFile script;
@@ -84,8 +106,7 @@ GnuplotOutput run_gnuplot(const std::string& commands) {
     if (status < 0 || status == 127) {
         output.problem = "gnuplot is not installed (Debian: apt-get install gnuplot-nox)";
     } else if (output.picture = status == 0 ? picture.text() : ""; output.picture.empty()) {
-        const std::string said = complaints.text();
-        output.problem = "gnuplot failed: " + said.substr(0, said.find('\n', 1));
+        output.problem = "gnuplot failed: " + last_line(complaints.text());
     }
     return output;
 }

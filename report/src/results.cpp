@@ -1,9 +1,7 @@
 #include <coagula/report/results.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace coagula::report {
@@ -49,21 +47,6 @@ Json nested(const std::vector<T>& values, const std::vector<std::size_t>& shape,
     return list;
 }
 
-/// The power of 1000 that brings a value between 1 and 1000, as an SI prefix between pico and giga.
-int thousands(double value) {
-    if (value == 0 || !std::isfinite(value)) {
-        return 0;
-    }
-    const int power = static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-9));
-    return std::min(std::max(power, -4), 3);
-}
-
-std::string digits(double value) {
-    std::array<char, 32> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.5g", value);
-    return buffer.data();
-}
-
 }  // namespace
 
 Json to_json(const io::Dataset& dataset) {
@@ -98,24 +81,6 @@ void check_finite(const Results& results) {
 
 void check_finite(const Json& json) {
     check_finite_below(json, "");
-}
-
-std::string with_unit(double value, const std::string& unit) {
-    if (unit == "1" || unit.empty()) {
-        return digits(value);
-    }
-    static constexpr std::array prefixes = {"p", "n", "u", "m", "", "k", "M", "G"};
-    const int power = unit == "m" || unit == "Pa" || unit == "N/m" ? thousands(value) : 0;
-    return digits(value / std::pow(1000.0, power)) + ' ' + prefixes[static_cast<std::size_t>(power + 4)] + unit;
-}
-
-std::string describe(const Cell& cell) {
-    const Eigen::Vector3d lengths = cell.lengths();
-    std::string text;
-    for (const double length : lengths) {
-        text += (text.empty() ? "" : " x ") + with_unit(length, "m");
-    }
-    return text + (cell.is_periodic() ? ", periodic" : ", open");
 }
 
 }  // namespace coagula::report

@@ -5,6 +5,7 @@
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
 #include "rheometer_run.hpp"
+#include "stages.hpp"
 
 #include <coagula/characterize/inner_particles.hpp>
 #include <coagula/common/contact_network.hpp>
@@ -61,14 +62,14 @@ mechanics::StiffnessSeriesOptions series_options(const Arguments& arguments) {
 }
 
 /// "1.5MPa,480kPa": one modulus for each structure.
-Moduli measured_moduli(const Arguments& arguments) {
+Moduli measured_moduli(const Arguments& arguments, std::size_t structures) {
     if (!arguments.has("measured")) {
         return std::nullopt;
     }
     const std::vector<std::string> words = split(arguments.text("measured"));
-    if (words.size() != arguments.inputs().size()) {
-        throw InputError("--measured has " + std::to_string(words.size()) + " moduli for " +
-                         std::to_string(arguments.inputs().size()) + " structures: each structure needs one");
+    if (words.size() != structures) {
+        throw InputError("--measured has " + std::to_string(words.size()) + " moduli for " + std::to_string(structures) +
+                         " structures: each structure needs one");
     }
     Eigen::VectorXd moduli(static_cast<Index>(words.size()));
     try {
@@ -90,14 +91,10 @@ StiffnessSeries measure(const Packing& packing, double bond_tolerance, mechanics
     return mechanics::measure_stiffness_series(packing, find_contacts(packing, bond_tolerance), options, progress);
 }
 
-/// Every file is read before the first series begins.
-Structures measure_all(const Arguments& arguments, const Progress& progress) {
+Structures measure_all(const Arguments& arguments, const std::vector<std::string>& names, const std::vector<Packing>& packings,
+                       const Progress& progress) {
     const mechanics::StiffnessSeriesOptions options = series_options(arguments);
-    Structures structures{.files = arguments.inputs(), .series = {}};
-    std::vector<Packing> packings;
-    for (const std::string& file : structures.files) {
-        packings.push_back(io::read_structure(file).packing);
-    }
+    Structures structures{.files = names, .series = {}};
     for (const Packing& packing : packings) {
         structures.series.push_back(measure(packing, arguments.quantity("bond-tolerance"), options, progress));
     }
@@ -160,6 +157,21 @@ Json to_json(const StiffnessCalibration& found, const Eigen::VectorXd& measured)
               {"stderr", to_json(found.common_stderr)},
               {"storage_modulus", to_json(found.modulus_at_common)},
               {"relative_difference", to_json(found.difference_at_common)}}}};
+}
+
+Json to_json(const Arguments& arguments, const Structures& structures, const std::optional<StiffnessCalibration>& found,
+             const Moduli& measured) {
+    Json json = {{"method", arguments.text("method")},
+                 {"bond_tolerance", arguments.quantity("bond-tolerance")},
+                 {"stiffness_ratio", arguments.quantity("stiffness-ratio")},
+                 {"normal_stiffness", to_json(structures.normal_stiffness())},
+                 {"shear_stiffness", to_json(structures.shear_stiffness())},
+                 {"structures", to_json(structures)}};
+    if (found) {
+        json["calibration"] = to_json(*found, *measured);
+    }
+    check_finite(json);
+    return json;
 }
 
 void append_series(Table& table, const Structures& structures) {
@@ -227,26 +239,25 @@ void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     const bool force = arguments.flag("force");
-    const Moduli measured = measured_moduli(arguments);
+    const Moduli measured = measured_moduli(arguments, arguments.inputs().size());
+    series_options(arguments);
     if (arguments.has("output")) {
         check_output(arguments.text("output"), force);
     }
-    const Structures structures = measure_all(arguments, progress);
+    // Every file is read before the first series begins.
+    std::vector<Packing> packings;
+    for (const std::string& file : arguments.inputs()) {
+        packings.push_back(io::read_structure(file).packing);
+    }
+    const Structures structures = measure_all(arguments, arguments.inputs(), packings, progress);
     const auto found = calibrate(structures, measured);
 
-    Json json = {{"method", arguments.text("method")},
-                 {"bond_tolerance", arguments.quantity("bond-tolerance")},
-                 {"stiffness_ratio", arguments.quantity("stiffness-ratio")},
-                 {"normal_stiffness", to_json(structures.normal_stiffness())},
-                 {"shear_stiffness", to_json(structures.shear_stiffness())},
-                 {"structures", to_json(structures)}};
+    Json json = to_json(arguments, structures, found, measured);
     Table table;
     append_series(table, structures);
     if (found) {
-        json["calibration"] = to_json(*found, *measured);
         append_calibration(table, structures, *found, *measured);
     }
-    check_finite(json);
     if (arguments.has("output")) {
         write_csv(arguments.text("output"), structures, force);
         json["output"] = arguments.text("output");
@@ -257,6 +268,13 @@ void run(const Arguments& arguments) {
 }
 
 }  // namespace
+
+Json calibrate_packings(const Arguments& arguments, const std::vector<std::string>& names, const std::vector<Packing>& packings,
+                        const Progress& progress) {
+    const Moduli measured = measured_moduli(arguments, packings.size());
+    const Structures structures = measure_all(arguments, names, packings, progress);
+    return to_json(arguments, structures, calibrate(structures, measured), measured);
+}
 
 Verb calibrate_verb() {
     Verb verb{

@@ -1,59 +1,47 @@
-// coagula characterize: coordination, pores, degree of heterogeneity and overlaps of a packing.
-#include "characterize_results.hpp"
+// coagula characterize: what the table of measures offers for a packing.
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "stages.hpp"
 
+#include <coagula/characterize/measure.hpp>
+#include <coagula/common/spelling.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
-#include <array>
-#include <set>
 
 namespace coagula::tools {
 
 namespace {
 
-constexpr std::array measures = {"coordination", "doh", "overlap", "pores"};
+using characterize::MeasureOption;
 
-std::set<std::string> chosen_measures(const Arguments& arguments) {
+/// The measures asked for by name; empty: those of a default run.
+std::vector<std::string> chosen_measures(const Arguments& arguments) {
     if (!arguments.has("only")) {
-        return {measures.begin(), measures.end()};
+        return {};
     }
-    std::set<std::string> chosen;
-    for (const std::string& name : split(arguments.text("only"))) {
-        if (std::find(measures.begin(), measures.end(), name) == measures.end()) {
-            throw InputError("--only: '" + name + "' is not one of coordination, doh, overlap, pores");
+    const std::vector<std::string> names = characterize::measure_names();
+    const std::vector<std::string> chosen = split(arguments.text("only"));
+    for (const std::string& name : chosen) {
+        if (name != "all" && std::find(names.begin(), names.end(), name) == names.end()) {
+            throw InputError("--only: '" + name + "' is not one of " + list_of(names) + ", all" + did_you_mean(name, names));
         }
-        chosen.insert(name);
     }
     return chosen;
 }
 
-Characterization measure(const Packing& packing, const Arguments& arguments, const Progress& progress) {
-    const std::set<std::string> chosen = chosen_measures(arguments);
-    Characterization found;
-    found.contact_tolerance = arguments.quantity("contact-tolerance");
-    if (chosen.contains("coordination")) {
-        found.coordination = characterize::measure_coordination(packing, {.contact_tolerance = found.contact_tolerance});
+std::map<std::string, double> option_values(const Arguments& arguments) {
+    std::map<std::string, double> values;
+    for (const MeasureOption& option : characterize::measure_options()) {
+        if (arguments.has(option.name)) {
+            values[option.name] =
+                option.unit.empty() ? static_cast<double>(arguments.count(option.name)) : arguments.quantity(option.name);
+        }
     }
-    if (chosen.contains("overlap")) {
-        found.overlaps = characterize::measure_overlaps(packing);
-    }
-    if (chosen.contains("pores") || chosen.contains("doh") || arguments.has("samples")) {
-        found.pores = characterize::measure_pores(packing, {.radii = arguments.count("radii")}, progress);
-    }
-    if (chosen.contains("doh")) {
-        found.heterogeneity = characterize::fit_degree_of_heterogeneity(*found.pores, mean_radius(packing));
-    }
-    if (arguments.has("samples")) {
-        progress.update("sampling", 0.0);
-        found.check = compare_with_samples(packing, *found.pores, arguments.count("samples"),
-                                           static_cast<std::uint64_t>(arguments.count("seed")));
-    }
-    return found;
+    return values;
 }
 
 void run(const Arguments& arguments) {
@@ -63,37 +51,72 @@ void run(const Arguments& arguments) {
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
 
-    const Characterization found = measure(packing, arguments, progress);
-    const Results results = datasets_of(found, packing);
-    check_finite(results);
+    Findings found = characterize_packing(arguments, packing, progress);
     progress.update("writing", 1.0);
-    io::add_results(arguments.input(), target, {"/characterization"}, std::nullopt, fields_of(found), results,
+    io::add_results(arguments.input(), target, {found.group}, std::nullopt, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));
 
-    Json json = to_json(results, "/characterization");
+    Json json = to_json(found.results, found.group);
     json["output"] = target;
     json["seconds"] = clock.seconds();
-    Table table = table_of(found, packing);
-    table.emplace_back("written to", target);
-    report(arguments, json, table);
+    found.table.emplace_back("written to", target);
+    report(arguments, json, found.table);
+}
+
+/// An option of a measure as an option of the program.
+Option to_option(const MeasureOption& option) {
+    const Range range = within(option.low, option.high);
+    const std::string fallback = option.fallback ? to_text(*option.fallback) : "";
+    return option.unit.empty() ? count(option.name, option.meaning, fallback, range)
+                               : quantity(option.name, option.unit, option.meaning, fallback, range);
+}
+
+std::vector<Option> all_options() {
+    std::vector<Option> options;
+    for (const MeasureOption& option : characterize::measure_options()) {
+        options.push_back(to_option(option));
+    }
+    options.push_back(text("only", "LIST", "measure only these (see below), such as doh,overlap; all: every measure"));
+    options.push_back(count("seed", "of random points", "1", at_least(0)));
+    options.push_back(output("write to a new file; results are added to the input file when not given"));
+    options.push_back(flag("force", "replace an existing output file"));
+    return options;
+}
+
+/// One line per measure for the help text.
+std::vector<std::string> measure_notes() {
+    std::vector<std::string> notes = {"Measures (* only if asked for by --only or by their option):"};
+    std::size_t width = 0;
+    for (const characterize::Measure& measure : characterize::measures()) {
+        width = std::max(width, measure.name.size());
+    }
+    for (const characterize::Measure& measure : characterize::measures()) {
+        notes.push_back((measure.by_default ? "    " : "  * ") + measure.name + std::string(width + 2 - measure.name.size(), ' ') +
+                        measure.summary);
+    }
+    return notes;
 }
 
 }  // namespace
 
+Findings characterize_packing(const Arguments& arguments, const Packing& packing, const Progress& progress) {
+    const characterize::MeasureInput input(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
+                                           progress);
+    characterize::MeasureResult found = characterize::run_measures(input, chosen_measures(arguments));
+    check_finite(found.datasets);
+    return {.group = "/characterization",
+            .results = std::move(found.datasets),
+            .fields = std::move(found.fields),
+            .table = std::move(found.lines)};
+}
+
 Verb characterize_verb() {
-    return {
-        .name = "characterize",
-        .summary = "coordination number, pore sizes, degree of heterogeneity, overlaps",
-        .input = "FILE.h5",
-        .options = {quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01",
-                             within(0, 1)),
-                    text("only", "LIST", "measure only these: coordination,doh,overlap,pores"),
-                    count("radii", "number of radii of the pore-size curve", "200", within(4, 100000)),
-                    count("samples", "also sample N random points, a check of the exact pore-size curve", "", within(100, 1e10)),
-                    count("seed", "of the random points", "1", at_least(0)),
-                    output("write to a new file; results are added to the input file when not given"),
-                    flag("force", "replace an existing output file")},
-        .run = run};
+    return {.name = "characterize",
+            .summary = "coordination number, pore sizes, degree of heterogeneity and other measures of a packing",
+            .input = "FILE.h5",
+            .options = all_options(),
+            .run = run,
+            .notes = measure_notes()};
 }
 
 }  // namespace coagula::tools

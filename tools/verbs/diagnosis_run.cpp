@@ -3,6 +3,7 @@
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
+#include "stages.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
@@ -104,6 +105,78 @@ diagnose::DiagnosisOptions options_of(const Arguments& arguments) {
     return options;
 }
 
+/// A diagnosis and all that its record needs.
+struct Diagnosed {
+    CheckedExperiment checked;
+    double radius;  ///< of the particles in the structures [m]; unset: there are none
+    std::vector<std::string> sentences;
+    diagnose::Diagnosis diagnosis;
+    std::string contact;  ///< of the best cause, as TOML; empty: none
+
+    std::vector<std::string> notes() const { return notes_on(checked.file.experiment, radius, checked.file.notes); }
+};
+
+Diagnosed diagnosed(const Arguments& arguments, diagnose::SimulationCache& cache, const Progress& progress) {
+    CheckedExperiment checked = check_experiment(arguments.input(), options_of(arguments));
+    Experiment& experiment = checked.file.experiment;
+    ExperimentStructures& structures = checked.structures;
+    naming(arguments.input(), [&] { make_structures(experiment, structures, progress); });
+
+    const double radius = structures.packings.empty() ? unset : mean_radius(structures.packings.front());
+    std::vector<std::string> sentences = structure_sentences(experiment, structures);
+    diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
+                                  experiment.structure_groups);
+    simulator.use(std::move(structures.stages));
+    diagnose::Diagnosis diagnosis =
+        naming(arguments.input(), [&] { return diagnose::diagnose(experiment, simulator, checked.options, progress); });
+    std::string contact = model_text(diagnosis, radius);
+    return {std::move(checked), radius, std::move(sentences), std::move(diagnosis), std::move(contact)};
+}
+
+/// What is printed, and what diagnosis.json says.
+struct Written {
+    Json json;
+    Table table;
+};
+
+/// Diagnoses, and writes everything into a folder.
+Written write_diagnosis(const Arguments& arguments, const std::string& path, const Progress& progress) {
+    ResultFolder folder(path, "diagnosis.json", {"report.html", "diagnosis.h5", "extended_model.toml"}, arguments.flag("force"));
+    const Stopwatch clock;
+    diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
+    const Diagnosed found = diagnosed(arguments, cache, progress);
+
+    const std::string model = found.contact.empty() ? "" : (folder.path() / "extended_model.toml").string();
+    if (found.contact.empty()) {
+        folder.withdraw("extended_model.toml");
+    } else {
+        folder.write("extended_model.toml", found.contact);
+    }
+    const DiagnosisRecord record{found.checked.file.experiment,
+                                 found.diagnosis,
+                                 found.checked.noise,
+                                 describe_call(arguments, nullptr, clock),
+                                 found.sentences,
+                                 found.checked.options.level,
+                                 model,
+                                 found.notes()};
+    folder.write("report.html", diagnosis_page(record));
+    io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
+    folder.write("simulations.txt", cache_text(cache));
+    Json json = report::to_json(found.diagnosis, found.checked.noise, model);
+    json["notes"] = record.notes;
+    json["report"] = (folder.path() / "report.html").string();
+    json["seconds"] = clock.seconds();
+    folder.write("diagnosis.json", json.dump(2) + "\n");
+    folder.publish();
+    Table table = table_of(found.diagnosis);
+    for (const std::string& note : record.notes) {
+        table.emplace_back("note", note);
+    }
+    table.emplace_back("written to", folder.path().string() + ", page for people: " + (folder.path() / "report.html").string());
+    return {std::move(json), std::move(table)};
+}
+
 }  // namespace
 
 std::vector<Option> diagnosis_options() {
@@ -115,49 +188,21 @@ std::vector<Option> diagnosis_options() {
 
 void run_diagnosis(const Arguments& arguments) {
     const Progress progress = make_progress(arguments.flag("quiet"));
-    ResultFolder folder(arguments.text("output"), "diagnosis.json", {"report.html", "diagnosis.h5", "extended_model.toml"},
-                        arguments.flag("force"));
+    const Written written = write_diagnosis(arguments, arguments.text("output"), progress);
+    report(arguments, written.json, written.table);
+}
+
+Json diagnose_experiment(const Arguments& arguments, const std::string& folder, const Progress& progress) {
+    if (!folder.empty()) {
+        return write_diagnosis(arguments, folder, progress).json;
+    }
     const Stopwatch clock;
-    CheckedExperiment checked = check_experiment(arguments.input(), options_of(arguments));
-    Experiment& experiment = checked.file.experiment;
-    ExperimentStructures& structures = checked.structures;
-    naming(arguments.input(), [&] { make_structures(experiment, structures, progress); });
-
-    diagnose::SimulationCache cache = read_cache(folder.path() / "simulations.txt");
-    const double radius = structures.packings.empty() ? unset : mean_radius(structures.packings.front());
-    const std::vector<std::string> sentences = structure_sentences(experiment, structures);
-    diagnose::Simulator simulator(std::move(structures.packings), std::move(structures.hashes), cache, progress,
-                                  experiment.structure_groups);
-    simulator.use(std::move(structures.stages));
-    const diagnose::Diagnosis diagnosis =
-        naming(arguments.input(), [&] { return diagnose::diagnose(experiment, simulator, checked.options, progress); });
-
-    const std::string contact = model_text(diagnosis, radius);
-    const std::string model = contact.empty() ? "" : (folder.path() / "extended_model.toml").string();
-    if (contact.empty()) {
-        folder.withdraw("extended_model.toml");
-    } else {
-        folder.write("extended_model.toml", contact);
-    }
-    const DiagnosisRecord record{experiment,    diagnosis,
-                                 checked.noise, describe_call(arguments, nullptr, clock),
-                                 sentences,     checked.options.level,
-                                 model,         notes_on(experiment, radius, checked.file.notes)};
-    folder.write("report.html", diagnosis_page(record));
-    io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
-    folder.write("simulations.txt", cache_text(cache));
-    Json json = report::to_json(diagnosis, checked.noise, model);
-    json["notes"] = record.notes;
-    json["report"] = (folder.path() / "report.html").string();
+    diagnose::SimulationCache cache;
+    const Diagnosed found = diagnosed(arguments, cache, progress);
+    Json json = report::to_json(found.diagnosis, found.checked.noise, "");
+    json["notes"] = found.notes();
     json["seconds"] = clock.seconds();
-    folder.write("diagnosis.json", json.dump(2) + "\n");
-    folder.publish();
-    Table table = table_of(diagnosis);
-    for (const std::string& note : record.notes) {
-        table.emplace_back("note", note);
-    }
-    table.emplace_back("written to", folder.path().string() + ", page for people: " + (folder.path() / "report.html").string());
-    report(arguments, json, table);
+    return json;
 }
 
 }  // namespace coagula::tools

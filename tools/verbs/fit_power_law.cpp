@@ -4,6 +4,7 @@
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "stages.hpp"
 
 #include <coagula/io/table.hpp>
 #include <coagula/mechanics/power_law.hpp>
@@ -35,10 +36,14 @@ PowerLawData read_data(const Arguments& arguments) {
     return {columns[0], columns[1], columns[2]};
 }
 
-PowerLawAnalysis analyse(const Arguments& arguments, const PowerLawData& data) {
+PowerLawAnalysis analyse(const Arguments& arguments, const PowerLawData& data, const Progress& progress) {
     const mechanics::PowerLawOptions options{.confidence = arguments.quantity("confidence"), .points = arguments.count("points")};
+    return mechanics::fit_power_law(data, options, progress);
+}
+
+PowerLawAnalysis analyse_file(const Arguments& arguments, const PowerLawData& data) {
     try {
-        return mechanics::fit_power_law(data, options, make_progress(arguments.flag("quiet")));
+        return analyse(arguments, data, make_progress(arguments.flag("quiet")));
     } catch (const std::invalid_argument& error) {
         throw InputError(arguments.input() + ": " + error.what());
     }
@@ -114,7 +119,7 @@ Json to_json(const mechanics::PowerLawProfile& profile) {
     return json;
 }
 
-Json to_json(const PowerLawAnalysis& found, const PowerLawData& data) {
+Json to_json(const PowerLawAnalysis& found, const PowerLawData& data, double confidence) {
     Json json = {{"structures", data.a.size()}, {"weighted", data.standard_error.size() > 0}};
     json.update(to_json(found.fit));
     json["summary"] = summary(found.fit);
@@ -128,6 +133,8 @@ Json to_json(const PowerLawAnalysis& found, const PowerLawData& data) {
     json["decisive_structure"] = found.decisive < 0 ? Json(nullptr) : Json(found.decisive + 1);
     json["profile"] = to_json(found.profile);
     json["data"] = {{"a", to_json(data.a)}, {"modulus", to_json(data.modulus)}, {"standard_error", to_json(data.standard_error)}};
+    json["confidence"] = confidence;
+    check_finite(json);
     return json;
 }
 
@@ -197,11 +204,9 @@ void run(const Arguments& arguments) {
         check_output(arguments.text("output"), force);
     }
     const PowerLawData data = read_data(arguments);
-    const PowerLawAnalysis found = analyse(arguments, data);
-    Json json = to_json(found, data);
-    json["confidence"] = arguments.quantity("confidence");
+    const PowerLawAnalysis found = analyse_file(arguments, data);
+    Json json = to_json(found, data, arguments.quantity("confidence"));
     Table table = table_of(found, data, arguments.quantity("confidence"));
-    check_finite(json);
     if (arguments.has("output")) {
         write_profile(arguments.text("output"), found.profile, data.standard_error.size() > 0 ? "1" : "Pa2", force);
         json["output"] = arguments.text("output");
@@ -212,6 +217,10 @@ void run(const Arguments& arguments) {
 }
 
 }  // namespace
+
+Json fit_power_law(const Arguments& arguments, const mechanics::PowerLawData& data, const Progress& progress) {
+    return to_json(analyse(arguments, data, progress), data, arguments.quantity("confidence"));
+}
 
 Verb fit_power_law_verb() {
     return {.name = "fit power-law",

@@ -10,6 +10,7 @@
 #include "cli/verbs.hpp"
 #include "potential_options.hpp"
 #include "size_distribution_text.hpp"
+#include "stages.hpp"
 
 #include <coagula/generators/coagulation.hpp>
 #include <coagula/io/structure_file.hpp>
@@ -54,13 +55,16 @@ BrownianOptions brownian_options(const Arguments& arguments) {
 }
 
 /// Random positions, brought to equilibrium at a high surface potential.
-Packing suspension_of(const Arguments& arguments, const BrownianOptions& run, const Progress& progress) {
+Packing suspension_of(const Arguments& arguments, const BrownianOptions& run, const Eigen::VectorXd& given,
+                      const Progress& progress) {
     if (!arguments.has("volume-fraction")) {
         throw InputError("coagula generate brownian needs --volume-fraction, or --start");
     }
     const Eigen::VectorXd radii =
-        draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
-                   arguments.count("particles"), run.seed);
+        given.size() > 0
+            ? given
+            : draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
+                         arguments.count("particles"), run.seed);
     return stabilised_suspension(
         {arguments.quantity("volume-fraction"), radii, run.seed},
         [&](double radius) { return make_potential(arguments, radius, arguments.quantity("equilibration-potential")); }, run,
@@ -123,6 +127,27 @@ void run(const Arguments& arguments) {
     }
     const std::string output = arguments.text("output");
     check_output(output, arguments.flag("force"));
+    Generated made = generate_brownian(arguments, start, {}, progress);
+    progress.update("writing", 1.0);
+    const Results& results = made.findings.results;
+    io::write_structure(output, made.structure, {}, results, describe_call(arguments, start ? &*start : nullptr, clock),
+                        arguments.flag("force"));
+    Json json = to_json(results, made.findings.group);
+    json["particles"] = made.structure.packing.size();
+    json["volume_fraction"] = volume_fraction(made.structure.packing);
+    json["seed"] = arguments.count("seed");
+    json["output"] = output;
+    json["seconds"] = clock.seconds();
+    Table& table = made.findings.table;
+    table.emplace_back("time", with_unit(clock.seconds(), "s"));
+    table.emplace_back("written to", output);
+    report(arguments, json, table);
+}
+
+}  // namespace
+
+Generated generate_brownian(const Arguments& arguments, const std::optional<Packing>& start, const Eigen::VectorXd& radii,
+                            const Progress& progress) {
     BrownianOptions options = brownian_options(arguments);
     if (std::isnan(options.stop_time) && std::isnan(options.stop_coordination) && options.stop_plateau == PlateauOf::nothing) {
         throw InputError("coagula generate brownian needs --stop-time, --stop-coordination or --stop-plateau");
@@ -130,43 +155,27 @@ void run(const Arguments& arguments) {
     if (arguments.text("hydrodynamics") == "mean-field" && (start || arguments.has("volume-fraction"))) {
         options.slowing *= mean_field_slowing(start ? volume_fraction(*start) : arguments.quantity("volume-fraction"));
     }
-    const std::optional<Packing> input = start;
-    if (!start) {
-        // Wrong options of the potential shall not wait for the equilibration.
-        if (!std::isnan(radius)) {
-            choose_time_step(make_potential(arguments, radius), radius, radius, options);
-        }
-        start = suspension_of(arguments, options, progress);
+    const double radius = radii.size() > 0 ? radii.mean() : arguments.optional_quantity("radius").value_or(unset);
+    // Wrong options of the potential shall not wait for the equilibration.
+    if (!start && !std::isnan(radius)) {
+        choose_time_step(make_potential(arguments, radius), radius, radius, options);
     }
-    const PairPotential potential = make_potential(arguments, mean_radius(*start));
-    const BrownianRun made = run_or_resume(arguments, *start, potential, options, progress);
+    const Packing first = start ? *start : suspension_of(arguments, options, radii, progress);
+    const PairPotential potential = make_potential(arguments, mean_radius(first));
+    BrownianRun made = run_or_resume(arguments, first, potential, options, progress);
 
-    progress.update("writing", 1.0);
-    io::Structure structure{made.packing, made.contacts, {}, made.time};
-    for (const Snapshot& snapshot : made.snapshots) {
-        structure.earlier.push_back({snapshot.time, snapshot.positions});
-    }
-    Results results = datasets_of(made, potential, options);
+    Findings found{.group = "/generation/brownian", .results = datasets_of(made, potential, options), .table = table_of(made)};
     if (arguments.flag("heterogeneity")) {
-        const Results measured = heterogeneity_of(made, *start, options, progress);
-        results.insert(results.end(), measured.begin(), measured.end());
+        const Results measured = heterogeneity_of(made, first, options, progress);
+        found.results.insert(found.results.end(), measured.begin(), measured.end());
     }
-    check_finite(results);
-    io::write_structure(output, structure, {}, results, describe_call(arguments, input ? &*input : nullptr, clock),
-                        arguments.flag("force"));
-    Json json = to_json(results, "/generation/brownian");
-    json["particles"] = made.packing.size();
-    json["volume_fraction"] = volume_fraction(made.packing);
-    json["seed"] = options.seed;
-    json["output"] = output;
-    json["seconds"] = clock.seconds();
-    Table table = table_of(made);
-    table.emplace_back("time", with_unit(clock.seconds(), "s"));
-    table.emplace_back("written to", output);
-    report(arguments, json, table);
+    check_finite(found.results);
+    io::Structure structure{std::move(made.packing), std::move(made.contacts), {}, made.time};
+    for (Snapshot& snapshot : made.snapshots) {
+        structure.earlier.push_back({snapshot.time, std::move(snapshot.positions)});
+    }
+    return {std::move(structure), std::move(found)};
 }
-
-}  // namespace
 
 Verb generate_brownian_verb() {
     std::vector<Option> options = {

@@ -5,6 +5,7 @@
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
 #include "size_distribution_text.hpp"
+#include "stages.hpp"
 
 #include <coagula/generators/void_expansion.hpp>
 #include <coagula/io/structure_file.hpp>
@@ -13,34 +14,43 @@ namespace coagula::tools {
 
 namespace {
 
-generators::VoidExpansionOptions expansion_options(const Arguments& arguments) {
+const std::string group = "/generation/vem/";
+
+generators::VoidExpansionOptions expansion_options(const Arguments& arguments, const Eigen::VectorXd& radii) {
     generators::VoidExpansionOptions options;
-    options.particles = arguments.count("particles");
+    options.particles = radii.size() > 0 ? radii.size() : arguments.count("particles");
     options.voids = arguments.has("voids") ? arguments.count("voids") : options.particles / 2;
     options.volume_fraction = arguments.quantity("volume-fraction");
     options.target_coordination = arguments.quantity("target-coordination");
     options.contact_tolerance = arguments.quantity("contact-tolerance");
     options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    options.radii =
-        generators::draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
-                               options.particles, options.seed);
+    options.radii = radii;
+    if (radii.size() == 0) {
+        options.radii = generators::draw_radii(
+            parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")), options.particles,
+            options.seed);
+    }
     return options;
 }
 
-Json to_json(const generators::VoidExpansion& made, const generators::VoidExpansionOptions& options) {
-    const Eigen::Vector3d box = made.packing.cell.lengths();
-    return {{"particles", made.packing.size()},
-            {"voids", options.voids},
-            {"volume_fraction", volume_fraction(made.packing)},
-            {"box", {box.x(), box.y(), box.z()}},
-            {"coordination", made.coordination},
-            {"target_coordination", options.target_coordination},
-            {"contact_tolerance", options.contact_tolerance},
-            {"overlap", {{"rms", made.overlap_rms}, {"max", made.overlap_max}}},
-            {"void_radius", made.void_radius},
-            {"increments", made.increments},
-            {"steps", made.steps},
-            {"seed", options.seed}};
+Results datasets_of(const generators::VoidExpansion& made, const generators::VoidExpansionOptions& options) {
+    const auto number = [](const std::string& name, double value, const std::string& unit, const std::string& description) {
+        return io::scalar(group + name, value, unit, description);
+    };
+    return {
+        io::integer(group + "particles", made.packing.size(), "number of particles"),
+        io::integer(group + "voids", options.voids, "number of void particles"),
+        number("volume_fraction", volume_fraction(made.packing), "1", "solid volume over the volume of the box"),
+        io::vector(group + "box", made.packing.cell.lengths(), "m", "edge lengths of the box"),
+        number("coordination", made.coordination, "1", "mean number of contacts of a particle, rattlers included"),
+        number("target_coordination", options.target_coordination, "1", "at which the expansion stops"),
+        number("contact_tolerance", options.contact_tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are in contact"),
+        number("overlap/rms", made.overlap_rms, "1", "root mean square overlap of the contacts over the mean diameter"),
+        number("overlap/max", made.overlap_max, "1", "largest overlap over the mean diameter"),
+        number("void_radius", made.void_radius, "m", "at which the voids were deleted"),
+        io::integer(group + "increments", made.increments, "of the void radius"),
+        io::integer(group + "steps", made.steps, "explicit time steps in all"),
+        io::integer(group + "seed", static_cast<std::int64_t>(options.seed), "of the random numbers")};
 }
 
 /// The expansion stops at the first packing that reaches the target. One sentence where that lies well above it, otherwise empty.
@@ -52,41 +62,52 @@ std::string overshoot(const generators::VoidExpansion& made, double target) {
                      with_unit(target, "1") + "; more particles or another seed come closer";
 }
 
-void run(const Arguments& arguments) {
-    const Stopwatch clock;
-    const Progress progress = make_progress(arguments.flag("quiet"));
-    const std::string output = arguments.text("output");
-    const bool force = arguments.flag("force");
-    check_output(output, force);
-    const generators::VoidExpansionOptions options = expansion_options(arguments);
-
-    const generators::VoidExpansion made = generators::expand_voids(options, progress);
-    Json json = to_json(made, options);
-    check_finite(json);
-    progress.update("writing", 1.0);
-    io::write_structure(output, {made.packing, made.contacts}, {}, {}, describe_call(arguments, nullptr, clock), force);
-
-    json["output"] = output;
-    json["seconds"] = clock.seconds();
-    Table table{
+Table table_of(const generators::VoidExpansion& made, const generators::VoidExpansionOptions& options) {
+    return {
         {"particles", std::to_string(made.packing.size()) + ", " + std::to_string(options.voids) + " voids"},
         {"box", describe(made.packing.cell)},
         {"volume fraction", with_unit(volume_fraction(made.packing), "1")},
         {"coordination number", with_unit(made.coordination, "1") + ", asked for " + with_unit(options.target_coordination, "1")},
         {"overlap",
          with_unit(100 * made.overlap_rms, "%") + " rms, " + with_unit(100 * made.overlap_max, "%") + " max of the diameter"},
-        {"void radius at the end", with_unit(made.void_radius, "m")},
-        {"time", with_unit(clock.seconds(), "s")},
-        {"written to", output}};
-    json["notes"] = Json::array();
-    if (const std::string note = overshoot(made, options.target_coordination); !note.empty()) {
-        json["notes"].push_back(note);
+        {"void radius at the end", with_unit(made.void_radius, "m")}};
+}
+
+void run(const Arguments& arguments) {
+    const Stopwatch clock;
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    const std::string output = arguments.text("output");
+    const bool force = arguments.flag("force");
+    check_output(output, force);
+    Generated made = generate_vem(arguments, {}, progress);
+    progress.update("writing", 1.0);
+    io::write_structure(output, made.structure, {}, {}, describe_call(arguments, nullptr, clock), force);
+
+    Json json = to_json(made.findings.results, made.findings.group);
+    json["output"] = output;
+    json["seconds"] = clock.seconds();
+    json["notes"] = made.findings.notes;
+    Table& table = made.findings.table;
+    table.emplace_back("time", with_unit(clock.seconds(), "s"));
+    table.emplace_back("written to", output);
+    for (const std::string& note : made.findings.notes) {
         table.emplace_back("note", note);
     }
     report(arguments, json, table);
 }
 
 }  // namespace
+
+Generated generate_vem(const Arguments& arguments, const Eigen::VectorXd& radii, const Progress& progress) {
+    const generators::VoidExpansionOptions options = expansion_options(arguments, radii);
+    generators::VoidExpansion made = generators::expand_voids(options, progress);
+    Findings found{.group = "/generation/vem", .results = datasets_of(made, options), .table = table_of(made, options)};
+    check_finite(found.results);
+    if (const std::string note = overshoot(made, options.target_coordination); !note.empty()) {
+        found.notes.push_back(note);
+    }
+    return {{std::move(made.packing), std::move(made.contacts)}, std::move(found)};
+}
 
 Verb generate_vem_verb() {
     return {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/arguments.hpp"
-#include "shear_findings.hpp"
+#include "findings.hpp"
 
 #include <coagula/common/contact_model.hpp>
 #include <coagula/common/contact_network.hpp>

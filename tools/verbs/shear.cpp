@@ -9,8 +9,8 @@
 #include "load_structure_results.hpp"
 #include "quasistatic_run.hpp"
 #include "rheometer_run.hpp"
-#include "shear_findings.hpp"
 #include "shear_results.hpp"
+#include "stages.hpp"
 
 #include <coagula/characterize/inner_particles.hpp>
 #include <coagula/common/contact_network.hpp>
@@ -150,37 +150,27 @@ Findings frequency_response(const Arguments& arguments, const Packing& packing, 
             .table = table_of(response)};
 }
 
+/// What needs no packing. Returns the contact.
+ContactModel check_options(const Arguments& arguments) {
+    const bool at_a_frequency = !frequencies_of(arguments).empty();
+    const ContactModel model = contact_model(arguments);
+    if (!at_a_frequency && arguments.text("method") == "linear") {
+        check_elastic(arguments, model);
+    }
+    return model;
+}
+
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
-    const std::vector<double> frequencies = frequencies_of(arguments);
-    const ContactModel model = contact_model(arguments);
-    const bool explicit_run = arguments.text("method") == "dem";
-    const bool quasistatic = arguments.text("method") == "quasistatic";
-    if (frequencies.empty() && !explicit_run && !quasistatic) {
-        check_elastic(arguments, model);
-    }
+    check_options(arguments);
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
 
-    const ContactNetwork bonds = find_contacts(packing, arguments.quantity("bond-tolerance"));
-    const auto rest = relaxed(arguments, packing, bonds, model, progress);
-    const Packing& sheared = rest ? rest->packing : packing;
-    const ContactNetwork& network = rest ? rest->bonds : bonds;
-    Findings found = explicit_run          ? rheometer_response(arguments, sheared, network, model, frequencies, progress)
-                     : quasistatic         ? quasistatic_response(arguments, sheared, network, model, frequencies, progress)
-                     : frequencies.empty() ? linear_response(arguments, packing, sheared, network, model, progress)
-                                           : frequency_response(arguments, sheared, network, model, frequencies, progress);
-    if (!explicit_run && !quasistatic) {
-        append_without_effect(found, model);
-    }
-    if (rest) {
-        append_relaxation(found.group, found.results, found.fields, *rest);
-    }
+    auto [bonds, found] = shear_packing(arguments, packing, progress);
     progress.update("writing", 1.0);
     Json json = to_json(found.results, found.group);
     std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
-    check_finite(found.results);
     io::add_results(arguments.input(), target, {found.group}, bonds, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"), found.bond_fields);
 
@@ -194,6 +184,30 @@ void run(const Arguments& arguments) {
 }
 
 }  // namespace
+
+Sheared shear_packing(const Arguments& arguments, const Packing& packing, const Progress& progress) {
+    const std::vector<double> frequencies = frequencies_of(arguments);
+    const ContactModel model = check_options(arguments);
+    const bool explicit_run = arguments.text("method") == "dem";
+    const bool quasistatic = arguments.text("method") == "quasistatic";
+    ContactNetwork bonds = find_contacts(packing, arguments.quantity("bond-tolerance"));
+    const auto rest = relaxed(arguments, packing, bonds, model, progress);
+    const Packing& sheared = rest ? rest->packing : packing;
+    const ContactNetwork& network = rest ? rest->bonds : bonds;
+    Findings found = explicit_run          ? rheometer_response(arguments, sheared, network, model, frequencies, progress)
+                     : quasistatic         ? quasistatic_response(arguments, sheared, network, model, frequencies, progress)
+                     : frequencies.empty() ? linear_response(arguments, packing, sheared, network, model, progress)
+                                           : frequency_response(arguments, sheared, network, model, frequencies, progress);
+    if (!explicit_run && !quasistatic) {
+        append_without_effect(found, model);
+    }
+    if (rest) {
+        append_relaxation(found.group, found.results, found.fields, *rest);
+    }
+    check_finite(found.results);
+    check_finite(found.bond_results);
+    return {std::move(bonds), std::move(found)};
+}
 
 Verb shear_verb() {
     Verb verb{

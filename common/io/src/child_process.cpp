@@ -1,5 +1,7 @@
 #include "child_process.hpp"
 
+#include "hdf5_file.hpp"
+
 #include <coagula/common/checks.hpp>
 
 #include <fcntl.h>
@@ -187,7 +189,10 @@ std::string run_in_child(const std::string& path, const Work& work) {
     const Descriptor from_child(ends[0]);
     Descriptor to_parent(ends[1]);
     const pid_t parent = getpid();
-    const pid_t child = fork();
+    const pid_t child = [] {
+        const hdf5::Turn turn;  // the child must not inherit a libhdf5 in the middle of another thread's work
+        return fork();
+    }();
     if (child < 0) {
         fail("cannot start a process to read " + path);
     }

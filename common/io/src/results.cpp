@@ -19,10 +19,6 @@ namespace {
 using hdf5::Content;
 using hdf5::File;
 
-std::size_t extent(Eigen::Index length) {
-    return static_cast<std::size_t>(length);
-}
-
 /// A template so that strings, which are no arrays, are told apart by overload.
 template <class T>
 void write_values(File& file, const Dataset& dataset, const std::vector<T>& values) {
@@ -64,46 +60,6 @@ void set_field(Provenance& entry, const std::string& name, const Dataset& datase
 }
 
 }  // namespace
-
-Dataset scalar(std::string path, double value, std::string unit, std::string description) {
-    return {std::move(path), {}, std::vector<double>{value}, std::move(unit), std::move(description)};
-}
-
-Dataset integer(std::string path, std::int64_t value, std::string description) {
-    return {std::move(path), {}, std::vector<std::int64_t>{value}, "1", std::move(description)};
-}
-
-Dataset text(std::string path, std::string value, std::string description) {
-    return {std::move(path), {}, std::move(value), "1", std::move(description)};
-}
-
-Dataset vector(std::string path, const Eigen::VectorXd& values, std::string unit, std::string description) {
-    return {std::move(path),
-            {extent(values.size())},
-            std::vector<double>(values.begin(), values.end()),
-            std::move(unit),
-            std::move(description)};
-}
-
-Dataset integers(std::string path, const Eigen::VectorXi& values, std::string description) {
-    return {std::move(path),
-            {extent(values.size())},
-            std::vector<std::int64_t>(values.begin(), values.end()),
-            "1",
-            std::move(description)};
-}
-
-Dataset columns(std::string path, const Eigen::MatrixXd& values, std::string unit, std::string description) {
-    return {std::move(path),
-            {extent(values.cols()), extent(values.rows())},
-            std::vector<double>(values.data(), values.data() + values.size()),
-            std::move(unit),
-            std::move(description)};
-}
-
-Dataset matrix(std::string path, const Eigen::MatrixXd& values, std::string unit, std::string description) {
-    return columns(std::move(path), values.transpose(), std::move(unit), std::move(description));
-}
 
 void write_dataset(File& file, const Dataset& dataset) {
     require(dataset.path.size() > 1 && dataset.path.starts_with('/') && !dataset.path.ends_with('/'),

@@ -15,4 +15,7 @@ struct GnuplotOutput {
 /// @param commands beginning with those that set the terminal.
 GnuplotOutput run_gnuplot(const std::string& commands);
 
+/// The SVG without gnuplot's names of curves, which a browser would show under the mouse.
+std::string without_names(std::string svg);
+
 }  // namespace coagula::report

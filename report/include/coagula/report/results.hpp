@@ -1,13 +1,12 @@
 // Results as data sets of a file, as a JSON object and as a short table for people.
 #pragma once
 
-#include <coagula/common/cell.hpp>
+#include <coagula/common/readable.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace coagula::report {
@@ -28,13 +27,8 @@ void check_finite(const Results& results);
 /// The same of results that are printed only. What may be missing is null in `json` already.
 void check_finite(const Json& json);
 
-/// A physical value for people: five digits, SI prefix for metres, pascals and newtons, "1.4123 MPa".
-std::string with_unit(double value, const std::string& unit);
-
-/// "10.9 x 10.9 x 10.9 um, periodic".
-std::string describe(const Cell& cell);
-
-/// Label and text of each line.
-using Table = std::vector<std::pair<std::string, std::string>>;
+using coagula::describe;
+using coagula::Table;
+using coagula::with_unit;
 
 }  // namespace coagula::report

@@ -1,0 +1,158 @@
+#include <coagula/characterize/measure.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace coagula::characterize {
+
+namespace {
+
+std::string path_of(const std::string& name) {
+    return "/characterization/" + name;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const Measure* find_measure(const std::string& name) {
+    const auto found = std::find_if(measures().begin(), measures().end(), [&](const Measure& one) { return one.name == name; });
+    return found == measures().end() ? nullptr : &*found;
+}
+
+/// What every file of results says first. Of an open packing only the inner part has a volume: that of the Voronoi cells in which
+/// pores were measured, if they were.
+MeasureResult packing_facts(const MeasureInput& input) {
+    const Packing& packing = input.packing();
+    const bool inner_only = !packing.cell.is_periodic() && input.has_pores();
+    const double fraction = inner_only ? 1 - input.pores().void_fraction : volume_fraction(packing);
+    const std::string meaning =
+        inner_only ? "solid volume over volume in the inner Voronoi cells"
+                   : std::string("solid volume over the volume of the ") + (packing.cell.is_periodic() ? "box" : "enclosing box");
+    MeasureResult facts;
+    facts.add_count("particles", packing.size(), "number of particles");
+    facts.add("volume_fraction", fraction, "1", meaning);
+    facts.add_vector("box", packing.cell.lengths(), "m", "edge lengths of the box");
+    facts.add("mean_radius", input.r0(), "m", "r0, by which reduced lengths are divided");
+    facts.add_line("particles", std::to_string(packing.size()));
+    facts.add_line("box", describe(packing.cell));
+    facts.add_line("volume fraction", with_unit(fraction, "1") + "   (" + meaning + ")");
+    return facts;
+}
+
+/// Names of the measures to be run. Those in `only` must not fail; the others of a default run may not apply.
+std::set<std::string> chosen_measures(const MeasureInput& input, const std::vector<std::string>& only) {
+    std::set<std::string> chosen;
+    const bool all = contains(only, "all");
+    for (const Measure& measure : measures()) {
+        const bool by_option = !measure.when_given.empty() && input.given(measure.when_given);
+        const bool wanted = only.empty() ? measure.by_default : contains(only, measure.name) || (all && measure.when_given.empty());
+        if (wanted || by_option) {
+            chosen.insert(measure.name);
+            chosen.insert(measure.along.begin(), measure.along.end());
+        }
+    }
+    return chosen;
+}
+
+}  // namespace
+
+void MeasureResult::add(const std::string& name, double value, const std::string& unit, const std::string& description,
+                        double standard_error) {
+    datasets.push_back(dataset::scalar(path_of(name), value, unit, description));
+    if (std::isfinite(standard_error)) {
+        datasets.push_back(dataset::scalar(path_of("uncertainty/" + name), standard_error, unit,
+                                           "standard error of " + name + " over structures of the same kind, from sub-volumes"));
+    }
+}
+
+void MeasureResult::add_count(const std::string& name, Index value, const std::string& description) {
+    datasets.push_back(dataset::integer(path_of(name), value, description));
+}
+
+void MeasureResult::add_text(const std::string& name, const std::string& value, const std::string& description) {
+    datasets.push_back(dataset::text(path_of(name), value, description));
+}
+
+void MeasureResult::add_vector(const std::string& name, const Eigen::VectorXd& values, const std::string& unit,
+                               const std::string& description) {
+    datasets.push_back(dataset::vector(path_of(name), values, unit, description));
+}
+
+void MeasureResult::add_counts(const std::string& name, const Eigen::VectorXi& values, const std::string& description) {
+    datasets.push_back(dataset::integers(path_of(name), values, description));
+}
+
+void MeasureResult::add_matrix(const std::string& name, const Eigen::MatrixXd& values, const std::string& unit,
+                               const std::string& description) {
+    datasets.push_back(dataset::matrix(path_of(name), values, unit, description));
+}
+
+void MeasureResult::add_field(const std::string& name, const Eigen::MatrixXd& values, const std::string& unit,
+                              const std::string& description) {
+    fields.push_back({name, values, unit, description});
+}
+
+void MeasureResult::add_line(const std::string& label, const std::string& text) {
+    lines.emplace_back(label, text);
+}
+
+void MeasureResult::append(const MeasureResult& other) {
+    datasets.insert(datasets.end(), other.datasets.begin(), other.datasets.end());
+    fields.insert(fields.end(), other.fields.begin(), other.fields.end());
+    lines.insert(lines.end(), other.lines.begin(), other.lines.end());
+}
+
+void require_applicable(bool condition, const std::string& sentence) {
+    if (!condition) {
+        throw NotApplicable(sentence);
+    }
+}
+
+std::vector<std::string> measure_names() {
+    std::vector<std::string> names;
+    for (const Measure& measure : measures()) {
+        names.push_back(measure.name);
+    }
+    return names;
+}
+
+std::vector<MeasureOption> measure_options() {
+    std::vector<MeasureOption> options;
+    for (const Measure& measure : measures()) {
+        for (const MeasureOption& option : measure.options) {
+            if (std::none_of(options.begin(), options.end(),
+                             [&](const MeasureOption& other) { return other.name == option.name; })) {
+                options.push_back(option);
+            }
+        }
+    }
+    return options;
+}
+
+MeasureResult run_measures(const MeasureInput& input, const std::vector<std::string>& only) {
+    for (const std::string& name : only) {
+        require(name == "all" || find_measure(name) != nullptr, "'" + name + "' is not one of " + list_of(measure_names()));
+    }
+    const std::set<std::string> chosen = chosen_measures(input, only);
+    MeasureResult found;
+    for (const Measure& measure : measures()) {
+        if (!chosen.contains(measure.name)) {
+            continue;
+        }
+        try {
+            found.append(measure.run(input));
+        } catch (const NotApplicable& reason) {
+            if (contains(only, measure.name)) {
+                throw NotApplicable(measure.name + ": " + reason.what());
+            }
+            found.add_line(measure.name, std::string("left out: ") + reason.what());
+        }
+    }
+    MeasureResult result = packing_facts(input);
+    result.append(found);
+    return result;
+}
+
+}  // namespace coagula::characterize

@@ -1,0 +1,40 @@
+// Measure: the exact pore-size curve held against random points.
+#include "measure_options.hpp"
+
+namespace coagula::characterize {
+
+Measure sampled_check_measure();
+
+namespace {
+
+MeasureResult run(const MeasureInput& input) {
+    require(input.has("samples"), "the sampled check needs the number of points, samples");
+    input.progress().update("sampling", 0.0);
+    const SampledCheck check = compare_with_samples(input.packing(), input.pores(), input.count("samples"), input.seed());
+    MeasureResult result;
+    result.add("sampled_check/largest_z", check.largest_z, "1",
+               "largest |sampled - exact| exclusion probability over its standard error");
+    result.add_count("sampled_check/radii", check.radii, "number of radii compared");
+    result.add_count("sampled_check/void_points", check.sampled.void_points, "random points that fell into the void space");
+    result.add_vector("sampled_check/exclusion_probability", check.sampled.exclusion_probability, "1",
+                      "sampled P(r_P > r) at the radii of pore_curve");
+    result.add_line("sampled check", "largest |z| " + with_unit(check.largest_z, "1") + " over " + std::to_string(check.radii) +
+                                         " radii, " + std::to_string(check.sampled.void_points) + " points");
+    return result;
+}
+
+}  // namespace
+
+Measure sampled_check_measure() {
+    return {.name = "sampled_check",
+            .summary = "random points against the exact pore-size curve",
+            .run = run,
+            .options = {radii_option(),
+                        pore_tolerance_option(),
+                        {"samples", "", "also sample N random points, a check of the exact pore-size curve", {}, 100, 1e10}},
+            .by_default = false,
+            .along = {"pores"},
+            .when_given = "samples"};
+}
+
+}  // namespace coagula::characterize

@@ -1,0 +1,34 @@
+"""Random sphere packings and coagulated particle gels: generate, characterize, shear, diagnose.
+
+    import coagula
+    made = coagula.generate_vem(particles=500, volume_fraction=0.4, radius="0.25um")
+    pores = coagula.characterize(made)
+    response = coagula.shear(made, normal_stiffness="100N/m")
+    print(pores.doh.a, response.storage_modulus.mean)
+    coagula.write("packing.h5", made, pores, response)
+
+All quantities are numbers in SI units, or texts with a unit: 2.5e-7 or "0.25um". Options have the names that they have in the program,
+with underscores; results have the names that they have in its files and JSON objects.
+"""
+
+import os as _os
+
+# As the program does: threads that wait for each other spin only for some microseconds before they sleep. libgomp reads this once.
+if "OMP_WAIT_POLICY" not in _os.environ:
+    _os.environ.setdefault("GOMP_SPINCOUNT", "3000")
+
+from ._coagula import Bonds, InputError, Packing
+from ._calls import (calibrate, characterize, diagnose, find_contacts, fit_degree_of_heterogeneity, fit_power_law,
+                     generate_brownian, generate_vem, shear)
+from ._files import ExistingFileError, MissingFileError, Structure, parse_quantity, read, write
+from ._results import Result
+from ._version import version as __version__
+
+__all__ = ["Bonds", "ExistingFileError", "InputError", "MissingFileError", "Packing", "Result", "Structure", "calibrate",
+           "characterize", "diagnose", "find_contacts", "fit_degree_of_heterogeneity", "fit_power_law", "generate_brownian",
+           "generate_vem", "parse_quantity", "read", "shear", "write"]
+
+InputError.__doc__ = "Input that cannot be used, in one sentence: the object, the value and the rule."
+for _public in (Bonds, InputError, Packing, Result, Structure, MissingFileError, ExistingFileError):
+    _public.__module__ = "coagula"
+del _public

@@ -1,0 +1,125 @@
+"""Keyword arguments of Python as the words of a command line; signatures and documentation from the program's table of options."""
+
+import inspect
+import keyword
+import numbers
+import os
+
+from . import _coagula
+
+_VERBS = _coagula.verbs()
+
+# What each call has besides the options of the verb.
+PROGRESS = "Called as progress(stage, fraction, remark) now and then, at most 20 times a second; what it raises stops the call."
+THREADS = "Number of threads; all cores when None."
+
+
+def _argument(option):
+    """The name in Python: underscores, and one behind it where it is a word of the language (from_)."""
+    name = option["name"].replace("-", "_")
+    return name + "_" if keyword.iskeyword(name) else name
+
+
+def _word(value):
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    try:
+        return ",".join(_word(item) for item in value)
+    except TypeError:
+        raise TypeError(f"{value!r} is neither a number nor a text, nor a list of them") from None
+
+
+def words(verb, given, threads=None):
+    """The words for the options given; None and False leave an option out."""
+    known = {_argument(option): option for option in _VERBS[verb]["options"]}
+    result = []
+    for name, value in given.items():
+        if name not in known:
+            raise TypeError(f"{verb}() has no argument '{name}'")
+        option = known[name]
+        if value is None or value is False:
+            continue
+        if option["kind"] == "flag":
+            if value is not True:
+                raise TypeError(f"{name} is True or False, not {value!r}")
+            result.append("--" + option["name"])
+        else:
+            result.append("--" + option["name"] + "=" + _word(value))
+    return result if threads is None else [*result, "--threads=" + _word(threads)]
+
+
+def call_text(verb, first, given):
+    """The call as it stands in Python, for the history of a file."""
+    def text(value):
+        shown = repr(value)
+        return shown if len(shown) < 200 else f"<{type(value).__name__}>"
+
+    parts = [*first, *(f"{name}={text(value)}" for name, value in given.items() if value is not None)]
+    return f"coagula.{verb}({', '.join(parts)})"
+
+
+def _default(option):
+    kind, text = option["kind"], option["default"]
+    if kind == "flag":
+        return False
+    if text == "":
+        return None
+    if kind == "count":
+        return int(text)
+    try:
+        return float(text) if kind == "quantity" else text
+    except ValueError:
+        return text
+
+
+def annotation(option):
+    """The type of an argument as a text, for the signature and the stubs."""
+    kinds = {"flag": "bool", "count": "int", "quantity": "float | str", "text": "str | Sequence[float | str]"}
+    kind = kinds[option["kind"]]
+    if option["choices"]:
+        kind = "Literal[" + ", ".join(repr(choice) for choice in option["choices"]) + "]"
+    return kind if option["required"] or option["kind"] == "flag" or option["default"] else kind + " | None"
+
+
+def _about(option):
+    facts = []
+    if option["unit"] not in ("", "1"):
+        facts.append("unit " + option["unit"])
+    if option["range"]:
+        facts.append("range " + option["range"])
+    return option["meaning"] + (f" [{'; '.join(facts)}]" if facts else "")
+
+
+def documented(verb, first=(), replaced=(), extra=(), returns="", notes=()):
+    """Decorator: signature and documentation of a function that takes the options of a verb.
+
+    first, extra: (name, annotation, default, meaning) of arguments before and after the options; a default of inspect.Parameter.empty
+    means that the argument is required. replaced: names of options that the function has in `extra` in another form, or has not.
+    """
+    def decorate(function):
+        table = _VERBS[verb]
+        options = [option for option in table["options"] if _argument(option) not in replaced]
+        parameters, lines = [], []
+        for name, kind, default, meaning in first:
+            parameters.append(inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default, annotation=kind))
+            lines += [f"{name} : {kind}", f"    {meaning}"]
+        for option in options:
+            name = _argument(option)
+            default = inspect.Parameter.empty if option["required"] else _default(option)
+            parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation(option)))
+            shown = "" if option["required"] else f", default {default!r}"
+            lines += [f"{name} : {annotation(option)}{shown}", f"    {_about(option)}"]
+        common = [("progress", "Callable[[str, float, str], object] | None", None, PROGRESS), ("threads", "int | None", None, THREADS)]
+        for name, kind, default, meaning in [*extra, *common]:
+            parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind))
+            lines += [f"{name} : {kind}, default {default!r}", f"    {meaning}"]
+        function.__signature__ = inspect.Signature(parameters, return_annotation=returns)
+        summary = table["summary"][0].upper() + table["summary"][1:] + "."
+        function.__doc__ = "\n".join([summary, "", inspect.cleandoc(function.__doc__ or ""), "", "Parameters", "----------", *lines])
+        return function
+
+    return decorate

@@ -1,0 +1,273 @@
+// The stages: each takes the words of a command line, read by the same table of options as that of the program.
+#include "values.hpp"
+
+#include <coagula/characterize/heterogeneity.hpp>
+#include <coagula/io/text_formats.hpp>
+#include <coagula/io/units.hpp>
+
+#include "cli/output_file.hpp"
+#include "cli/provenance.hpp"
+#include "cli/verbs.hpp"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace coagula::python {
+
+namespace {
+
+using tools::Arguments;
+using tools::Option;
+using tools::Verb;
+using Words = std::vector<std::string>;
+
+/// A verb without its files: what it works on comes from Python, and what it finds goes there. Options that name files to write or
+/// another way of working have no meaning.
+Verb in_memory(Verb verb, const std::set<std::string>& without) {
+    verb.input.clear();
+    verb.many_inputs = false;
+    std::erase_if(verb.options, [&](const Option& option) {
+        return option.name == "output" || option.name == "force" || without.contains(option.name);
+    });
+    return verb;
+}
+
+const std::map<std::string, Verb>& verbs() {
+    static const std::map<std::string, Verb> all = {
+        {"generate_vem", in_memory(tools::generate_vem_verb(), {})},
+        {"generate_brownian", in_memory(tools::generate_brownian_verb(), {"start", "potential-curve", "picture"})},
+        {"characterize", in_memory(tools::characterize_verb(), {})},
+        {"shear", in_memory(tools::shear_verb(), {})},
+        {"calibrate", in_memory(tools::calibrate_verb(), {})},
+        {"fit_power_law", in_memory(tools::fit_power_law_verb(), {"a", "modulus", "standard-error", "modulus-unit"})},
+        {"diagnose", tools::diagnose_verb()},
+        {"import", tools::import_verb()},
+    };
+    return all;
+}
+
+std::string kind_of(const Option& option) {
+    switch (option.kind) {
+        case Option::Kind::flag:
+            return "flag";
+        case Option::Kind::count:
+            return "count";
+        case Option::Kind::quantity:
+            return "quantity";
+        case Option::Kind::text:
+            break;
+    }
+    return "text";
+}
+
+/// The table of options for Python, which makes signatures and documentation of it.
+py::dict table_of_verbs() {
+    py::dict table;
+    for (const auto& [name, verb] : verbs()) {
+        py::list options;
+        for (const Option& option : verb.options) {
+            options.append(py::dict(py::arg("name") = option.name, py::arg("kind") = kind_of(option),
+                                    py::arg("placeholder") = option.placeholder, py::arg("meaning") = option.meaning,
+                                    py::arg("unit") = option.unit, py::arg("default") = option.fallback,
+                                    py::arg("range") = option.range.text(), py::arg("choices") = option.choices,
+                                    py::arg("required") = option.required));
+        }
+        table[name.c_str()] =
+            py::dict(py::arg("summary") = verb.summary, py::arg("options") = options, py::arg("notes") = verb.notes);
+    }
+    return table;
+}
+
+Arguments arguments_of(const std::string& verb, const Words& words) {
+    return {verbs().at(verb), words};
+}
+
+std::optional<int> threads_of(const Arguments& arguments) {
+    return arguments.has("threads") ? std::optional(static_cast<int>(arguments.count("threads"))) : std::nullopt;
+}
+
+/// The entry of the history that this call leaves. @param call as it stands in Python.
+io::Provenance provenance(const Arguments& arguments, const std::string& call, const Packing* input,
+                          const tools::Stopwatch& clock) {
+    io::Provenance entry = tools::describe_call(arguments, input, clock);
+    entry.command_line = call;
+    return entry;
+}
+
+template <class Make>
+std::shared_ptr<Stage> generated(const Arguments& arguments, const std::string& call, const Packing* input,
+                                 const py::object& progress, const Make& make) {
+    const tools::Stopwatch clock;
+    tools::Generated made = run(progress, threads_of(arguments), make);
+    auto stage = std::make_shared<Stage>();
+    stage->generated = true;
+    stage->findings = std::move(made.findings);
+    stage->packing = std::make_shared<Packing>(std::move(made.structure.packing));
+    if (made.structure.bonds) {
+        stage->bonds = std::make_shared<ContactNetwork>(std::move(*made.structure.bonds));
+    }
+    stage->earlier = std::move(made.structure.earlier);
+    stage->time = made.structure.time;
+    stage->provenance = provenance(arguments, call, input, clock);
+    return stage;
+}
+
+std::shared_ptr<Stage> generate_vem(const Words& words, const std::string& call, const Eigen::VectorXd& radii,
+                                    const py::object& progress) {
+    const Arguments arguments = arguments_of("generate_vem", words);
+    return generated(arguments, call, nullptr, progress,
+                     [&](const Progress& told) { return tools::generate_vem(arguments, radii, told); });
+}
+
+std::shared_ptr<Stage> generate_brownian(const Words& words, const std::string& call, const Eigen::VectorXd& radii,
+                                         const std::shared_ptr<Packing>& start, const py::object& progress) {
+    const Arguments arguments = arguments_of("generate_brownian", words);
+    return generated(arguments, call, start.get(), progress, [&](const Progress& told) {
+        return tools::generate_brownian(arguments, start ? std::optional(*start) : std::nullopt, radii, told);
+    });
+}
+
+std::shared_ptr<Stage> characterize(const Words& words, const std::string& call, const std::shared_ptr<Packing>& packing,
+                                    const py::object& progress) {
+    const tools::Stopwatch clock;
+    const Arguments arguments = arguments_of("characterize", words);
+    auto stage = std::make_shared<Stage>();
+    stage->findings = run(progress, threads_of(arguments),
+                          [&](const Progress& told) { return tools::characterize_packing(arguments, *packing, told); });
+    stage->provenance = provenance(arguments, call, packing.get(), clock);
+    return stage;
+}
+
+std::shared_ptr<Stage> shear(const Words& words, const std::string& call, const std::shared_ptr<Packing>& packing,
+                             const py::object& progress) {
+    const tools::Stopwatch clock;
+    const Arguments arguments = arguments_of("shear", words);
+    tools::Sheared sheared =
+        run(progress, threads_of(arguments), [&](const Progress& told) { return tools::shear_packing(arguments, *packing, told); });
+    auto stage = std::make_shared<Stage>();
+    stage->findings = std::move(sheared.findings);
+    stage->bonds = std::make_shared<ContactNetwork>(std::move(sheared.bonds));
+    stage->provenance = provenance(arguments, call, packing.get(), clock);
+    return stage;
+}
+
+std::string calibrate(const Words& words, const Words& names, const std::vector<std::shared_ptr<Packing>>& packings,
+                      const py::object& progress) {
+    const Arguments arguments = arguments_of("calibrate", words);
+    std::vector<Packing> values;
+    std::transform(packings.begin(), packings.end(), std::back_inserter(values), [](const auto& packing) { return *packing; });
+    return run(progress, threads_of(arguments),
+               [&](const Progress& told) { return tools::calibrate_packings(arguments, names, values, told); })
+        .dump();
+}
+
+std::string fit_power_law(const Words& words, const Eigen::VectorXd& a, const Eigen::VectorXd& modulus,
+                          const Eigen::VectorXd& standard_error, const py::object& progress) {
+    const Arguments arguments = arguments_of("fit_power_law", words);
+    return run(progress, threads_of(arguments),
+               [&](const Progress& told) {
+                   return tools::fit_power_law(arguments, {a, modulus, standard_error}, told);
+               })
+        .dump();
+}
+
+std::string diagnose(const Words& words, const std::string& folder, const py::object& progress) {
+    const Arguments arguments = arguments_of("diagnose", words);
+    return run(progress, threads_of(arguments),
+               [&](const Progress& told) { return tools::diagnose_experiment(arguments, folder, told); })
+        .dump();
+}
+
+py::dict fit_degree_of_heterogeneity(const Eigen::VectorXd& radius, const Eigen::VectorXd& exclusion_probability, double r0) {
+    if (radius.size() != exclusion_probability.size() || radius.size() < 2) {
+        throw InputError("a pore-size curve needs as many radii as exclusion probabilities, and at least four");
+    }
+    require_positive(r0, "r0", "m");
+    characterize::PoreSizes pores;
+    pores.radius = radius;
+    pores.exclusion_probability = exclusion_probability;
+    // Where the search begins: the area below the curve.
+    const Index intervals = radius.size() - 1;
+    pores.mean = 0.5 * (radius.tail(intervals) - radius.head(intervals))
+                           .dot(exclusion_probability.head(intervals) + exclusion_probability.tail(intervals));
+    const auto fit = characterize::fit_degree_of_heterogeneity(pores, r0);
+    return py::dict(py::arg("a") = fit.a, py::arg("b") = fit.b, py::arg("a_stderr") = fit.a_stderr,
+                    py::arg("b_stderr") = fit.b_stderr, py::arg("rms_residual") = fit.rms_residual);
+}
+
+void add_stage(const std::string& path, const Stage& stage) {
+    const tools::Findings& found = stage.findings;
+    tools::Results all = found.results;
+    all.insert(all.end(), found.bond_results.begin(), found.bond_results.end());
+    io::add_results(path, path, {found.group}, stage.bonds ? std::optional(*stage.bonds) : std::nullopt, found.fields, all,
+                    stage.provenance, true, found.bond_fields);
+}
+
+/// A file of a structure and of what stages found; each stage adds itself as the verbs of the program do.
+void write_file(const std::string& path, const std::shared_ptr<Packing>& packing, const std::shared_ptr<ContactNetwork>& bonds,
+                const std::vector<std::shared_ptr<Stage>>& stages, const std::string& call, bool overwrite) {
+    tools::check_output(path, overwrite);
+    io::Structure structure{*packing, bonds ? std::optional(*bonds) : std::nullopt};
+    io::Provenance history;
+    history.stage = "import";
+    history.command_line = call;
+    history.options = "{}";
+    history.version = tools::version_text();
+    tools::Results results;
+    auto next = stages.begin();
+    if (next != stages.end() && (*next)->generated) {
+        const Stage& first = **next++;
+        history = first.provenance;
+        structure.earlier = first.earlier;
+        structure.time = first.time;
+        if (first.findings.group != "/generation/vem") {
+            results = first.findings.results;
+        }
+    }
+    // All of it or nothing: written beside its place, and renamed.
+    const std::string beside = path + ".part";
+    try {
+        io::write_structure(beside, structure, {}, results, history, true);
+        for (; next != stages.end(); ++next) {
+            add_stage(beside, **next);
+        }
+        std::filesystem::rename(beside, path);
+    } catch (...) {
+        std::filesystem::remove(beside);
+        throw;
+    }
+}
+
+void write_text(const std::string& path, const std::shared_ptr<Packing>& packing, const std::shared_ptr<ContactNetwork>& bonds,
+                bool overwrite) {
+    tools::check_output(path, overwrite);
+    io::write_text(path, io::format_from_name(path), *packing, bonds ? std::optional(*bonds) : std::nullopt, overwrite);
+}
+
+}  // namespace
+
+void define_stages(py::module_& module) {
+    using namespace py::literals;
+    module.def("verbs", &table_of_verbs);
+    module.def("version", &tools::version_text);
+    module.def("parse_quantity", py::overload_cast<const std::string&, const std::string&>(&io::parse_quantity), "text"_a,
+               "unit"_a);
+    module.def("generate_vem", &generate_vem, "words"_a, "call"_a, "radii"_a, "progress"_a);
+    module.def("generate_brownian", &generate_brownian, "words"_a, "call"_a, "radii"_a, "start"_a, "progress"_a);
+    module.def("characterize", &characterize, "words"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("shear", &shear, "words"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("calibrate", &calibrate, "words"_a, "names"_a, "packings"_a, "progress"_a);
+    module.def("fit_power_law", &fit_power_law, "words"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a);
+    module.def("diagnose", &diagnose, "words"_a, "folder"_a, "progress"_a);
+    module.def("fit_degree_of_heterogeneity", &fit_degree_of_heterogeneity, "radius"_a, "exclusion_probability"_a, "r0"_a);
+    module.def("import_text",
+               [](const Words& words) { return std::make_shared<Packing>(tools::import_packing(arguments_of("import", words))); });
+    module.def("write_file", &write_file, "path"_a, "packing"_a, "bonds"_a, "stages"_a, "call"_a, "overwrite"_a);
+    module.def("write_text", &write_text, "path"_a, "packing"_a, "bonds"_a, "overwrite"_a);
+}
+
+}  // namespace coagula::python

@@ -1,0 +1,80 @@
+"""Errors are Python exceptions with the sentence of the program."""
+
+import unittest
+
+import coagula
+from support import VEM, ModuleTest, options
+
+
+class Sentences(ModuleTest):
+    def test_values(self):
+        for change in ({"radius": "1s"}, {"particles": 2}, {"volume_fraction": 0.7}, {"radius": 0.25}, {"size_distribution": "normal:x"},
+                       {"target_coordination": "nan"}):
+            given = {**VEM, **change}
+            done = self.run_program("generate", "vem", *options(given), "-o", "a.h5")
+            self.assertEqual(done.returncode, 2)
+            with self.assertRaises(coagula.InputError) as raised:
+                coagula.generate_vem(**given)
+            self.assertEqual(f"coagula: {raised.exception}\n", done.stderr)
+            self.assertIsInstance(raised.exception, ValueError)
+
+    def test_model(self):
+        made = self.made(particles=100, voids=50)
+        with self.assertRaisesRegex(coagula.InputError, "model has normal_viscosity, a loss that acts at a frequency only"):
+            coagula.shear(made, model={"normal_viscosity": "1e-6 N.s/m"})
+        with self.assertRaisesRegex(coagula.InputError, "^model.*stiffnes"):
+            coagula.shear(made, model={"normal_stiffnes": 1})
+
+    def test_unknown_names_and_types(self):
+        with self.assertRaisesRegex(TypeError, "generate_vem\\(\\) has no argument 'partcles'"):
+            coagula.generate_vem(partcles=3)
+        with self.assertRaises(TypeError):
+            coagula.shear("packing.h5")
+        with self.assertRaises(TypeError):
+            coagula.generate_vem(**{**VEM, "radius": object()})
+        with self.assertRaises(TypeError):
+            coagula.generate_brownian(heterogeneity=1)
+
+    def test_arrays(self):
+        for positions, radii, says in (([[0, 0]], 1, "shape"), ([[0.0, 0, 0]], [1, 2], "radii"), ([[0.0, 0, 0], [0, 0, float("nan")]], 1, "finite"),
+                                       ([[0.0, 0, 0], [1, 1, 1]], -1, "radius"), ([[0.0, 0, 0], [0, 0, 0]], 1, "centre")):
+            with self.assertRaisesRegex(coagula.InputError, says):
+                coagula.Packing(positions, radii, box=3)
+        with self.assertRaises(coagula.InputError):
+            coagula.Packing([[5.0, 1, 1]], 1, box=3)  # outside
+        with self.assertRaises(coagula.InputError):
+            coagula.fit_degree_of_heterogeneity([0, 1], [1, 0], 1)
+
+    def test_files(self):
+        with self.assertRaises(FileNotFoundError) as raised:
+            coagula.read("none.h5")
+        self.assertIsInstance(raised.exception, coagula.InputError)
+        self.assertEqual(f"coagula: {raised.exception}\n", self.run_program("info", "none.h5").stderr)
+        self.assertEqual(raised.exception.filename, "none.h5")
+        with self.assertRaises(FileNotFoundError):
+            coagula.read("none.xyz")
+        (self.folder / "bad.h5").write_bytes(b"no file of HDF5")
+        with self.assertRaises(coagula.InputError) as raised:
+            coagula.read("bad.h5")
+        self.assertNotIsInstance(raised.exception, OSError)
+        self.assertEqual(f"coagula: {raised.exception}\n", self.run_program("info", "bad.h5").stderr)
+        made = self.made(particles=100, voids=50)
+        coagula.write("a.h5", made)
+        with self.assertRaises(FileExistsError):
+            coagula.write("a.h5", made)
+        coagula.write("a.h5", made, overwrite=True)
+        with self.assertRaises(coagula.InputError):
+            coagula.write("none/a.h5", made)
+        with self.assertRaises(coagula.InputError):
+            coagula.write("a.doc", made)
+
+    def test_diagnosis(self):
+        (self.folder / "experiment.toml").write_text("title = 1\n")
+        with self.assertRaises(coagula.InputError) as raised:
+            coagula.diagnose("experiment.toml")
+        done = self.run_program("diagnose", "experiment.toml", "-o", "folder")
+        self.assertEqual(f"coagula: {raised.exception}\n", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

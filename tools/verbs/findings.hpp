@@ -1,0 +1,24 @@
+// What a verb finds.
+#pragma once
+
+#include "cli/report.hpp"
+
+#include <coagula/io/structure_file.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+/// For the file, for programs and for people.
+struct Findings {
+    std::string group;  ///< in the file
+    Results results;
+    std::vector<io::ParticleField> fields = {};
+    Table table;
+    Results bond_results = {};  ///< one value per bond each: for the file only
+    std::vector<io::BondField> bond_fields = {};
+    std::vector<std::string> notes = {};  ///< sentences that a user should know
+};
+
+}  // namespace coagula::tools

@@ -1,0 +1,56 @@
+// What the verbs compute, apart from the files that they read and write: for the verbs themselves and for the Python module.
+#pragma once
+
+#include "cli/arguments.hpp"
+#include "findings.hpp"
+
+#include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
+#include <coagula/io/structure_file.hpp>
+#include <coagula/io/text_formats.hpp>
+#include <coagula/mechanics/power_law.hpp>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+/// A structure that a generator made, and what is known of it.
+struct Generated {
+    io::Structure structure;
+    Findings findings;
+};
+
+/// @param radii N radii [m] instead of those that the options say; empty: none.
+Generated generate_vem(const Arguments& arguments, const Eigen::VectorXd& radii, const Progress& progress);
+
+/// @param start go on from this packing instead of a suspension. @param radii as above.
+Generated generate_brownian(const Arguments& arguments, const std::optional<Packing>& start, const Eigen::VectorXd& radii,
+                            const Progress& progress);
+
+Findings characterize_packing(const Arguments& arguments, const Packing& packing, const Progress& progress);
+
+/// Response of the network that is bonded as the options say, and that network.
+struct Sheared {
+    ContactNetwork bonds;
+    Findings findings;
+};
+Sheared shear_packing(const Arguments& arguments, const Packing& packing, const Progress& progress);
+
+/// The object that `coagula calibrate` prints. @param names of the structures, one each.
+Json calibrate_packings(const Arguments& arguments, const std::vector<std::string>& names, const std::vector<Packing>& packings,
+                        const Progress& progress);
+
+/// The object that `coagula fit power-law` prints.
+Json fit_power_law(const Arguments& arguments, const mechanics::PowerLawData& data, const Progress& progress);
+
+/// A packing from a text file as the options say.
+Packing import_packing(const Arguments& arguments);
+
+/// The object of diagnosis.json. @param folder where everything goes that `coagula diagnose` writes; empty: nothing is written.
+Json diagnose_experiment(const Arguments& arguments, const std::string& folder, const Progress& progress);
+
+}  // namespace coagula::tools
