@@ -57,6 +57,7 @@ class DiagnosisPage(ProgramTest):
             browser.open(self.folder / "results" / "report.html")
             self.assertEqual(browser.find("h1").text, "Loss & <b>gel</b></script>")
             self.assertEqual(browser.find_all("[data-chart]"), [], "a figure is missing")
+            browser.wait_for("return [...document.querySelectorAll('figure.chart')].every((chart) => chart.querySelector('.plot canvas'))")
             charts = browser.find_all("figure.chart")
             self.assertGreaterEqual(len(charts), 4)
             self.assertTrue(all(chart.find_elements("css selector", ".plot canvas") for chart in charts))
