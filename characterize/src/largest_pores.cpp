@@ -91,9 +91,8 @@ LargestPores find_largest_pores(const Packing& packing, const LargestPoreOptions
     check(packing);
     require(options.count > 0, "the number of pores is " + std::to_string(options.count) + ", but must be positive");
     const std::vector<bool> inner = inner_particles(packing);
-    const PowerDiagram diagram = packing.cell.is_periodic()
-                                     ? periodic_diagram(packing, packing.radii)
-                                     : open_diagram(packing, packing.radii, {inner.begin(), inner.end()});
+    const PowerDiagram diagram = packing.cell.is_periodic() ? periodic_diagram(packing, packing.radii)
+                                                            : open_diagram(packing, packing.radii, {inner.begin(), inner.end()});
     const bool equal = packing.radii.minCoeff() == packing.radii.maxCoeff();
     const auto enters_particle = [&](const Pore& pore) {
         for (Index i = 0; i < packing.size(); ++i) {

@@ -1,7 +1,7 @@
 #include "diagnosis_charts.hpp"
 
-#include "page_axis.hpp"
 #include "html.hpp"
+#include "page_axis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,12 @@ struct Pair {
 
 const std::array<Pair, 5> pairs{{
     {{"storage_modulus", "loss_modulus"}, {"G′", "G″"}, "Moduli", "", "|G*|"},
-    {{"third_harmonic_storage", "third_harmonic_loss"}, {"G₃′", "G₃″"}, "Third harmonic of the stress", "third over first harmonic [%]", "|G*|", 0.01},
+    {{"third_harmonic_storage", "third_harmonic_loss"},
+     {"G₃′", "G₃″"},
+     "Third harmonic of the stress",
+     "third over first harmonic [%]",
+     "|G*|",
+     0.01},
     {{"neighbours", ""}, {"neighbours", ""}, "Neighbours in shells of distance", "neighbours in a shell", "one neighbour"},
     {{"exclusion_probability", ""}, {"pores", ""}, "Pores", "share of the void space farther away", "the void space"},
     {{"viscosity", ""}, {"viscosity", ""}, "Viscosity in steady flow", "viscosity [Pa s]", "the viscosity"},
@@ -73,8 +78,8 @@ PageAxis value_axis(const Shown& shown, const Diagnosis& diagnosis) {
     for (const std::size_t k : shown.rows) {
         largest = std::max(largest, diagnosis.rows[k].measured);
     }
-    PageAxis y = shown.pair.of_moduli()                              ? modulus_axis(largest)
-                  : shown.pair.scales() ? viscosity_axis(largest)
+    PageAxis y = shown.pair.of_moduli() ? modulus_axis(largest)
+                 : shown.pair.scales()  ? viscosity_axis(largest)
                                         : PageAxis{.label = shown.pair.label, .unit = shown.pair.unit};
     for (const std::size_t k : shown.rows) {
         const PredictedRow& row = diagnosis.rows[k];
@@ -107,9 +112,8 @@ Json joined(Json first, const Json& second) {
 }
 
 bool has(const Shown& shown, const Diagnosis& diagnosis, std::size_t part) {
-    return std::any_of(shown.rows.begin(), shown.rows.end(), [&](std::size_t k) {
-        return diagnosis.rows[k].observable == shown.pair.observables.at(part);
-    });
+    return std::any_of(shown.rows.begin(), shown.rows.end(),
+                       [&](std::size_t k) { return diagnosis.rows[k].observable == shown.pair.observables.at(part); });
 }
 
 /// What the points of both observables have in common.
@@ -136,9 +140,9 @@ Json data_chart(const Measurement& table, const Shown& shown, const Diagnosis& d
                           curve(shown, diagnosis, part, [&](std::size_t k) { return factor * value(k) / y.unit; }));
         };
         const auto factor = [&](const auto& effects) { return factor_of(shown, effects, table.sample); };
-        series.push_back(joined(line("base model", "--base", factor(diagnosis.base_effects),
-                                     [&](std::size_t k) { return diagnosis.rows[k].base; }),
-                                {{"dashed", true}}));
+        series.push_back(joined(
+            line("base model", "--base", factor(diagnosis.base_effects), [&](std::size_t k) { return diagnosis.rows[k].base; }),
+            {{"dashed", true}}));
         if (!cause.empty()) {
             series.push_back(line("with " + cause, "--extended", factor(diagnosis.extended_effects),
                                   [&](std::size_t k) { return diagnosis.rows[k].extended; }));
@@ -171,9 +175,10 @@ Json residual_chart(const Shown& shown, const Diagnosis& diagnosis, const std::s
             continue;
         }
         const auto add = [&](const std::string& name, const std::string& colour, double PredictedRow::*residual) {
-            series.push_back(joined(joined(points(shown, diagnosis, part),
-                                           curve(shown, diagnosis, part, [&](std::size_t k) { return diagnosis.rows[k].*residual; })),
-                                    {{"name", name}, {"colour", colour}}));
+            series.push_back(
+                joined(joined(points(shown, diagnosis, part),
+                              curve(shown, diagnosis, part, [&](std::size_t k) { return diagnosis.rows[k].*residual; })),
+                       {{"name", name}, {"colour", colour}}));
         };
         add("base model", "--base", &PredictedRow::base_residual);
         if (!cause.empty()) {
@@ -214,7 +219,12 @@ Json gain_series(const Shown& shown, const Diagnosis& diagnosis, const std::stri
         }
         if (!x.empty()) {
             list.push_back({{"name", name}, {"kind", "line"}, {"colour", colour}, {"x", x}, {"y", y}, {"width", 1.4}});
-            list.push_back({{"name", name}, {"kind", "points"}, {"colour", colour}, {"shape", part == 0 ? "circle" : "triangle"}, {"x", x}, {"y", y}});
+            list.push_back({{"name", name},
+                            {"kind", "points"},
+                            {"colour", colour},
+                            {"shape", part == 0 ? "circle" : "triangle"},
+                            {"x", x},
+                            {"y", y}});
         }
     }
     return list;
@@ -267,12 +277,13 @@ std::string gain_charts(Charts& charts, const Measurement& table, std::size_t nu
             series.push_back(std::move(one));
         }
         if (!series.empty()) {
-            html += charts.place({{"title", table.label + ": rows held out"},
-                                  {"note", "Error of the prediction by models that have not seen these rows. Circles: " + pair.symbols[0] +
-                                               (pair.symbols[1].empty() ? "." : "; triangles: " + pair.symbols[1] + ".")},
-                                  {"x", shown.x.json()},
-                                  {"y", {{"label", "predicted less measured [% of " + pair.size + "]"}}},
-                                  {"series", std::move(series)}});
+            html += charts.place(
+                {{"title", table.label + ": rows held out"},
+                 {"note", "Error of the prediction by models that have not seen these rows. Circles: " + pair.symbols[0] +
+                              (pair.symbols[1].empty() ? "." : "; triangles: " + pair.symbols[1] + ".")},
+                 {"x", shown.x.json()},
+                 {"y", {{"label", "predicted less measured [% of " + pair.size + "]"}}},
+                 {"series", std::move(series)}});
         }
     }
     return html;
@@ -298,13 +309,14 @@ std::string detection_chart(Charts& charts, const Diagnosis& diagnosis, const st
         x.push_back(observed + 2 * width);
         counts.push_back(0);
     }
-    return charts.place({{"title", "Misfit of the data beside that of data drawn from the base model"},
-                         {"note", note},
-                         {"x", {{"label", "largest standardised misfit"}}},
-                         {"y", {{"label", "drawn data sets"}}},
-                         {"marks", {{{"x", observed}, {"label", "the data"}, {"colour", "--base"}}}},
-                         {"series", {{{"name", "drawn data sets"}, {"kind", "bars"}, {"colour", "--pale-bars"}, {"x", x}, {"y", counts}}}},
-                         {"height", 230}});
+    return charts.place(
+        {{"title", "Misfit of the data beside that of data drawn from the base model"},
+         {"note", note},
+         {"x", {{"label", "largest standardised misfit"}}},
+         {"y", {{"label", "drawn data sets"}}},
+         {"marks", {{{"x", observed}, {"label", "the data"}, {"colour", "--base"}}}},
+         {"series", {{{"name", "drawn data sets"}, {"kind", "bars"}, {"colour", "--pale-bars"}, {"x", x}, {"y", counts}}}},
+         {"height", 230}});
 }
 
 }  // namespace coagula::report

@@ -95,9 +95,10 @@ void add_predictions(Results& results, const Diagnosis& found) {
     numbers("base_residual", &PredictedRow::base_residual, "1", "standardised, effects of the samples taken out");
     numbers("extended_residual", &PredictedRow::extended_residual, "1", "standardised, effects of the samples taken out");
     for (const diagnose::OtherPrediction& other : found.others) {
-        results.push_back(io::vector(path + "others/" + other.cause,
-                                     Eigen::Map<const Eigen::VectorXd>(other.values.data(), static_cast<Index>(other.values.size())),
-                                     "Pa", "prediction with this cause, without the effect of the sample"));
+        results.push_back(
+            io::vector(path + "others/" + other.cause,
+                       Eigen::Map<const Eigen::VectorXd>(other.values.data(), static_cast<Index>(other.values.size())), "Pa",
+                       "prediction with this cause, without the effect of the sample"));
     }
 }
 

@@ -133,7 +133,8 @@ std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
         html += image_table(found, k, extended);
         html += table_charts(charts, table, k, found, extended);
         html += paragraph(
-            "Circles: elastic part or the quantity itself; triangles: viscous part; open: held out for the gain; bars: one standard "
+            "Circles: elastic part or the quantity itself; triangles: viscous part; open: held out for the gain; bars: one "
+            "standard "
             "deviation. " +
                 (effect == found.base_effects.end() || effect->effect == 0
                      ? std::string{}
@@ -305,7 +306,8 @@ std::string diagnosis_page(const DiagnosisRecord& record) {
         head += paragraph("Note: " + escaped(note) + ".", "soft");
     }
     if (diagnosis_script.empty()) {
-        head += paragraph("The figures are missing because this program was built without its pages (scripts/bundle-web).", "missing");
+        head +=
+            paragraph("The figures are missing because this program was built without its pages (scripts/bundle-web).", "missing");
     }
     Json data = {{"charts", charts.all()}, {"causes", Json::array()}};
     for (const Cause& cause : found.causes) {

@@ -138,8 +138,7 @@ std::string html_page(const std::string& title, const std::string& body, const s
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
            escaped(title) + "</title>\n<style>" + std::string(page_style) + "</style>\n</head>\n" +
-           (body_style.empty() ? "<body>\n" : "<body class=\"" + body_style + "\">\n") + body +
-           "</body>\n</html>\n";
+           (body_style.empty() ? "<body>\n" : "<body class=\"" + body_style + "\">\n") + body + "</body>\n</html>\n";
 }
 
 std::string page_data(const nlohmann::ordered_json& data, const std::string& arrays) {
@@ -149,7 +148,8 @@ std::string page_data(const nlohmann::ordered_json& data, const std::string& arr
 }
 
 std::string page_script(std::string_view script) {
-    return "<noscript><p class=\"missing\">This page draws its figures with JavaScript, which is switched off here.</p></noscript>\n"
+    return "<noscript><p class=\"missing\">This page draws its figures with JavaScript, which is switched off "
+           "here.</p></noscript>\n"
            "<script>" +
            std::string(script) + "</script>\n";
 }

@@ -110,7 +110,9 @@ Json results_json(const std::vector<io::Dataset>& results) {
                         {"unit", printable(dataset.unit)},
                         {"description", printable(dataset.description)},
                         {"shape", dataset.shape},
-                        {"value", is_long ? Json(nullptr) : text != nullptr ? Json(printable(*text)) : to_json(dataset)}});
+                        {"value", is_long           ? Json(nullptr)
+                                  : text != nullptr ? Json(printable(*text))
+                                                    : to_json(dataset)}});
     }
     return list;
 }

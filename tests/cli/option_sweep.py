@@ -41,6 +41,7 @@ CALLS = {
     "info": ["info packing.h5"],
     "import": ["import points.csv --radius 0.5um --box 8um -o made.h5", "import plain.csv --length-unit 1um --radius 0.5um --open -o made.h5"],
     "export": ["export packing.h5 --format csv -o made.csv"],
+    "report": ["report packing.h5 -o made.html"],
     "completion": ["completion bash"],
     "man": ["man shear"],
 }

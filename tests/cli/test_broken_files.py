@@ -17,8 +17,9 @@ BROWNIAN = ["generate", "brownian", "--particles", "20", "--volume-fraction", "0
 DEM = ["shear", "small.h5", "--method", "dem", "--boundary", "periodic", "--bond-tolerance", "0.5", "--oscillations", "2",
        "--steps-per-oscillation", "100", "--orientation", "xy", "-o", "made.h5", "--force", "--checkpoint"]
 VERBS = {"info": ["info"], "char": ["characterize"], "coord": ["characterize", "--only", "coordination"], "shear": ["shear"],
-         "export": ["export", "--format", "csv", "-o", "out.csv", "--force"], "ck_bck": BROWNIAN, "ck_dck": DEM}
-STRUCTURE_VERBS = ["info", "char", "coord", "shear", "export"]
+         "export": ["export", "--format", "csv", "-o", "out.csv", "--force"],
+         "report": ["report", "-o", "out.html", "--force"], "ck_bck": BROWNIAN, "ck_dck": DEM}
+STRUCTURE_VERBS = ["info", "char", "coord", "shear", "export", "report"]
 
 
 def verb_of(name):

@@ -1,6 +1,5 @@
 """A headless Chromium with a page of coagula, and what the tests of pages share."""
 
-import json
 import shutil
 import time
 import unittest
@@ -100,25 +99,4 @@ class Browser:
         return path.read_text(encoding="utf-8")
 
 
-def main():
-    """Screenshots at two widths: browser.py PAGE.html FOLDER"""
-    import base64
-    import sys
-    page, folder = Path(sys.argv[1]), Path(sys.argv[2])
-    folder.mkdir(parents=True, exist_ok=True)
-    with Browser() as browser:
-        browser.open(page)
-        for width in (1440, 420):
-            browser.set_width(width)
-            time.sleep(1)
-            browser.set_width(width, browser.run("return document.documentElement.scrollHeight"))
-            time.sleep(2)
-            data = browser.driver.execute_cdp_cmd("Page.captureScreenshot", {"format": "png"})["data"]
-            (folder / f"{page.stem}-{width}.png").write_bytes(base64.b64decode(data))
-        print(json.dumps(browser.console()))
-
-
 needs_browser = unittest.skipIf(why_no_browser(), why_no_browser() or "")
-
-if __name__ == "__main__":
-    main()

@@ -1,7 +1,7 @@
 // coagula report: one page with a view of the structures and all results of their files.
+#include "cli/report.hpp"
 #include "cli/output_file.hpp"
 #include "cli/provenance.hpp"
-#include "cli/report.hpp"
 #include "cli/verbs.hpp"
 
 #include <coagula/characterize/largest_pores.hpp>
@@ -69,8 +69,9 @@ Verb report_verb() {
             .input = "FILE.h5",
             .options = {required(output("page to write, such as report.html")),
                         count("pores", "how many of the largest pores can be shown", "50", within(0, 10000)),
-                        quantity("contact-tolerance", "1", "pairs nearer than (1 + this) (r_i + r_j) are drawn as bonds when the file has none",
-                                 "0.01", within(0, 1)),
+                        quantity("contact-tolerance", "1",
+                                 "pairs nearer than (1 + this) (r_i + r_j) are drawn as bonds when the file has none", "0.01",
+                                 within(0, 1)),
                         flag("force", "replace an existing page")},
             .run = run,
             .notes = {"The page opens without a network. Several files are compared side by side."},

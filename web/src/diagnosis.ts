@@ -2,7 +2,8 @@
 
 import { pageJson } from "./data";
 import { el, printed } from "./dom";
-import { Chart, type ChartSpec } from "./plots/chart";
+import { Chart } from "./plots/chart";
+import type { ChartSpec } from "./plots/chart_spec";
 import { themeButton } from "./theme";
 
 interface DiagnosisData {

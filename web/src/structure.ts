@@ -2,7 +2,8 @@
 
 import { numberAt, readPage, type PageData, type Structure } from "./data";
 import { el, printed, quantity } from "./dom";
-import { Chart, type ChartSpec } from "./plots/chart";
+import { Chart } from "./plots/chart";
+import type { ChartSpec } from "./plots/chart_spec";
 import { coordinationChart, forceChart, furtherCharts, poreChart, responseCharts } from "./plots/measures";
 import { elasticFigure } from "./plots/surface";
 import { differenceTable, history, resultTables } from "./tables";
@@ -80,7 +81,7 @@ function build(data: PageData): void {
       el("h2", {}, "All results"), ...resultTables(structures),
       el("h2", {}, "How these files were made"), ...structures.map((structure) => history(structure, structures.length > 1))),
     el("footer", { class: "soft" }, `Made by coagula ${data.version}.`));
-  Object.assign(window, { coagula: { views } });
+  Object.assign(window, { coagula: { views, ready: performance.now() } }); // for tests and scripts
 }
 
 async function main(): Promise<void> {

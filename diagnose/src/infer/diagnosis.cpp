@@ -99,13 +99,12 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
     }
 }
 
-/// Predictions of the causes after the best one, as long as they are not improbable.
+/// Predictions of the causes after the best one, also improbable ones: one sees where they miss the data.
 void predict_others(const Inference& inference, const std::string& best, Diagnosis& diagnosis) {
-    constexpr double improbable = 0.001;
     constexpr std::size_t most = 4;
     for (const Cause& cause : diagnosis.causes) {
         const bool is_model = !cause.parameters.empty() && cause.name != diagnosis.base.name && cause.name != best;
-        if (is_model && cause.posterior >= improbable && diagnosis.others.size() < most) {
+        if (is_model && diagnosis.others.size() < most) {
             const Prediction prediction = inference.forward().prediction(cause.model);
             const Eigen::VectorXd values = inference.fitted(prediction);
             diagnosis.others.push_back({cause.name, {values.begin(), values.end()}, effects_of(inference.errors(), prediction)});

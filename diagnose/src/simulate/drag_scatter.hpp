@@ -11,9 +11,10 @@ struct DragScatter {
     double degrees;          ///< of freedom from which their common scale is known
 };
 
-/// Nearly floppy motions are few in a structure, and slow ones fewer. So the scatter falls with the reduced drag and with the number
-/// of particles, and it is smooth along the logarithm of the drag. Structures alone say too little about it: two of them know one
-/// shape of many. Hence the stated scatter is that of 134 structures by void expansion, and the structures at hand correct its scale.
+/// Nearly floppy motions are few in a structure, and slow ones fewer. So the scatter falls with the reduced drag and with the
+/// number of particles, and it is smooth along the logarithm of the drag. Structures alone say too little about it: two of them
+/// know one shape of many. Hence the stated scatter is that of 134 structures by void expansion, and the structures at hand correct
+/// its scale.
 ///
 /// @param drags reduced ones at the nodes, equally spaced in the logarithm.
 /// @param particles mean number in a structure.

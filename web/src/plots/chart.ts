@@ -3,112 +3,8 @@
 import uPlot from "uplot";
 import { download, el, printed } from "../dom";
 import { colour, onTheme } from "../theme";
-
-export interface Series {
-  name: string;
-  kind: "line" | "points" | "bars";
-  /** A colour of the style sheet, such as "--first". */
-  colour: string;
-  x: number[];
-  y: (number | null)[];
-  /** One standard deviation of each y. */
-  error?: (number | null)[];
-  /** Points that are drawn open, such as held-out data. */
-  open?: boolean[];
-  shape?: "circle" | "triangle";
-  dashed?: boolean;
-  width?: number;
-  hidden?: boolean;
-}
-
-export interface Axis {
-  label: string;
-  logarithmic?: boolean;
-}
-
-export interface ChartSpec {
-  title: string;
-  /** HTML-free text below the figure. */
-  note?: string;
-  x: Axis;
-  y: Axis;
-  series: Series[];
-  /** Lines across the figure at values of x, with a word. */
-  marks?: { x: number; label: string; colour: string }[];
-  /** A grey band between two values of y. */
-  band?: [number, number];
-  height?: number;
-  /** Symmetric about zero, such as residuals. */
-  zero?: boolean;
-}
-
-interface Table {
-  x: number[];
-  columns: (number | null)[][];
-  /** Place in its own arrays of each entry of a column; -1 where there is none. */
-  origin: Int32Array[];
-}
-
-/** All series on one list of x. Several points of a series at one x keep places of their own. */
-export function joined(series: Series[]): Table {
-  const entries = series.flatMap((one, s) => one.x.map((x, k) => ({ x, s, k }))).filter(({ x }) => Number.isFinite(x));
-  entries.sort((a, b) => a.x - b.x || a.k - b.k || a.s - b.s);
-  const x: number[] = [];
-  const places: number[][] = [];
-  let group = 0; // first row with the present x
-  for (const entry of entries) {
-    if (x.length === 0 || x[x.length - 1] !== entry.x) {
-      group = x.length;
-    }
-    let row = group;
-    while (row < x.length && places[row]![entry.s] !== undefined) {
-      ++row;
-    }
-    if (row === x.length) {
-      x.push(entry.x);
-      places.push([]);
-    }
-    places[row]![entry.s] = entry.k;
-  }
-  const origin = series.map((_, s) => Int32Array.from(places, (place) => place[s] ?? -1));
-  const columns = series.map((one, s) => Array.from(origin[s]!, (k) => (k < 0 ? null : (one.y[k] ?? null))));
-  return { x, columns, origin };
-}
-
-function field(text: string): string {
-  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
-}
-
-/** The numbers of a figure as a table; errors beside their values. */
-export function csvOf(spec: ChartSpec): string {
-  const table = joined(spec.series);
-  const head = [spec.x.label, ...spec.series.flatMap((one) => [one.name, ...(one.error ? [`${one.name}: standard deviation`] : []),
-    ...(one.open?.some((open) => open) ? [`${one.name}: held out`] : [])])];
-  const rows = table.x.map((x, row) => [x, ...spec.series.flatMap((one, s) => {
-    const k = table.origin[s]![row]!;
-    return [table.columns[s]![row] ?? "", ...(one.error ? [k < 0 ? "" : (one.error[k] ?? "")] : []),
-      ...(one.open?.some((open) => open) ? [k < 0 ? "" : Number(one.open[k] ?? false)] : [])];
-  })]);
-  return [head.map(field), ...rows].map((row) => row.join(",")).join("\n") + "\n";
-}
-
-/** The figure in words, for those who cannot see it. */
-export function described(spec: ChartSpec): string {
-  const ranges = spec.series.map((one) => {
-    const values = one.y.filter((value): value is number => value !== null && Number.isFinite(value));
-    return values.length === 0 ? `${one.name} has no values`
-      : `${one.name}: ${values.length} values from ${printed(least(values))} to ${printed(most(values))}`;
-  });
-  return `${spec.title}. ${spec.y.label} against ${spec.x.label}. ${ranges.join("; ")}.`;
-}
-
-function least(values: number[]): number {
-  return values.reduce((a, b) => Math.min(a, b), Infinity);
-}
-
-function most(values: number[]): number {
-  return values.reduce((a, b) => Math.max(a, b), -Infinity);
-}
+import { csvOf, described, joined, type ChartSpec, type Series, type Table } from "./chart_spec";
+import { logarithmicTicks } from "./ticks";
 
 let charts = 0;
 
@@ -227,7 +123,7 @@ export class Chart {
         y: { distr: this.logY ? 3 : 1, range: (_, low, high) => this.rangeY(low, high, series, bars > 0) },
       },
       padding: [10, 14, 0, 0],
-      axes: [axis(this.spec.x.label, 28), axis(this.spec.y.label, 48)],
+      axes: [axis(this.spec.x.label, 28, this.logX), axis(this.spec.y.label, 48, this.logY)],
       series: [{}, ...series.map((one) => seriesOptions(one, one.kind === "bars" ? { number: bar++, of: bars } : { number: 0, of: 1 }))],
       hooks: {
         drawClear: [(plot) => this.drawBand(plot)],
@@ -247,7 +143,7 @@ export class Chart {
         const value = one.y[k];
         if (error !== null && value !== null && value !== undefined && value >= low && value <= high) {
           to = Math.max(to, value + error);
-          from = this.logY && value - error <= 0 ? from : Math.min(from, value - error);
+          from = Math.min(from, this.logY ? Math.max(value - error, 0.3 * value) : value - error); // a bar may reach beyond a logarithmic axis
         }
       });
     }
@@ -339,25 +235,17 @@ function fontFamily(): string {
   return getComputedStyle(document.body).fontFamily;
 }
 
-function axis(label: string, size: number): uPlot.Axis {
+function axis(label: string, size: number, logarithmic: boolean): uPlot.Axis {
   return {
     label, size, labelSize: 20, labelGap: 0, gap: 4, font: `12px ${fontFamily()}`, labelFont: `12.5px ${fontFamily()}`,
     stroke: () => colour("--ink"),
-    grid: { stroke: () => colour("--grid"), width: 1, filter: decades },
+    grid: { stroke: () => colour("--grid"), width: 1 },
     ticks: { stroke: () => colour("--rule"), width: 1, size: 5 },
     border: { show: true, stroke: () => colour("--rule"), width: 1 },
-    filter: decades,
+    filter: (_, splits) => splits,
+    splits: logarithmic ? (_plot, _axis, low, high) => logarithmicTicks(low, high) : undefined,
     values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : printed(tick, 3).replace(/^1 × /, ""))),
   };
-}
-
-/** On a logarithmic axis over several decades lines at the powers of ten are enough. */
-function decades(plot: uPlot, splits: number[], axisNumber: number): (number | null)[] {
-  const scale = plot.scales[axisNumber === 0 ? "x" : "y"]!;
-  if (scale.distr !== 3 || (scale.max ?? 1) / (scale.min ?? 1) < 50) {
-    return splits;
-  }
-  return splits.map((split) => (Math.abs(Math.log10(split) - Math.round(Math.log10(split))) < 1e-6 ? split : null));
 }
 
 function seriesOptions(series: Series, bar: { number: number; of: number }): uPlot.Series {

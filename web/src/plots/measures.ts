@@ -4,7 +4,7 @@ import { listAt, numberAt, type Result, type Structure } from "../data";
 import { prefixOf, printed, words } from "../dom";
 import type { Model } from "../view/model";
 import type { Plane } from "../view/settings";
-import type { ChartSpec, Series } from "./chart";
+import type { ChartSpec, Series } from "./chart_spec";
 
 /** Colours of the structures, in their order. */
 const colours = ["--first", "--second", "--third", "--fourth", "--fifth", "--sixth"];
@@ -148,7 +148,7 @@ export function responseCharts(structures: Structure[]): ChartSpec[] {
 
 /** Names of what a curve is drawn against, the likeliest first. */
 const abscissae = [
-  "frequency", "amplitude", "strain", "radius", "distance", "r", "wave_number", "wavenumber", "q", "length", "chord_length", "size", "edge", "edges",
+  "frequency", "amplitude", "strain", "dilation", "radius", "distance", "r", "wave_number", "wavenumber", "q", "length", "chord_length", "size", "edge", "edges",
   "bin_centre", "centre", "threshold", "lag", "time", "angle", "cosine", "volume", "level", "shell", "order", "fraction",
 ];
 const fewest = 5; // numbers of a curve; fewer go into the table
@@ -203,7 +203,8 @@ function withUnit(label: string, unit: string): string {
 }
 
 function title(path: string): string {
-  return path.split("/").slice(2).map(words).join(", ");
+  const text = path.split("/").slice(2).map(words).join(", ");
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /** A figure for each folder and unit of the data sets below `group` that no other figure shows. */
@@ -220,11 +221,19 @@ export function furtherCharts(structures: Structure[], group: string): ChartSpec
   return [...found.values()].flatMap((entries) => chartOf(structures, entries));
 }
 
+/** Numbers of an axis between 0.01 and 10 000: by a prefix or a power of 1000 before the unit. */
+function readable(largest: number, unit: string): { factor: number; unit: string } {
+  const prefix = prefixOf(largest, unit);
+  const power = largest > 0 ? 3 * Math.floor(Math.log10(largest / prefix.factor) / 3 + 1e-9) : 0;
+  const bare = largest / prefix.factor;
+  return bare === 0 || (bare >= 0.01 && bare < 1e4) ? prefix : { factor: 10 ** power, unit: `${printed(10 ** power).replace(/^1 × /, "")} ${prefix.unit}`.trim() };
+}
+
 function chartOf(structures: Structure[], entries: { result: Result; structure: Structure; k: number; curves: (number | null)[][] }[]): ChartSpec[] {
   const first = entries[0]!;
   const place = places(first.structure, first.result, first.result.shape[0]!);
   const largest = entries.flatMap((entry) => entry.curves.flat()).reduce<number>((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
-  const prefix = prefixOf(largest, first.result.unit);
+  const prefix = readable(largest, first.result.unit);
   const farthest = place.x.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
   const along = prefixOf(farthest, place.unit);
   const counted = place.label === "number" && /histogram|count|distribution/.test(first.result.path);
@@ -234,7 +243,7 @@ function chartOf(structures: Structure[], entries: { result: Result; structure: 
     const number = structures.length > 1 ? k : entries.findIndex((entry) => entry.result === result) + c;
     return { name: named(structures, structure, name), kind: counted ? "bars" : "line", colour: colourOf(number), width: 1.8,
       x: places(structure, result, curve.length).x.map((value) => value / along.factor),
-      y: curve.map((value) => (value === null ? null : value / prefix.factor)), hidden: hasMean && !name.startsWith("mean") };
+      y: curve.map((value) => (value === null ? null : value / prefix.factor)), hidden: (hasMean && !name.startsWith("mean")) || name.endsWith("stderr") };
   }));
   if (series.every((one) => one.y.every((value) => value === null))) {
     return [];

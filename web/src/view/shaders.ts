@@ -5,7 +5,6 @@ precision highp float;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform float scale;
-in vec3 position;
 in vec3 centre;
 in float radius;
 in vec3 tint;
@@ -16,6 +15,7 @@ flat out float size;
 flat out vec3 paint;
 flat out float marked;
 void main() {
+  vec2 corner = vec2(2 * (gl_VertexID & 1) - 1, (gl_VertexID & 2) - 1);
   middle = (modelViewMatrix * vec4(centre, 1.0)).xyz;
   size = radius * scale;
   paint = tint;
@@ -30,7 +30,7 @@ void main() {
   vec3 across = normalize(cross(vec3(0.0, 1.0, 0.001), toEye));
   vec3 up = cross(toEye, across);
   float halfWidth = (distance - size) * size / sqrt(distance * distance - size * size);
-  point = middle + toEye * size + halfWidth * (position.x * across + position.y * up);
+  point = middle + toEye * size + halfWidth * (corner.x * across + corner.y * up);
   gl_Position = projectionMatrix * vec4(point, 1.0);
 }`;
 
@@ -46,7 +46,11 @@ vec3 hazy(vec3 base, float depth) {
   return mix(base, haze, 0.4 * smoothstep(hazeRange.x, hazeRange.y, depth));
 }`;
 
+// The quad lies in front of its sphere: a fragment behind what is drawn already can be left out before it is computed.
 export const sphereFragment = `
+#ifdef GL_EXT_conservative_depth
+#extension GL_EXT_conservative_depth : enable
+#endif
 precision highp float;
 uniform mat4 projectionMatrix;
 uniform vec4 slab;       // unit normal in the space of the eye; w: whether there is a slab
@@ -59,6 +63,9 @@ flat in float size;
 flat in vec3 paint;
 flat in float marked;
 out vec4 colour;
+#ifdef GL_EXT_conservative_depth
+layout(depth_greater) out highp float gl_FragDepth;
+#endif
 ${lighting}
 void main() {
   vec3 direction = normalize(point);
@@ -101,7 +108,6 @@ precision highp float;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform float scale;
-in vec3 position;
 in vec3 start;
 in vec3 branch;
 in float width;
@@ -112,15 +118,16 @@ flat out vec3 side;
 flat out vec3 outward;
 flat out vec3 paint;
 void main() {
+  vec2 corner = vec2(2 * (gl_VertexID & 1) - 1, (gl_VertexID & 2) - 1);
   vec3 from = (modelViewMatrix * vec4(start, 1.0)).xyz;
   vec3 to = (modelViewMatrix * vec4(start + branch, 1.0)).xyz;
   vec3 axis = normalize(to - from);
   vec3 toEye = normalize(-0.5 * (from + to));
   side = normalize(cross(axis, toEye));
   outward = cross(side, axis);
-  across = position.x;
+  across = corner.x;
   paint = tint;
-  point = mix(from, to, 0.5 + 0.5 * position.y) + side * position.x * width * scale;
+  point = mix(from, to, 0.5 + 0.5 * corner.y) + side * corner.x * width * scale;
   gl_Position = projectionMatrix * vec4(point, 1.0);
 }`;
 

@@ -9,8 +9,22 @@ import { colour, onTheme } from "../theme";
 import { bondInstances, particleInstances, poreInstances, type Painter, type ParticleInstances } from "./build";
 import { Instances, sharedUniforms } from "./instances";
 import type { Model } from "./model";
+import { frontToBack } from "./order";
 import { nearestHit, slabRangeOf } from "./pick";
 import type { Settings } from "./settings";
+
+/** Without a graphics card smooth edges cost too much. */
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+function fullResolution(): number {
+  return Math.min(window.devicePixelRatio, 2);
+}
 
 /** Where the eye is, in units of half the diagonal of the box, so that views of different boxes can follow each other. */
 export interface CameraState {
@@ -20,6 +34,9 @@ export interface CameraState {
 }
 
 const fieldOfView = 32; // degrees
+const sortedAgain = Math.cos(0.2); // after a turn by this angle
+const slowFrame = 45; // ms between frames, from which on a moving view is drawn with fewer pixels
+const rest = 250; // ms without movement, after which it is drawn with all
 
 export class Viewer {
   readonly canvas: HTMLCanvasElement;
@@ -43,14 +60,19 @@ export class Viewer {
   private drawn: ParticleInstances | null = null;
   private picked: number | null = null;
   private pending = false;
+  private sortedFrom = new Vector3();
+  private resolution = 1;
+  private lastFrame = 0;
+  private sharpen = 0;
   private quiet = false;
 
   /** Throws where the browser has no WebGL 2. */
   constructor(readonly host: HTMLElement, readonly model: Model, private settings: Settings, private painter: Painter) {
     this.half = new Vector3(...model.structure.lengths).multiplyScalar(0.5);
     this.size = this.half.length();
-    this.renderer = new WebGLRenderer({ antialias: true, alpha: false, powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware(), alpha: false, powerPreference: "high-performance" });
+    this.renderer.getContext().getExtension("EXT_conservative_depth");
+    this.renderer.setPixelRatio(fullResolution());
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     host.prepend(this.canvas);
@@ -87,7 +109,7 @@ export class Viewer {
   }
 
   reset(): void {
-    this.setCamera({ position: [1.76, 1.32, 2.46], target: [0, 0, 0], up: [0, 1, 0] });
+    this.setCamera({ position: [1.88, 1.42, 2.64], target: [0, 0, 0], up: [0, 1, 0] });
     this.onCamera(this.cameraState());
   }
 
@@ -145,12 +167,12 @@ export class Viewer {
     return this.picked;
   }
 
-  /** Draws at once, and says how long the graphics card took. For measurements. */
+  /** Draws at once with all pixels, and says how long the graphics card took. For measurements. */
   drawNow(): number {
     const start = performance.now();
     this.pending = false;
-    this.updateSlab();
-    this.renderer.render(this.scene, this.camera);
+    this.setResolution(1);
+    this.render();
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the end
     return performance.now() - start;
@@ -158,8 +180,8 @@ export class Viewer {
 
   /** A PNG of the view. */
   picture(): string {
-    this.updateSlab();
-    this.renderer.render(this.scene, this.camera);
+    this.setResolution(1);
+    this.render();
     return this.canvas.toDataURL("image/png");
   }
 
@@ -169,10 +191,49 @@ export class Viewer {
       requestAnimationFrame(() => {
         if (this.pending) {
           this.pending = false;
-          this.updateSlab();
-          this.renderer.render(this.scene, this.camera);
+          this.render();
+          this.adaptResolution();
         }
       });
+    }
+  }
+
+  private render(): void {
+    this.sort();
+    this.updateSlab();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private sort(): void {
+    const toEye = this.camera.position.clone().sub(this.controls.target).normalize();
+    if (this.drawn && toEye.dot(this.sortedFrom) < sortedAgain) {
+      this.sortedFrom = toEye;
+      this.spheres.order(frontToBack(this.drawn.centres, toEye));
+    }
+  }
+
+  /** Keeps a moving view fluent on a slow graphics card. */
+  private adaptResolution(): void {
+    const now = performance.now();
+    const since = now - this.lastFrame;
+    this.lastFrame = now;
+    window.clearTimeout(this.sharpen);
+    if (since < 1000 && since > slowFrame) {
+      this.setResolution(Math.max(0.3, 0.75 * this.resolution));
+    }
+    if (this.resolution < 1) {
+      this.sharpen = window.setTimeout(() => {
+        this.setResolution(1);
+        this.render();
+        this.lastFrame = 0;
+      }, rest);
+    }
+  }
+
+  private setResolution(part: number): void {
+    if (part !== this.resolution) {
+      this.resolution = part;
+      this.renderer.setPixelRatio(fullResolution() * part);
     }
   }
 
@@ -193,6 +254,7 @@ export class Viewer {
     const { settings, model } = this;
     this.drawn = particleInstances(model, settings, this.painter, this.half);
     this.spheres.set(this.drawn.attributes, this.drawn.particle.length);
+    this.sortedFrom.set(0, 0, 0);
     this.spheres.setScale(settings.sphereScale);
     const sticks = bondInstances(model, settings, this.painter, this.half);
     this.sticks.set(sticks.attributes, sticks.count);
