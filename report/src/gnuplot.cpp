@@ -1,7 +1,5 @@
 #include <coagula/report/gnuplot.hpp>
 
-#include "html.hpp"
-
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -11,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace coagula::report {
 
@@ -91,22 +90,6 @@ std::string without(std::string text, const std::string& element) {
     return text;
 }
 
-/// The element alone, with its ids marked by the number of the picture, because all pictures stand in one document.
-std::string as_element(std::string svg, int number, const std::string& title) {
-    const std::size_t begin = svg.find("<svg");
-    const std::size_t end = svg.rfind("</svg>");
-    if (begin == std::string::npos || end == std::string::npos) {
-        return {};
-    }
-    svg = without_names(svg.substr(begin, end + 6 - begin));
-    const std::string mark = "p" + std::to_string(number) + "-";
-    for (const std::string place : {"id=\"", "id='", "href=\"#", "href='#", "url(#"}) {
-        svg = replaced(std::move(svg), place, place + mark);
-    }
-    svg.insert(svg.find('>') + 1, "\n<title>" + escaped(title) + "</title>");
-    return svg;
-}
-
 }  // namespace
 
 std::string without_names(std::string svg) {
@@ -126,22 +109,6 @@ GnuplotOutput run_gnuplot(const std::string& commands) {
         output.problem = "gnuplot failed: " + last_line(complaints.text());
     }
     return output;
-}
-
-std::string Gnuplot::draw(const std::string& commands, int width, int height, const std::string& title) {
-    if (!problem_.empty()) {
-        return {};
-    }
-    const GnuplotOutput output =
-        run_gnuplot("set encoding utf8\nset terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
-                    " dynamic enhanced font \"sans-serif,13\" linewidth 1.2\n" + commands + "\nunset output\n");
-    if (!output.problem.empty()) {
-        problem_ = "the plots are missing because " + output.problem;
-        return {};
-    }
-    const std::string svg = as_element(output.picture, ++drawn_, title);
-    problem_ = svg.empty() ? "the plots are missing because gnuplot did not draw an SVG" : "";
-    return svg;
 }
 
 }  // namespace coagula::report

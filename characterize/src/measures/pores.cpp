@@ -1,5 +1,6 @@
 // Measure: the pore-size curve and its moments.
 #include "measure_options.hpp"
+#include "pore_errors.hpp"
 
 namespace coagula::characterize {
 
@@ -7,10 +8,28 @@ Measure pores_measure();
 
 namespace {
 
+/// Standard errors of mean, mean square and median by the trapezium rule on the curve [m, m2, m].
+Eigen::VectorXd size_errors(const PoreSizes& pores) {
+    return pore_errors(pores, [](const PoreSizes& curve) {
+        const Eigen::VectorXd& p = curve.exclusion_probability;
+        const double step = curve.radius[1] - curve.radius[0];
+        const double mean = step * (p.sum() - 0.5 * p[0]);
+        const double square = 2 * step * p.dot(curve.radius);
+        Index k = 1;
+        while (k + 1 < p.size() && p[k] > 0.5) {
+            ++k;
+        }
+        const double median = curve.radius[k - 1] + step * (p[k - 1] - 0.5) / (p[k - 1] - p[k]);
+        return Eigen::VectorXd{{mean, square, median}};
+    });
+}
+
 void add_sizes(const PoreSizes& pores, double r0, MeasureResult& result) {
-    result.add("pore_size/mean", pores.mean / r0, "1", "mean pore radius over r0");
-    result.add("pore_size/second_moment", pores.second_moment / (r0 * r0), "1", "mean square of the pore radius over r0^2");
-    result.add("pore_size/median", pores.median / r0, "1", "median pore radius over r0");
+    const Eigen::VectorXd error = size_errors(pores);
+    result.add("pore_size/mean", pores.mean / r0, "1", "mean pore radius over r0", error[0] / r0);
+    result.add("pore_size/second_moment", pores.second_moment / (r0 * r0), "1", "mean square of the pore radius over r0^2",
+               error[1] / (r0 * r0));
+    result.add("pore_size/median", pores.median / r0, "1", "median pore radius over r0", error[2] / r0);
     result.add("pore_size/max", pores.max / r0, "1", "radius of the largest pore over r0");
     result.add("pore_size/mean_m", pores.mean, "m", "mean pore radius");
     result.add("pore_size/second_moment_m2", pores.second_moment, "m2", "mean square of the pore radius");
@@ -23,6 +42,8 @@ void add_space(const PoreSizes& pores, MeasureResult& result) {
     result.add("pore_space/volume", pores.volume, "m3",
                "volume measured: the periodic box, or the inner Voronoi cells of an open packing");
     result.add_count("pore_space/inner_particles", pores.inner_particles, "particles whose Voronoi cells were measured");
+    result.add("pore_space/curve_error", pores.curve_error, "1",
+               "estimate of the largest error of P by interpolation between radii; 0: every radius was computed");
     if (std::isfinite(pores.cell_volume_defect)) {
         result.add("pore_space/cell_volume_defect", pores.cell_volume_defect, "1",
                    "|sum of the Voronoi cell volumes / box volume - 1|");
@@ -49,7 +70,7 @@ Measure pores_measure() {
     return {.name = "pores",
             .summary = "exact pore-size curve (distance of void points to the nearest surface) and its moments",
             .run = run,
-            .options = {radii_option()}};
+            .options = {radii_option(), pore_tolerance_option()}};
 }
 
 }  // namespace coagula::characterize

@@ -25,6 +25,9 @@ public:
     /// The first column of this name (in lower case).
     std::optional<Column> find(std::string_view name) const;
 
+    /// Names of all columns, in lower case.
+    std::vector<std::string> names() const;
+
     /// Moves to the next filled line; false at the end. Throws InputError when it has not as many fields as the header.
     bool next();
     /// The field as a finite number.

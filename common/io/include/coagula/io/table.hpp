@@ -33,8 +33,7 @@ std::vector<std::string> read_text_column(const std::string& path, const std::st
 /// Rows of fields as CSV; fields with separators or quotes are quoted.
 std::string csv_text(const std::vector<std::vector<std::string>>& rows);
 
-/// Writes rows of fields as CSV through a temporary file and a rename. Throws as
-/// write_structure does.
+/// Writes them through a temporary file and a rename. Throws as write_structure does.
 void write_rows(const std::string& path, const std::vector<std::vector<std::string>>& rows, bool overwrite);
 
 }  // namespace coagula::io
