@@ -64,7 +64,7 @@ class Writing(ProgramTest):
         self.copy_of_packing("m")
         self.succeed("shear", "--bond-tolerance", "0.01", "m", "-o", "b.h5")
         self.succeed("shear", "--normal-stiffness", "100", "N/m", "m", "-o", "c.h5")
-        self.fail_with(2, "shear", "--normal-stiffness", "100", "N/s", "m", says="one FILE.h5")
+        self.fail_with(2, "shear", "--normal-stiffness", "100", "N/s", "m", says="N/s does not exist")
 
 
 class WrongUsage(ProgramTest):
@@ -90,7 +90,7 @@ class WrongUsage(ProgramTest):
             (["calibrate"], "FILE.h5"),
             (["shear", "a.h5", "--colour", "red"], "--colour"),
             (["shear", "a.h5", "--norm", "1"], "'--norm'; did you mean '--normal-stiffness'?"),  # no abbreviations
-            (["shear", "a.h5", "b.h5"], "one FILE.h5"),
+            (["characterize", "a.h5", "b.h5"], "one FILE.h5"),
             (["shear"], "FILE.h5"),
             (["shear", "a.h5", "--solver", "magic"], "magic"),
             (["shear", "a.h5", "--normal-stiffness", "100m"], "--normal-stiffness"),

@@ -114,6 +114,12 @@ bool is_bare(const std::string& word) {
     return word.find_first_not_of("+-.0123456789eE \t") == std::string::npos;
 }
 
+/// The one word of an option, or the first of those that were given.
+std::string word_of(const po::variable_value& value) {
+    const auto* many = boost::any_cast<std::vector<std::string>>(&value.value());
+    return many != nullptr ? many->front() : value.as<std::string>();
+}
+
 /// Puts together what the shell took apart: "--ionic-strength 10 mM" as "--ionic-strength '10 mM'". A word that is no unit of the
 /// option's dimension, or the name of a file that exists, stays by itself.
 std::vector<std::string> with_units_joined(const std::vector<Option>& options, const std::vector<std::string>& words) {
@@ -185,13 +191,13 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& typed) : 
         if (!given && option.fallback.empty()) {
             continue;
         }
-        if (many_inputs && option.name == "input") {
+        if (many_inputs && option.name == "input" && map["input"].as<std::vector<std::string>>().size() > 1) {
             values_["input"] = map["input"].as<std::vector<std::string>>();
             continue;
         }
         const bool is_flag = option.kind == Option::Kind::flag;
         try {
-            store(option, is_flag ? "" : (given ? map[option.name].as<std::string>() : option.fallback));
+            store(option, is_flag ? "" : (given ? word_of(map[option.name]) : option.fallback));
         } catch (const InputError& error) {
             throw InputError(name + ": " + error.what() + hint(verb.name));
         }
@@ -239,6 +245,12 @@ std::optional<double> Arguments::optional_quantity(const std::string& name) cons
 
 const std::string& Arguments::text(const std::string& name) const {
     return std::get<std::string>(values_.at(name));
+}
+
+std::vector<std::string> Arguments::inputs() const {
+    const Value& value = values_.at("input");
+    const auto* many = std::get_if<std::vector<std::string>>(&value);
+    return many != nullptr ? *many : std::vector<std::string>{std::get<std::string>(value)};
 }
 
 std::string Arguments::text(const std::string& name, const std::string& otherwise) const {

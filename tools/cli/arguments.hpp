@@ -44,8 +44,8 @@ public:
         }
     }
     const std::string& input() const { return text("input"); }
-    /// Of a verb that takes many, in the order given.
-    const std::vector<std::string>& inputs() const { return std::get<std::vector<std::string>>(values_.at("input")); }
+    /// Of a verb that takes many, in the order given; also where one is given.
+    std::vector<std::string> inputs() const;
 
     const std::string& verb() const { return verb_; }
     /// As it could be typed again.

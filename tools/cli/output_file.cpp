@@ -40,12 +40,17 @@ void check_output(const std::string& path, bool force) {
     check_folder(path);
 }
 
+void check_updatable(const std::string& path) {
+    io::check_source(path);
+    check_folder(path);
+}
+
 std::string checked_target(const Arguments& arguments) {
-    io::check_source(arguments.input());
     if (!arguments.has("output")) {
-        check_folder(arguments.input());
+        check_updatable(arguments.input());
         return arguments.input();
     }
+    io::check_source(arguments.input());
     check_output(arguments.text("output"), arguments.flag("force"));
     return arguments.text("output");
 }

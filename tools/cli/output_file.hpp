@@ -11,6 +11,9 @@ namespace coagula::tools {
 /// or `force` is set.
 void check_output(const std::string& path, bool force);
 
+/// Throws InputError unless results can be added to the file itself.
+void check_updatable(const std::string& path);
+
 /// The file that the results of a stage are added to: --output, or else the input file itself. Both are checked.
 std::string checked_target(const Arguments& arguments);
 

@@ -180,6 +180,7 @@ void append_series(Table& table, const Structures& structures) {
         table.emplace_back("structure " + std::to_string(k + 1), structures.files[k] + ", " + std::to_string(series.contacts) +
                                                                      " bonds, " + std::to_string(series.rattlers) + " rattlers");
     }
+    table.emplace_back("", "+- is the standard deviation over the six orientations of one structure");
     for (Index step = 0; step < structures.normal_stiffness().size(); ++step) {
         std::string moduli, ratios;
         for (std::size_t k = 0; k < structures.size(); ++k) {

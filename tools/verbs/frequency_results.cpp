@@ -85,7 +85,7 @@ void append_modulus(Results& results, const FrequencyResponse& response, const s
             }
             return std::sqrt(sum / 6);
         },
-        "standard deviation over the orientations");
+        "standard deviation over the orientations of this one structure");
     for (const Orientation& o : orientations) {
         add(
             o.name, [&](const FrequencyPoint& p) { return part(p.shear_modulus(o.normal, o.direction)); },

@@ -2,8 +2,8 @@
 #include "cli/output_file.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "over_structures.hpp"
 
-#include <coagula/common/statistics.hpp>
 #include <coagula/io/atomic_file.hpp>
 #include <coagula/io/table.hpp>
 #include <coagula/report/figures.hpp>
@@ -92,17 +92,6 @@ void set_logarithmic(const Arguments& arguments, Drawing& drawing) {
 
 Json axis_json(const ChartAxis& axis) {
     return {{"quantity", axis.plain}, {"unit", axis.unit}};
-}
-
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json to_json(const MeanWithError& found) {
-    return {{"structures", found.count},
-            {"mean", number(found.mean)},
-            {"std", number(found.standard_deviation)},
-            {"standard_error", number(found.standard_error)}};
 }
 
 /// Mean over the structures of a series.

@@ -126,7 +126,7 @@ void append_modulus(Results& results, const std::string& name, const std::vector
                                             : io::vector(group + name + "/" + key, value, "Pa", description + ", " + of));
     };
     add("mean", mean, "mean of the orientations");
-    add("std", deviation, "standard deviation over the orientations");
+    add("std", deviation, "standard deviation over the orientations of this one structure");
     for (std::size_t k = 0; k < tests.size(); ++k) {
         const std::string of = name_of(tests[k].orientation);
         add(of, values.row(static_cast<Index>(k)), "plate normal and shear direction " + of);

@@ -101,9 +101,9 @@ void append_moduli(Results& results, const RheometerResult& result) {
         results.push_back(io::scalar(group + name, value, "Pa", description));
     };
     add("storage_modulus/mean", result.storage_modulus(), "G' of the last oscillation, mean of the orientations");
-    add("storage_modulus/std", result.storage_deviation(), "standard deviation over the orientations");
+    add("storage_modulus/std", result.storage_deviation(), "standard deviation over the orientations of this one structure");
     add("loss_modulus/mean", result.loss_modulus(), "G'' of the last oscillation, mean of the orientations");
-    add("loss_modulus/std", result.loss_deviation(), "standard deviation over the orientations");
+    add("loss_modulus/std", result.loss_deviation(), "standard deviation over the orientations of this one structure");
     std::string names;
     for (const RheometerRun& run : result.runs) {
         const std::string name = name_of(run.orientation);
@@ -227,7 +227,8 @@ Table table_of(const RheometerResult& result, const mechanics::RheometerOptions&
     return {
         {"bonds", std::to_string(result.contacts) + ", " + std::to_string(broken) + " broken"},
         {"set-up", plates ? "between plates, the upper one driven" : "sheared periodic cell"},
-        {"storage modulus G'", with_unit(result.storage_modulus(), "Pa") + " +- " + with_unit(result.storage_deviation(), "Pa")},
+        {"storage modulus G'", with_unit(result.storage_modulus(), "Pa") + " +- " + with_unit(result.storage_deviation(), "Pa") +
+                                   "   (+- is the standard deviation over the orientations)"},
         {"  each", each},
         {"loss modulus G''", with_unit(result.loss_modulus(), "Pa") + ", phase " + with_unit(result.phase(), "rad")},
         {"rate", "inertial number " + with_unit(result.inertial_number, "1") + ", error of the stress " + rate_error_text(result)}};

@@ -7,6 +7,7 @@
 #include "frequency_list.hpp"
 #include "frequency_results.hpp"
 #include "load_structure_results.hpp"
+#include "over_structures.hpp"
 #include "quasistatic_run.hpp"
 #include "rheometer_run.hpp"
 #include "shear_results.hpp"
@@ -20,8 +21,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <optional>
+#include <set>
 
 namespace coagula::tools {
 
@@ -160,27 +163,75 @@ ContactModel check_options(const Arguments& arguments) {
     return model;
 }
 
-void run(const Arguments& arguments) {
-    const Stopwatch clock;
-    const Progress progress = make_progress(arguments.flag("quiet"));
-    check_options(arguments);
-    const Packing packing = io::read_structure(arguments.input()).packing;
-    const std::string target = checked_target(arguments);
+struct Shown {
+    Json json;
+    Table table;
+};
 
+/// Adds the response of the file `source` to `target`.
+Shown shear_file(const Arguments& arguments, const std::string& source, const std::string& target, const Packing& packing,
+                 const Progress& progress) {
+    const Stopwatch clock;
     auto [bonds, found] = shear_packing(arguments, packing, progress);
     progress.update("writing", 1.0);
     Json json = to_json(found.results, found.group);
     std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
-    io::add_results(arguments.input(), target, {found.group}, bonds, found.fields, found.results,
-                    describe_call(arguments, &packing, clock), arguments.flag("force"), found.bond_fields);
-
+    io::add_results(source, target, {found.group}, bonds, found.fields, found.results, describe_call(arguments, &packing, clock),
+                    arguments.flag("force"), found.bond_fields);
     if (json.value("floppy_modes", 0) < 0) {
         json["floppy_modes"] = nullptr;
     }
     json["output"] = target;
     json["seconds"] = clock.seconds();
     found.table.emplace_back("written to", target);
-    report(arguments, json, found.table);
+    return {std::move(json), std::move(found.table)};
+}
+
+/// Everything about the files that can be wrong is found before the first is sheared.
+void check_files(const Arguments& arguments, const std::vector<std::string>& files) {
+    for (const char* name : {"output", "checkpoint"}) {
+        if (arguments.has(name)) {
+            throw InputError(std::string("--") + name + " is for one file, but " + std::to_string(files.size()) +
+                             " are given: without it each gets its own results");
+        }
+    }
+    std::set<std::filesystem::path> seen;
+    for (const std::string& file : files) {
+        check_updatable(file);
+        if (!seen.insert(std::filesystem::canonical(file)).second) {
+            throw InputError(file + " is given twice, but the scatter of the structures is that of different ones");
+        }
+    }
+}
+
+void shear_files(const Arguments& arguments, const std::vector<std::string>& files) {
+    const Stopwatch clock;
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    check_files(arguments, files);
+    std::vector<Json> structures;
+    for (const std::string& file : files) {
+        Json json = {{"file", file}};
+        json.update(shear_file(arguments, file, file, io::read_structure(file).packing, progress).json);
+        structures.push_back(std::move(json));
+    }
+    const Json json = {{"method", structures.front().at("method")},
+                       {"structures", structures},
+                       {"over_structures", over_structures(structures)},
+                       {"seconds", clock.seconds()}};
+    report(arguments, json, table_over_structures(structures));
+}
+
+void run(const Arguments& arguments) {
+    check_options(arguments);
+    const std::vector<std::string> files = arguments.inputs();
+    if (files.size() > 1) {
+        shear_files(arguments, files);
+        return;
+    }
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    const Packing packing = io::read_structure(files.front()).packing;
+    const Shown shown = shear_file(arguments, files.front(), checked_target(arguments), packing, progress);
+    report(arguments, shown.json, shown.table);
 }
 
 }  // namespace
@@ -213,7 +264,7 @@ Verb shear_verb() {
     Verb verb{
         .name = "shear",
         .summary = "shear modulus and elastic tensor of the bonded packing",
-        .input = "FILE.h5",
+        .input = "FILE.h5 ...",
         .options = {choice("method", {"linear", "quasistatic", "dem"}, "how the response is computed", "linear"),
                     quantity("normal-stiffness", "N/m", "normal stiffness of a particle, two in series make a contact", "100N/m",
                              physical::stiffness),
@@ -239,6 +290,9 @@ Verb shear_verb() {
                   "Strengths, friction and ageing play no part at vanishing strain: linear and --frequency results name them.",
                   "--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
                   "With --method quasistatic and neither --amplitudes nor --ramp: secant moduli at a strain of 1e-6."}};
+    verb.notes.emplace_back(
+        "Of several files each gets its results; printed are the mean of G' and its standard error over the structures.");
+    verb.many_inputs = true;
     for (const std::vector<Option>& own : {rheometer_options(), quasistatic_options()}) {
         verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
     }

@@ -68,7 +68,8 @@ void append_moduli(Results& results, const LinearResponse& response) {
         results.push_back(io::scalar(group + name, value, "Pa", description));
     };
     add("storage_modulus/mean", response.mean_shear_modulus(), "shear modulus, mean of the six orientations");
-    add("storage_modulus/std", response.shear_modulus_deviation(), "standard deviation over the orientations");
+    add("storage_modulus/std", response.shear_modulus_deviation(),
+        "standard deviation over the orientations of this one structure");
     for (const Orientation& orientation : orientations) {
         add("storage_modulus/" + orientation.name, response.shear_modulus(orientation.normal, orientation.direction),
             "shear modulus, plate normal and shear direction " + orientation.name);
@@ -146,8 +147,9 @@ Table table_of(const LinearResponse& response) {
             {"floppy modes", floppy},
             {"contact stiffness", with_unit(response.contact_normal_stiffness, "N/m") + " normal, " +
                                       with_unit(response.contact_shear_stiffness, "N/m") + " shear"},
-            {"shear modulus G'",
-             with_unit(response.mean_shear_modulus(), "Pa") + " +- " + with_unit(response.shear_modulus_deviation(), "Pa")},
+            {"shear modulus G'", with_unit(response.mean_shear_modulus(), "Pa") + " +- " +
+                                     with_unit(response.shear_modulus_deviation(), "Pa") +
+                                     "   (+- is the standard deviation over six orientations)"},
             {"  in xy, xz, yz", planes},
             {"affine shear modulus", with_unit(response.mean_affine_modulus(), "Pa")},
             {"solver", solver_name(response.solver_used) + ", residual " + with_unit(response.residual, "1")}};

@@ -26,7 +26,8 @@ FigureSource source_of(std::vector<io::Dataset> results, const std::string& labe
 }
 
 std::vector<io::Dataset> moduli(double a, double modulus) {
-    return {io::scalar("/characterization/doh/a", a, "1", "a"), io::scalar("/mechanics/linear/storage_modulus/mean", modulus, "Pa", "G'"),
+    return {io::scalar("/characterization/doh/a", a, "1", "a"),
+            io::scalar("/mechanics/linear/storage_modulus/mean", modulus, "Pa", "G'"),
             io::scalar("/mechanics/linear/storage_modulus/std", 0.1 * modulus, "Pa", "over the orientations")};
 }
 
@@ -61,11 +62,12 @@ TEST(Figures, OfFilesWithoutResultsNameTheCommandThatComputesThem) {
 TEST(Figures, CountsBecomeShares) {
     Eigen::VectorXi counts(4);
     counts << 1, 2, 1, 0;
-    const Drawing drawing = draw_figure(
-        figure_named("contacts"), {source_of({io::integers("/characterization/coordination_histogram", counts, "counts")}, "a")}, false);
+    const Drawing drawing =
+        draw_figure(figure_named("contacts"),
+                    {source_of({io::integers("/characterization/coordination_histogram", counts, "counts")}, "a")}, false);
     const Series& series = drawing.panels.at(0).series.at(0);
     EXPECT_EQ(series.y, (std::vector<double>{0.25, 0.5, 0.25}));  // the empty end is left out
-    EXPECT_EQ(series.name, "");                                  // one file needs no legend
+    EXPECT_EQ(series.name, "");                                   // one file needs no legend
 }
 
 TEST(Figures, NumbersBecomeADensity) {
@@ -86,7 +88,8 @@ TEST(Figures, ACurveNeedsAsManyNumbersOfBoth) {
     CurveFigure figure;
     figure.x = "/x";
     figure.y = "/y";
-    const auto source = source_of({io::vector("/x", Eigen::Vector3d(1, 2, 3), "m", "x"), io::vector("/y", Eigen::Vector2d(1, 2), "1", "y")}, "a");
+    const auto source =
+        source_of({io::vector("/x", Eigen::Vector3d(1, 2, 3), "m", "x"), io::vector("/y", Eigen::Vector2d(1, 2), "1", "y")}, "a");
     EXPECT_THROW(curve(figure)({source}), InputError);
     figure.y = "/x";
     EXPECT_EQ(curve(figure)({source}).panels.at(0).y.unit, "m");
