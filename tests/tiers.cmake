@@ -17,7 +17,7 @@ set(coagula_slow_tests
   "StructureError[.].*"
   "StructureSeries[.].*"
   "Sedimentation[.].*"
-  "SolventDrag[.]IsNamed.*"
+  "SolventDrag[.](IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
   "SurfacePotential[.].*"
   "ThirdHarmonic[.](Of|Hertz).*"
   "VolumeFractionGradient[.].*"
@@ -48,6 +48,8 @@ set(coagula_slow_tests
   "cli[.]calibrate[.]Calibrate[.]methods_agree"
   "cli[.]determinism[.].*"
   "cli[.]rheometer[.]Rheometer[.]a_killed_run.*"
+  # the pages in a browser
+  "web[.].*"
   # damaged files, kills, installation, every option; other programs; the examples of README.md
   "DamagedFile[.]SingleBytes"
   "cli[.]broken_files[.].*"

@@ -8,10 +8,31 @@ namespace coagula::characterize {
 
 namespace {
 
-/// Contacts left to each particle when those with fewer than two are removed again and again; -1 for the removed.
-Eigen::VectorXi prune(const ContactNetwork& contacts, const Eigen::VectorXi& counts) {
+void add_means(const std::vector<bool>& inner, const Eigen::VectorXi& left, Coordination& result) {
+    const bool any_inner = std::find(inner.begin(), inner.end(), true) != inner.end();
+    double particles = 0, contacts = 0, rattlers = 0, below_three = 0, kept_contacts = 0;
+    for (Index i = 0; i < result.counts.size(); ++i) {
+        if (any_inner && !inner[static_cast<std::size_t>(i)]) {
+            continue;
+        }
+        particles += 1;
+        contacts += result.counts[i];
+        rattlers += left[i] < 0 ? 1 : 0;
+        below_three += result.counts[i] < 3 ? 1 : 0;
+        kept_contacts += std::max(left[i], 0);
+    }
+    result.mean = contacts / particles;
+    result.mean_without_rattlers = particles > rattlers ? kept_contacts / (particles - rattlers) : 0.0;
+    result.rattler_fraction = rattlers / particles;
+    result.below_three_fraction = below_three / particles;
+    result.inner_particles = any_inner ? static_cast<Index>(particles) : 0;
+}
+
+}  // namespace
+
+Eigen::VectorXi prune_rattlers(const ContactNetwork& contacts) {
     const ContactsByParticle groups = group_by_particle(contacts);
-    Eigen::VectorXi left = counts;
+    Eigen::VectorXi left = contact_counts(contacts);
     std::vector<char> broken(static_cast<std::size_t>(contacts.size()), 0);
     std::vector<Index> pending;
     for (Index particle = 0; particle < left.size(); ++particle) {
@@ -36,28 +57,6 @@ Eigen::VectorXi prune(const ContactNetwork& contacts, const Eigen::VectorXi& cou
     return left;
 }
 
-void add_means(const std::vector<bool>& inner, const Eigen::VectorXi& left, Coordination& result) {
-    const bool any_inner = std::find(inner.begin(), inner.end(), true) != inner.end();
-    double particles = 0, contacts = 0, rattlers = 0, below_three = 0, kept_contacts = 0;
-    for (Index i = 0; i < result.counts.size(); ++i) {
-        if (any_inner && !inner[static_cast<std::size_t>(i)]) {
-            continue;
-        }
-        particles += 1;
-        contacts += result.counts[i];
-        rattlers += left[i] < 0 ? 1 : 0;
-        below_three += result.counts[i] < 3 ? 1 : 0;
-        kept_contacts += std::max(left[i], 0);
-    }
-    result.mean = contacts / particles;
-    result.mean_without_rattlers = particles > rattlers ? kept_contacts / (particles - rattlers) : 0.0;
-    result.rattler_fraction = rattlers / particles;
-    result.below_three_fraction = below_three / particles;
-    result.inner_particles = any_inner ? static_cast<Index>(particles) : 0;
-}
-
-}  // namespace
-
 Coordination measure_coordination(const Packing& packing, const CoordinationOptions& options) {
     const std::vector<bool> inner = inner_particles(packing);
     Coordination result;
@@ -68,7 +67,7 @@ Coordination measure_coordination(const Packing& packing, const CoordinationOpti
     for (const int count : result.counts) {
         ++result.histogram[count];
     }
-    add_means(inner, prune(result.contacts, result.counts), result);
+    add_means(inner, prune_rattlers(result.contacts), result);
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include "power_diagram.hpp"
 
+#include <coagula/characterize/blocks.hpp>
 #include <coagula/common/progress.hpp>
 
 #include <algorithm>
@@ -24,16 +25,18 @@ struct RadialGrid {
     }
 };
 
-/// Covered volume and volume of the counted cells at each radius.
+/// Covered volume and volume of the counted cells at each radius (rows), by block (columns).
 struct Coverage {
-    Eigen::VectorXd covered;
-    Eigen::VectorXd cells;
+    Eigen::MatrixXd covered;
+    Eigen::MatrixXd cells;
 };
 
 /// For equal spheres one diagram serves all radii. The grid holds the radii of the balls (not their growth).
-Coverage cover_equal_spheres(const PowerDiagram& diagram, const RadialGrid& ball_radii, const Progress& progress);
+/// @param blocks of the counted particles, at least one.
+Coverage cover_equal_spheres(const PowerDiagram& diagram, const RadialGrid& ball_radii, const Blocks& blocks,
+                             const Progress& progress);
 
-/// Covered volume and cell volume for balls of the radii of the sites themselves.
-std::array<double, 2> cover_spheres(const PowerDiagram& diagram);
+/// Covered volume (row 0) and cell volume (row 1) for balls of the radii of the sites themselves, by block (columns).
+Eigen::Matrix2Xd cover_spheres(const PowerDiagram& diagram, const Blocks& blocks);
 
 }  // namespace coagula::characterize

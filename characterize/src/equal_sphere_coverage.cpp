@@ -110,37 +110,89 @@ private:
     double cells_ = 0;  ///< volume of the whole orthoschemes
 };
 
-void add_edges(const PowerDiagram& diagram, std::size_t begin, std::size_t end, RadialSums& sums) {
-    for (std::size_t k = begin; k < end; ++k) {
-        const DiagramEdge& edge = diagram.edges[k];
+/// Some of the edges around the cells of one block.
+struct Task {
+    int block = 0;
+    std::size_t begin = 0;
+    std::size_t end = 0;  ///< in edges_of_block[block]
+};
+
+int block_of(const PowerDiagram& diagram, const Blocks& blocks, int site) {
+    return diagram.counted[static_cast<std::size_t>(site)] != 0 ? blocks.of_particle[site] : -1;
+}
+
+std::vector<std::vector<int>> edges_by_block(const PowerDiagram& diagram, const Blocks& blocks) {
+    std::vector<std::vector<int>> lists(static_cast<std::size_t>(blocks.count));
+    for (std::size_t edge = 0; edge < diagram.edges.size(); ++edge) {
+        for (const int site : diagram.edges[edge].around) {
+            const int block = block_of(diagram, blocks, site);
+            if (block >= 0) {
+                auto& list = lists[static_cast<std::size_t>(block)];
+                if (list.empty() || list.back() != static_cast<int>(edge)) {
+                    list.push_back(static_cast<int>(edge));
+                }
+            }
+        }
+    }
+    return lists;
+}
+
+/// Fixed tasks, summed in order: the result does not depend on the number of threads, and rounding errors stay small.
+std::vector<Task> make_tasks(const std::vector<std::vector<int>>& lists) {
+    constexpr std::size_t edges_per_task = 8192;
+    std::vector<Task> tasks;
+    for (std::size_t block = 0; block < lists.size(); ++block) {
+        const std::size_t parts = (lists[block].size() + edges_per_task - 1) / edges_per_task;
+        for (std::size_t part = 0; part < parts; ++part) {
+            tasks.push_back(
+                {static_cast<int>(block), lists[block].size() * part / parts, lists[block].size() * (part + 1) / parts});
+        }
+    }
+    return tasks;
+}
+
+RadialSums run_task(const PowerDiagram& diagram, const Blocks& blocks, const RadialGrid& grid, const std::vector<int>& edges,
+                    const Task& task) {
+    RadialSums sums(grid);
+    for (std::size_t k = task.begin; k < task.end; ++k) {
+        const DiagramEdge& edge = diagram.edges[static_cast<std::size_t>(edges[k])];
         std::array<int, 3> counted{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            counted[corner] = diagram.counted[static_cast<std::size_t>(edge.around[corner])] != 0 ? 1 : 0;
+            counted[corner] = block_of(diagram, blocks, edge.around[corner]) == task.block ? 1 : 0;
         }
         sums.add(measure_edge(diagram, edge), counted);
     }
+    return sums;
 }
 
 }  // namespace
 
-Coverage cover_equal_spheres(const PowerDiagram& diagram, const RadialGrid& ball_radii, const Progress& progress) {
-    // Fixed chunks, summed in order: the result does not depend on the number of threads, and rounding errors stay small.
-    constexpr std::size_t chunks = 256;
-    constexpr std::size_t chunks_per_report = 32;
-    const std::size_t edges = diagram.edges.size();
-    std::vector<RadialSums> partial(chunks, RadialSums(ball_radii));
-    for (std::size_t first = 0; first < chunks; first += chunks_per_report) {
+Coverage cover_equal_spheres(const PowerDiagram& diagram, const RadialGrid& ball_radii, const Blocks& blocks,
+                             const Progress& progress) {
+    const std::vector<std::vector<int>> edges = edges_by_block(diagram, blocks);
+    const std::vector<Task> tasks = make_tasks(edges);
+    std::vector<RadialSums> total(static_cast<std::size_t>(blocks.count), RadialSums(ball_radii));
+    constexpr std::size_t tasks_at_once = 64;
+    for (std::size_t first = 0; first < tasks.size(); first += tasks_at_once) {
+        const std::size_t end = std::min(first + tasks_at_once, tasks.size());
+        std::vector<RadialSums> partial(end - first, RadialSums(ball_radii));
 #pragma omp parallel for schedule(dynamic)
-        for (std::size_t chunk = first; chunk < first + chunks_per_report; ++chunk) {
-            add_edges(diagram, edges * chunk / chunks, edges * (chunk + 1) / chunks, partial[chunk]);
+        for (std::size_t task = first; task < end; ++task) {
+            const auto block = static_cast<std::size_t>(tasks[task].block);
+            partial[task - first] = run_task(diagram, blocks, ball_radii, edges[block], tasks[task]);
         }
-        progress.update("pore sizes", 0.3 + 0.7 * static_cast<double>(first + chunks_per_report) / chunks);
+        for (std::size_t task = first; task < end; ++task) {
+            total[static_cast<std::size_t>(tasks[task].block)].add(partial[task - first]);
+        }
+        progress.update("pore sizes", 0.3 + 0.7 * static_cast<double>(end) / static_cast<double>(tasks.size()));
     }
-    RadialSums total(ball_radii);
-    for (const RadialSums& part : partial) {
-        total.add(part);
+    Coverage coverage{Eigen::MatrixXd(ball_radii.count, blocks.count), Eigen::MatrixXd(ball_radii.count, blocks.count)};
+    for (Index block = 0; block < blocks.count; ++block) {
+        const RadialSums& sums = total[static_cast<std::size_t>(block)];
+        coverage.covered.col(block) = sums.covered();
+        coverage.cells.col(block).setConstant(sums.cells());
     }
-    return {total.covered(), Eigen::VectorXd::Constant(ball_radii.count, total.cells())};
+    return coverage;
 }
 
 }  // namespace coagula::characterize

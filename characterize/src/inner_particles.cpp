@@ -1,7 +1,6 @@
 #include <coagula/characterize/inner_particles.hpp>
-#include <coagula/characterize/pore_sizes.hpp>
 
-#include "power_diagram.hpp"
+#include "shared_measurements.hpp"
 
 namespace coagula::characterize {
 
@@ -16,7 +15,10 @@ std::vector<bool> inner_particles(const Packing& packing) {
 }
 
 FreeSurface free_surface(const Packing& packing) {
-    FreeSurface surface{inner_particles(packing), measure_pores(packing, {.radii = 4}).volume};
+    check(packing);
+    const ReducedDiagram reduced = reduced_diagram(packing);
+    require_inner(reduced);
+    FreeSurface surface{reduced.inner(), measure_voronoi_cells(reduced).volumes.sum()};
     surface.outer.flip();
     return surface;
 }

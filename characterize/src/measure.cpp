@@ -27,9 +27,9 @@ MeasureResult packing_facts(const MeasureInput& input) {
     const Packing& packing = input.packing();
     const bool inner_only = !packing.cell.is_periodic() && input.has_pores();
     const double fraction = inner_only ? 1 - input.pores().void_fraction : volume_fraction(packing);
-    const std::string meaning = inner_only ? "solid volume over volume in the inner Voronoi cells"
-                                           : std::string("solid volume over the volume of the ") +
-                                                 (packing.cell.is_periodic() ? "box" : "enclosing box");
+    const std::string meaning =
+        inner_only ? "solid volume over volume in the inner Voronoi cells"
+                   : std::string("solid volume over the volume of the ") + (packing.cell.is_periodic() ? "box" : "enclosing box");
     MeasureResult facts;
     facts.add_count("particles", packing.size(), "number of particles");
     facts.add("volume_fraction", fraction, "1", meaning);
@@ -122,7 +122,8 @@ std::vector<MeasureOption> measure_options() {
     std::vector<MeasureOption> options;
     for (const Measure& measure : measures()) {
         for (const MeasureOption& option : measure.options) {
-            if (std::none_of(options.begin(), options.end(), [&](const MeasureOption& other) { return other.name == option.name; })) {
+            if (std::none_of(options.begin(), options.end(),
+                             [&](const MeasureOption& other) { return other.name == option.name; })) {
                 options.push_back(option);
             }
         }

@@ -1,9 +1,9 @@
 #include <coagula/characterize/measure_input.hpp>
 
-#include <coagula/characterize/inner_particles.hpp>
 #include <coagula/characterize/measure.hpp>
 
-#include <algorithm>
+#include "shared_measurements.hpp"
+
 #include <optional>
 
 namespace coagula::characterize {
@@ -33,14 +33,21 @@ std::optional<double> fallback_of(const std::string& option) {
 }  // namespace
 
 struct MeasureInput::Shared {
+    std::optional<ReducedDiagram> diagram;
     std::optional<std::vector<bool>> inner;
     std::optional<Blocks> blocks;
     std::optional<Coordination> coordination;
+    std::optional<VoronoiCells> voronoi_cells;
+    std::optional<VoronoiFaces> voronoi_faces;
     std::optional<PoreSizes> pores;
 };
 
 MeasureInput::MeasureInput(Packing packing, std::map<std::string, double> options, std::uint64_t seed, Progress progress)
-    : packing_(std::move(packing)), r0_(unset), options_(std::move(options)), seed_(seed), progress_(std::move(progress)),
+    : packing_(std::move(packing)),
+      r0_(unset),
+      options_(std::move(options)),
+      seed_(seed),
+      progress_(std::move(progress)),
       shared_(std::make_unique<Shared>()) {
     check(packing_);
     r0_ = mean_radius(packing_);
@@ -67,8 +74,17 @@ Index MeasureInput::count(const std::string& option) const {
     return static_cast<Index>(number(option));
 }
 
+const ReducedDiagram& MeasureInput::diagram() const {
+    return once(shared_->diagram, [this] {
+        progress_.update("Voronoi cells", 0);
+        return reduced_diagram(packing_);
+    });
+}
+
 const std::vector<bool>& MeasureInput::inner() const {
-    return once(shared_->inner, [this] { return inner_particles(packing_); });
+    return once(shared_->inner, [this] {
+        return packing_.cell.is_periodic() ? std::vector<bool>(static_cast<std::size_t>(packing_.size()), true) : diagram().inner();
+    });
 }
 
 const Blocks& MeasureInput::blocks() const {
@@ -80,8 +96,18 @@ const Coordination& MeasureInput::coordination() const {
                 [this] { return measure_coordination(packing_, {.contact_tolerance = number("contact-tolerance")}); });
 }
 
+const VoronoiCells& MeasureInput::voronoi_cells() const {
+    return once(shared_->voronoi_cells, [this] { return measure_voronoi_cells(diagram()); });
+}
+
+const VoronoiFaces& MeasureInput::voronoi_faces() const {
+    return once(shared_->voronoi_faces, [this] { return measure_voronoi_faces(diagram()); });
+}
+
 const PoreSizes& MeasureInput::pores() const {
-    return once(shared_->pores, [this] { return measure_pores(packing_, {.radii = count("radii")}, progress_); });
+    return once(shared_->pores, [this] {
+        return measure_pores(diagram(), {.radii = count("radii"), .tolerance = number("pore-tolerance")}, blocks(), progress_);
+    });
 }
 
 bool MeasureInput::has_pores() const {

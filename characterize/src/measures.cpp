@@ -7,7 +7,12 @@ Measure coordination_measure();
 Measure doh_measure();
 Measure pores_measure();
 Measure overlap_measure();
+Measure fabric_measure();
+Measure rigidity_central_measure();
+Measure rigidity_measure();
+Measure rings_measure();
 Measure sampled_check_measure();
+Measure topology_measure();
 
 const std::vector<Measure>& measures() {
     static const std::vector<Measure> table = {
@@ -15,6 +20,11 @@ const std::vector<Measure>& measures() {
         doh_measure(),
         pores_measure(),
         overlap_measure(),
+        topology_measure(),
+        rings_measure(),
+        fabric_measure(),
+        rigidity_measure(),
+        rigidity_central_measure(),
         sampled_check_measure(),
     };
     return table;

@@ -9,9 +9,11 @@
 #include <CGAL/Regular_triangulation_vertex_base_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace coagula::characterize {
@@ -164,6 +166,9 @@ PowerDiagram periodic_sites(const Packing& packing, const Eigen::VectorXd& radii
     const Eigen::Array3i turns = (margin / lengths).ceil().cast<int>();
     std::vector<Eigen::Vector3d> positions;
     std::vector<double> site_radii(radii.begin(), radii.end());
+    PowerDiagram diagram;
+    diagram.particle.resize(static_cast<std::size_t>(particles));
+    std::iota(diagram.particle.begin(), diagram.particle.end(), 0);
     for (Index i = 0; i < particles; ++i) {
         positions.emplace_back(packing.cell.wrap(packing.positions.col(i)) - packing.cell.origin());
     }
@@ -175,12 +180,12 @@ PowerDiagram periodic_sites(const Packing& packing, const Eigen::VectorXd& radii
                     if ((x != 0 || y != 0 || z != 0) && (image >= -margin).all() && (image <= lengths + margin).all()) {
                         positions.emplace_back(image);
                         site_radii.push_back(radii[i]);
+                        diagram.particle.push_back(static_cast<int>(i));
                     }
                 }
             }
         }
     }
-    PowerDiagram diagram;
     const auto sites = static_cast<Index>(positions.size());
     diagram.positions = Eigen::Map<const Eigen::Matrix3Xd>(positions.front().data(), 3, sites);
     diagram.radii = Eigen::Map<const Eigen::VectorXd>(site_radii.data(), sites);
@@ -295,10 +300,11 @@ EdgeGeometry measure_edge(const PowerDiagram& diagram, const DiagramEdge& edge) 
     return geometry;
 }
 
+/// The centre of a nearly flat tetrahedron is ill-conditioned. The largest of all spheres has its centre inside its tetrahedron; if
+/// that one is flat, a neighbour has the same sphere but for the square of the flatness.
+constexpr double well_conditioned = 1e-6;
+
 double largest_vertex_power(const PowerDiagram& diagram) {
-    // The centre of a nearly flat tetrahedron is ill-conditioned. The largest of all spheres has its centre inside its
-    // tetrahedron; if that one is flat, a neighbour has the same sphere but for the square of the flatness.
-    constexpr double well_conditioned = 1e-6;
     double largest = -std::numeric_limits<double>::infinity();
 #pragma omp parallel for schedule(static) reduction(max : largest)
     for (const DiagramEdge& edge : diagram.edges) {
@@ -310,6 +316,35 @@ double largest_vertex_power(const PowerDiagram& diagram) {
         }
     }
     return largest;
+}
+
+DiagramVertex largest_vertex(const PowerDiagram& diagram) {
+    DiagramVertex largest;
+    largest.power = -std::numeric_limits<double>::infinity();
+    for (const DiagramEdge& edge : diagram.edges) {
+        const EdgeGeometry geometry = measure_edge(diagram, edge);
+        for (std::size_t which = 0; which < 2; ++which) {
+            if (geometry.relative_volume[which] > well_conditioned && geometry.end_power(which) > largest.power) {
+                largest = {{edge.around[0], edge.around[1], edge.around[2], edge.apex[which]}, geometry.end_power(which)};
+            }
+        }
+    }
+    return largest;
+}
+
+double power_of_vertex(const PowerDiagram& diagram, const std::array<int, 4>& sites, double growth) {
+    const Eigen::Vector3d origin = diagram.positions.col(sites[0]);
+    const double radius = diagram.radii[sites[0]] + growth;
+    Eigen::Matrix3d edges;
+    Eigen::Vector3d half;
+    for (int k = 0; k < 3; ++k) {
+        const int site = sites[static_cast<std::size_t>(k + 1)];
+        const double other = diagram.radii[site] + growth;
+        edges.row(k) = diagram.positions.col(site) - origin;
+        half[k] = 0.5 * (edges.row(k).squaredNorm() + (radius - other) * (radius + other));
+    }
+    const Eigen::Vector3d vertex = edges.partialPivLu().solve(half);
+    return vertex.allFinite() ? vertex.squaredNorm() - radius * radius : std::numeric_limits<double>::quiet_NaN();
 }
 
 PowerDiagram periodic_diagram(const Packing& packing, const Eigen::VectorXd& radii, double margin) {
@@ -336,6 +371,8 @@ PowerDiagram open_diagram(const Packing& packing, const Eigen::VectorXd& radii, 
     diagram.positions = packing.positions.colwise() - packing.cell.origin();
     diagram.radii = radii;
     diagram.counted = std::move(counted);
+    diagram.particle.resize(diagram.counted.size());
+    std::iota(diagram.particle.begin(), diagram.particle.end(), 0);
     find_edges(diagram);
     return diagram;
 }

@@ -20,6 +20,7 @@ struct DiagramEdge {
 struct PowerDiagram {
     Eigen::Matrix3Xd positions;            ///< of the sites: the particles in their order, then periodic images
     Eigen::VectorXd radii;                 ///< of the sites; power of a point = squared distance to the site - radius^2
+    std::vector<int> particle;             ///< of the sites
     std::vector<char> counted;             ///< 1 for the sites whose cells are to be measured
     std::vector<DiagramEdge> edges;        ///< bounded edges with a counted site among the three around
     std::vector<std::array<int, 3>> hull;  ///< triangles of the convex hull, normals outward
@@ -52,6 +53,18 @@ EdgeGeometry measure_edge(const PowerDiagram& diagram, const DiagramEdge& edge);
 
 /// Largest power of the vertices of the counted cells: in monodisperse packings, (distance to the nearest sites)^2 - radius^2.
 double largest_vertex_power(const PowerDiagram& diagram);
+
+/// A vertex of the diagram: the point with the same power for four sites.
+struct DiagramVertex {
+    std::array<int, 4> sites{};
+    double power = 0;
+};
+/// The vertex of largest power of the counted cells.
+DiagramVertex largest_vertex(const PowerDiagram& diagram);
+
+/// Power of the point that has the same power for four sites, whether or not it is a vertex of the diagram, when all radii are
+/// larger by `growth`; NaN if the sites lie in a plane.
+double power_of_vertex(const PowerDiagram& diagram, const std::array<int, 4>& sites, double growth);
 
 /// Diagram of the particles in a periodic box; all of them are counted. Images are added in a layer around the box, and the layer
 /// is widened until no particle image beyond it could change a cell.

@@ -7,15 +7,15 @@ namespace coagula::characterize {
 
 namespace {
 
-/// Covered and cell volume of the orthoschemes around one edge.
-Eigen::Array2d cover_edge(const PowerDiagram& diagram, const DiagramEdge& edge) {
+/// Adds covered and cell volume of the orthoschemes around one edge.
+void cover_edge(const PowerDiagram& diagram, const DiagramEdge& edge, const Blocks& blocks, Eigen::Matrix2Xd& sums) {
     const EdgeGeometry geometry = measure_edge(diagram, edge);
-    Eigen::Array2d sum = Eigen::Array2d::Zero();
     const auto add = [&](int corner, double a, double b) {
         const int site = edge.around[static_cast<std::size_t>(corner)];
         if (diagram.counted[static_cast<std::size_t>(site)] != 0) {
             for (const double c : geometry.height) {
-                sum += Eigen::Array2d(volume_inside_ball(a, b, c, diagram.radii[site]), a * b * c / 6);
+                sums.col(blocks.of_particle[site]) +=
+                    Eigen::Vector2d(volume_inside_ball(a, b, c, diagram.radii[site]), a * b * c / 6);
             }
         }
     };
@@ -23,22 +23,21 @@ Eigen::Array2d cover_edge(const PowerDiagram& diagram, const DiagramEdge& edge) 
         add(side.first, side.first_distance, side.foot_distance);
         add(side.second, side.second_distance, side.foot_distance);
     }
-    return sum;
 }
 
 }  // namespace
 
-std::array<double, 2> cover_spheres(const PowerDiagram& diagram) {
+Eigen::Matrix2Xd cover_spheres(const PowerDiagram& diagram, const Blocks& blocks) {
     constexpr std::size_t chunk = 4096;  // sums of sums: small rounding errors
-    Eigen::Array2d total = Eigen::Array2d::Zero();
+    Eigen::Matrix2Xd total = Eigen::Matrix2Xd::Zero(2, blocks.count);
     for (std::size_t begin = 0; begin < diagram.edges.size(); begin += chunk) {
-        Eigen::Array2d part = Eigen::Array2d::Zero();
+        Eigen::Matrix2Xd part = Eigen::Matrix2Xd::Zero(2, blocks.count);
         for (std::size_t edge = begin; edge < std::min(begin + chunk, diagram.edges.size()); ++edge) {
-            part += cover_edge(diagram, diagram.edges[edge]);
+            cover_edge(diagram, diagram.edges[edge], blocks, part);
         }
         total += part;
     }
-    return {total[0], total[1]};
+    return total;
 }
 
 }  // namespace coagula::characterize

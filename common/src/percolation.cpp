@@ -155,4 +155,23 @@ std::vector<Cluster> find_clusters(const Packing& packing, const ContactNetwork&
     return by_root;
 }
 
+Eigen::VectorXi cluster_of_particles(const ContactNetwork& bonds, const std::vector<Cluster>& clusters,
+                                     const std::vector<bool>& selected) {
+    Sets sets(bonds.particles);
+    for (Index bond = 0; bond < bonds.size(); ++bond) {
+        if (selected.empty() || selected[static_cast<std::size_t>(bond)]) {
+            sets.join(static_cast<std::size_t>(bonds.ends(0, bond)), static_cast<std::size_t>(bonds.ends(1, bond)), Image::Zero());
+        }
+    }
+    std::vector<int> of_root(static_cast<std::size_t>(bonds.particles), -1);
+    for (std::size_t k = 0; k < clusters.size(); ++k) {
+        of_root[sets.find(static_cast<std::size_t>(clusters[k].first)).root] = static_cast<int>(k);
+    }
+    Eigen::VectorXi result(bonds.particles);
+    for (Index particle = 0; particle < bonds.particles; ++particle) {
+        result[particle] = of_root[sets.find(static_cast<std::size_t>(particle)).root];
+    }
+    return result;
+}
+
 }  // namespace coagula

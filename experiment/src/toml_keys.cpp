@@ -1,11 +1,14 @@
 #include "toml_keys.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/spelling.hpp>
 #include <coagula/io/date_time.hpp>
 #include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace coagula::experiment {
@@ -84,10 +87,14 @@ std::optional<double> TomlKeys::moment(const std::string& key) {
 
 std::optional<std::int64_t> TomlKeys::whole(const std::string& key) {
     const toml::node* node = take(key);
-    if (node != nullptr && !node->is_integer()) {
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    const auto number = node->value<std::int64_t>();  // also of 1e6, which TOML takes for a float
+    if (!number || node->is_boolean()) {
         fail(key, "must be a whole number");
     }
-    return node == nullptr ? std::nullopt : node->value<std::int64_t>();
+    return number;
 }
 
 int TomlKeys::small_count(const std::string& key, std::int64_t low) {
@@ -130,10 +137,11 @@ std::vector<std::int64_t> TomlKeys::wholes(const std::string& key) {
     const toml::node* node = take(key);
     std::vector<std::int64_t> list;
     const auto add = [&](const toml::node& item) {
-        if (!item.is_integer()) {
+        const auto number = item.value<std::int64_t>();
+        if (!number || item.is_boolean()) {
             fail(key, "must be a whole number or a list of them");
         }
-        list.push_back(*item.value<std::int64_t>());
+        list.push_back(*number);
     };
     if (node != nullptr && node->is_array()) {
         for (const toml::node& item : *node->as_array()) {
@@ -170,7 +178,10 @@ std::string TomlKeys::required_text(const std::string& key) {
 void TomlKeys::refuse_other_keys() const {
     for (const auto& [key, node] : table_) {
         if (!taken_.contains(std::string(key.str()))) {
-            fail(std::string(key.str()), "there is no such key here");
+            std::vector<std::string> free;
+            std::copy_if(taken_.begin(), taken_.end(), std::back_inserter(free),
+                         [&](const std::string& name) { return !table_.contains(name); });
+            fail(std::string(key.str()), "there is no such key here" + did_you_mean(key.str(), free));
         }
     }
 }

@@ -1,11 +1,12 @@
 #include <coagula/mechanics/frequency.hpp>
 
-#include "blas_threads.hpp"
+#include "block_factor.hpp"
 #include "bond_tangents.hpp"
-#include "cholesky_factor.hpp"
 #include "complex_gradients.hpp"
 #include "frequency_network.hpp"
 #include "load_bearing.hpp"
+
+#include <coagula/common/blas_threads.hpp>
 
 #include <algorithm>
 #include <array>
@@ -66,7 +67,7 @@ public:
         std::vector<int> row;
         std::vector<int> column;
         network.scalar_pattern(row, column);
-        const EliminationOrder order(network.upper(), Ordering::nested_dissection);
+        const EliminationOrder order = elimination_order(network.upper(), Ordering::nested_dissection);
         factor_ = std::make_unique<ComplexSymmetricFactor>(row, column, order.permutation());
     }
 
@@ -249,8 +250,8 @@ std::vector<std::vector<ContactTangent>> spring_changes(const Packing& packing, 
 void check_stability(const FrequencyNetwork& network, const FrequencyPairs& pairs, const FrequencyOptions& options) {
     if (may_be_unstable(pairs.tangents)) {
         try {
-            const CholeskyFactor factor(network.upper(), options.shift,
-                                        EliminationOrder(network.upper(), Ordering::nested_dissection));
+            const CholeskyFactor factor(shifted(network.upper(), options.shift),
+                                        elimination_order(network.upper(), Ordering::nested_dissection));
         } catch (const std::runtime_error& error) {
             throw std::runtime_error(std::string("the bonded network is not stable under its prestress: ") + error.what());
         }

@@ -1,13 +1,13 @@
 #include <coagula/mechanics/linear.hpp>
 
-#include "blas_threads.hpp"
+#include "block_factor.hpp"
 #include "bond_tangents.hpp"
-#include "cholesky_factor.hpp"
 #include "conjugate_gradients.hpp"
 #include "load_bearing.hpp"
 #include "schwarz.hpp"
 #include "stiffness.hpp"
 
+#include <coagula/common/blas_threads.hpp>
 #include <coagula/common/contact_law.hpp>
 
 #include <algorithm>
@@ -110,12 +110,12 @@ Solution solve_directly(const Problem& problem, const EliminationOrder& order, c
     const StopRule rule{.residual = options.tolerance, .energy = 0, .most_iterations = most_direct_iterations};
     for (double shift = options.shift; shift <= 1e-5; shift *= 100) {
         progress.update("factorising", 0.1);
-        const CholeskyFactor factor(problem.upper, shift, order);
+        const CholeskyFactor factor(shifted(problem.upper, shift), order);
         if (response.floppy_modes < 0) {
             response.floppy_modes = problem.spins + factor.pivots_below(floppy_threshold);
         }
         Solution solution = conjugate_gradients(
-            problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { factor.solve(r, z); }, rule,
+            problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { z = factor.solve(r); }, rule,
             progress);
         if (solution.converged) {
             return solution;
@@ -148,7 +148,7 @@ Solution solve_iteratively(const Problem& problem, const Packing& packing, const
 
 Solution solve(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
                const Progress& progress, LinearResponse& response) {
-    const EliminationOrder order(problem.upper, Ordering::nested_dissection);
+    const EliminationOrder order = elimination_order(problem.upper, Ordering::nested_dissection);
     response.predicted_memory = order.predicted_memory();
     const bool direct = options.solver == LinearSolver::direct ||
                         (options.solver == LinearSolver::automatic && order.predicted_memory() <= options.memory_limit);

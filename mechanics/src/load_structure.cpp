@@ -4,7 +4,6 @@
 #include "load_bearing.hpp"
 #include "stiffness.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -308,22 +307,6 @@ private:
 };
 
 }  // namespace
-
-Fabric find_fabric(const ContactNetwork& bonds, const Eigen::VectorXd& weight) {
-    require(weight.size() == bonds.size(), "the weights of the contacts must be one per contact");
-    Fabric fabric;
-    for (Index bond = 0; bond < bonds.size(); ++bond) {
-        const Eigen::Vector3d n = bonds.branch.col(bond).normalized();
-        fabric.tensor += weight[bond] * n * n.transpose();
-    }
-    const double sum = fabric.tensor.trace();
-    if (sum > 0) {
-        fabric.tensor /= sum;
-        fabric.eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fabric.tensor).eigenvalues();
-        fabric.anisotropy = std::sqrt(1.5) * (fabric.tensor - Eigen::Matrix3d::Identity() / 3).norm();
-    }
-    return fabric;
-}
 
 ForceDistribution distribution_of_forces(const Eigen::VectorXd& normal_force) {
     ForceDistribution distribution;

@@ -2,6 +2,7 @@
 
 #include <coagula/common/parallel.hpp>
 
+#include "block_factor.hpp"
 #include "single_precision_factor.hpp"
 
 #include <algorithm>
@@ -182,8 +183,8 @@ SchwarzPreconditioner::SchwarzPreconditioner(const BlockMatrix& upper, const Blo
         coarse_->weights.push_back(trilinear(grid, fraction.col(particle)));
     }
     const BlockMatrix coarse = coarse_matrix(full, coarse_->weights, coarse_->nodes);
-    coarse_->factor = std::make_unique<CholeskyFactor>(coarse, options.shift * options.particles_per_box,
-                                                       EliminationOrder(coarse, Ordering::nested_dissection));
+    coarse_->factor = std::make_unique<CholeskyFactor>(shifted(coarse, options.shift * options.particles_per_box),
+                                                       elimination_order(coarse, Ordering::nested_dissection));
 }
 
 void SchwarzPreconditioner::list_copies(Index particles) {
@@ -212,7 +213,7 @@ void SchwarzPreconditioner::factorise_boxes(const BlockMatrix& upper, const Schw
         run_together(end - begin, [&](std::size_t place) {
             const std::size_t b = begin + place;
             const BlockMatrix local = restrict_to(upper, boxes_[b]->particles);
-            const EliminationOrder order(local, Ordering::minimum_degree);
+            const EliminationOrder order = elimination_order(local, Ordering::minimum_degree);
             boxes_[b]->factor = std::make_unique<SinglePrecisionFactor>(local, options.shift, order);
         });
     }
@@ -230,7 +231,7 @@ void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
         }
     }
     Loads coarse_motion;
-    coarse_->factor->solve(coarse_load, coarse_motion);
+    coarse_motion = coarse_->factor->solve(coarse_load);
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t b = 0; b < boxes_.size(); ++b) {
         const Box& box = *boxes_[b];

@@ -2,9 +2,9 @@
 // a Cholesky factor of its own, and a coarse continuous motion on a regular grid.
 #pragma once
 
-#include "cholesky_factor.hpp"
 #include "stiffness.hpp"
 
+#include <coagula/common/cholesky_factor.hpp>
 #include <coagula/common/progress.hpp>
 
 #include <array>

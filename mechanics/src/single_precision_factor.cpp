@@ -1,9 +1,11 @@
 #include "single_precision_factor.hpp"
 
+#include "block_factor.hpp"
+
 namespace coagula::mechanics {
 
 SinglePrecisionFactor::SinglePrecisionFactor(const BlockMatrix& upper, double shift, const EliminationOrder& order) {
-    const CholeskyFactor factor(upper, shift, order);
+    const CholeskyFactor factor(shifted(upper, shift), order);
     permutation_ = factor.permutation();
     factor.for_each_supernode([&](const CholeskyFactor::SupernodeView& node) {
         supernodes_.push_back({node.first_column, node.columns, rows_.size(), node.rows - node.columns, values_.size()});

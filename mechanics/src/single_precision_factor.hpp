@@ -2,7 +2,9 @@
 // would contend for OpenBLAS's buffers when many small factors are used by several threads at once.
 #pragma once
 
-#include "cholesky_factor.hpp"
+#include "stiffness.hpp"
+
+#include <coagula/common/cholesky_factor.hpp>
 
 #include <Eigen/Core>
 

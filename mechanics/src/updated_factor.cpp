@@ -1,6 +1,9 @@
 #include "updated_factor.hpp"
 
-#include "blas_threads.hpp"
+#include "block_factor.hpp"
+
+#include <coagula/common/blas_threads.hpp>
+
 
 #include <algorithm>
 
@@ -30,11 +33,11 @@ void UpdatedFactor::factorise(const ShearedNetwork& network, const Trial& trial)
     const BlasThreads threads(blas_threads);
     auto convex = ContactStiffness::Convex::contacts_without_bond;
     BlockMatrix matrix = stiffness.symmetric_part(convex);
-    const EliminationOrder order(matrix, Ordering::nested_dissection);
+    const EliminationOrder order = elimination_order(matrix, Ordering::nested_dissection);
     for (double shift = smallest_shift;; shift *= 10) {
         ++factorisations_;
         try {
-            factor_ = std::make_unique<CholeskyFactor>(matrix, shift, order);
+            factor_ = std::make_unique<CholeskyFactor>(shifted(matrix, shift), order);
             break;
         } catch (const NotPositiveDefinite&) {
             if (shift > largest_shift) {
@@ -90,7 +93,7 @@ void UpdatedFactor::add(const ShearedNetwork& network, const Trial& trial, const
         loads.col(column - before).segment<6>(6 * second) = base_.col(column).tail<6>();
     }
     const BlasThreads threads(blas_threads);
-    factor_->solve(loads, loads);
+    loads = factor_->solve(loads);
     compliance_.middleCols(before, rank_ - before) = loads;
     for (Index column = before; column < rank_; ++column) {
         inner_.col(column).head(rank_) = project(compliance_.col(column));
@@ -147,8 +150,7 @@ Eigen::VectorXd UpdatedFactor::project(const Motion& motion) const {
 
 Motion UpdatedFactor::solve(const Motion& load) const {
     const BlasThreads threads(blas_threads);
-    Motion motion;
-    factor_->solve(load, motion);
+    Motion motion = factor_->solve(load);
     if (rank_ > 0) {
         const Eigen::VectorXd weight = solver_.solve(change_.topLeftCorner(rank_, rank_) * project(motion));
         motion.noalias() -= compliance_.leftCols(rank_) * weight;

@@ -1,9 +1,10 @@
 // Factor of the tangent of a sheared network that follows the contacts which open, close, slip or break.
 #pragma once
 
-#include "cholesky_factor.hpp"
 #include "contact_stiffness.hpp"
 #include "sheared_network.hpp"
+
+#include <coagula/common/cholesky_factor.hpp>
 
 #include <Eigen/Dense>
 

@@ -1,6 +1,6 @@
 #include "diagnosis_data_page.hpp"
 
-#include "diagnosis_plots.hpp"
+#include "diagnosis_charts.hpp"
 #include "html.hpp"
 
 #include <map>

@@ -68,7 +68,8 @@ void add_tables(Results& results, const diagnose::Experiment& experiment) {
     }
 }
 
-void add_predictions(Results& results, const std::vector<PredictedRow>& rows) {
+void add_predictions(Results& results, const Diagnosis& found) {
+    const std::vector<PredictedRow>& rows = found.rows;
     const std::string path = group + "rows/";
     const auto numbers = [&](const std::string& name, double PredictedRow::*value, const std::string& unit,
                              const std::string& meaning) {
@@ -93,6 +94,11 @@ void add_predictions(Results& results, const std::vector<PredictedRow>& rows) {
     numbers("extended", &PredictedRow::extended, "Pa", "prediction with the best cause, without the effect of the sample");
     numbers("base_residual", &PredictedRow::base_residual, "1", "standardised, effects of the samples taken out");
     numbers("extended_residual", &PredictedRow::extended_residual, "1", "standardised, effects of the samples taken out");
+    for (const diagnose::OtherPrediction& other : found.others) {
+        results.push_back(io::vector(path + "others/" + other.cause,
+                                     Eigen::Map<const Eigen::VectorXd>(other.values.data(), static_cast<Index>(other.values.size())),
+                                     "Pa", "prediction with this cause, without the effect of the sample"));
+    }
 }
 
 void add_detection(Results& results, const Diagnosis& found) {
@@ -221,7 +227,7 @@ Results datasets_of(const DiagnosisRecord& record) {
     results.push_back(io::text(group + "credible_set", lines(found.credible_set, [](const std::string& name) { return name; }),
                                "smallest set of causes with 95 % of the posterior, one per line"));
     add_tables(results, record.experiment);
-    add_predictions(results, found.rows);
+    add_predictions(results, found);
     add_detection(results, found);
     add_causes(results, found);
     if (found.detected && found.gain.held_out > 0) {

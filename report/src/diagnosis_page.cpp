@@ -1,7 +1,8 @@
 #include <coagula/report/diagnosis_page.hpp>
 
+#include "bundle.hpp"
+#include "diagnosis_charts.hpp"
 #include "diagnosis_data_page.hpp"
-#include "diagnosis_plots.hpp"
 #include "diagnosis_tables.hpp"
 #include "html.hpp"
 
@@ -36,14 +37,10 @@ std::string joined(const std::vector<std::string>& names) {
     return text;
 }
 
-std::string figure(const std::string& svg, const std::string& caption) {
-    return svg.empty() ? std::string{} : "<figure>\n" + svg + "\n<figcaption>" + caption + "</figcaption>\n</figure>\n";
-}
-
 std::string header(const DiagnosisRecord& record) {
     const Diagnosis& found = record.diagnosis;
     const std::string title = record.experiment.title.empty() ? "Diagnosis of measured moduli" : record.experiment.title;
-    std::string html = "<header>\n<h1>" + escaped(title) + "</h1>\n";
+    std::string html = "<header>\n<div class=\"title\" id=\"title\"><h1>" + escaped(title) + "</h1></div>\n";
     const std::string sample = record.experiment.sample.name;
     html += paragraph((sample.empty() ? "" : escaped(sample) + " · ") + "diagnosis by coagula · " + record.provenance.time, "soft");
     html += std::string("<div class=\"verdict ") + diagnose::name_of(found.verdict) + "\"><p>" + escaped(verdict_sentence(found)) +
@@ -73,7 +70,7 @@ std::string base_model_text(const diagnose::Material& material) {
     }
 }
 
-std::string detection(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+std::string detection(const DiagnosisRecord& record, Charts& charts) {
     const Diagnosis& found = record.diagnosis;
     std::string html = heading("Where the base model fails");
     html += paragraph(base_model_text(record.experiment.material));
@@ -96,11 +93,11 @@ std::string detection(const DiagnosisRecord& record, Gnuplot& gnuplot) {
                   (found.statistics.front().axis == "none"
                        ? ""
                        : " of " + symbol_of(found.statistics.front().observable) + " along " + found.statistics.front().axis);
-    return html + figure(draw_detection(gnuplot, found), "The largest of " + std::to_string(found.statistics.size()) +
-                                                             " standardised misfit statistics (here: " + readable(what) +
-                                                             ") beside that of " + std::to_string(found.bootstrap.size()) +
-                                                             " data sets drawn from the fitted base model: " + chance_text(found) +
-                                                             "; the test decides at " + percent(record.level) + ".");
+    return html + detection_chart(charts, found,
+                                  "The largest of " + std::to_string(found.statistics.size()) +
+                                      " standardised misfit statistics (here: " + replaced(what, "_", " ") + ") beside that of " +
+                                      std::to_string(found.bootstrap.size()) + " data sets drawn from the fitted base model: " +
+                                      chance_text(found) + "; the test decides at " + printed(100 * record.level) + " %.");
 }
 
 /// Numbers that a logarithmic axis cannot show.
@@ -117,10 +114,10 @@ std::string not_shown(const Diagnosis& found, std::size_t table) {
                          : std::string{});
 }
 
-std::string data_and_models(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
     const Diagnosis& found = record.diagnosis;
     const Cause* cause = extended_cause(found);
-    std::string html = heading("Measured data against the models");
+    std::string html = heading("Measured data against the models") + "<div id=\"models\"></div>\n";
     for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
         const diagnose::Measurement& table = record.experiment.measurements[k];
         const auto rows =
@@ -134,17 +131,17 @@ std::string data_and_models(const DiagnosisRecord& record, Gnuplot& gnuplot) {
                                          [&](const auto& one) { return one.sample == table.sample; });
         const std::string extended = cause == nullptr ? "" : cause->name;
         html += image_table(found, k, extended);
-        for (const Picture& picture : draw_table(gnuplot, table, k, found, extended)) {
-            html += figure(picture.svg,
-                           picture.meaning + "; open: held out for the gain; bars: one standard deviation. Dashed: base model" +
-                               (extended.empty() ? std::string{} : "; solid: with " + escaped(extended)) +
-                               (effect == found.base_effects.end() || effect->effect == 0
-                                    ? "."
-                                    : ". Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +
-                                          " by the fit of the base model.") +
-                               " Right: what remains, the effect of the sample taken out; grey: two standard deviations." +
-                               (picture.moduli ? not_shown(found, k) : std::string{}));
-        }
+        html += table_charts(charts, table, k, found, extended);
+        html += paragraph(
+            "Circles: elastic part or the quantity itself; triangles: viscous part; open: held out for the gain; bars: one standard "
+            "deviation. " +
+                (effect == found.base_effects.end() || effect->effect == 0
+                     ? std::string{}
+                     : "Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +
+                           " by the fit of the base model. ") +
+                "What remains is measured less predicted with the effect of the sample taken out; grey: two standard deviations." +
+                not_shown(found, k),
+            "soft");
     }
     return html;
 }
@@ -201,7 +198,7 @@ std::string parameters(const Diagnosis& found) {
     return rows.empty() ? "" : html + html_table({"model", "parameter", "most probable", "90 % interval"}, rows);
 }
 
-std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+std::string gain(const DiagnosisRecord& record, Charts& charts) {
     const diagnose::Gain& gain = record.diagnosis.gain;
     std::string html = heading("Gain on data held out");
     if (gain.held_out == 0) {
@@ -214,11 +211,7 @@ std::string gain(const DiagnosisRecord& record, Gnuplot& gnuplot) {
                       "</b> with that cause: a factor of " + printed(gain.rmse_ratio) + ". The log predictive density changes by " +
                       change_of_density(gain, print_number) + ".");
     for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
-        const diagnose::Measurement& table = record.experiment.measurements[k];
-        for (const Picture& picture : draw_gain(gnuplot, table, k, record.diagnosis)) {
-            html += figure(picture.svg,
-                           escaped(table.label) + ", rows held out: error of the prediction by models that have not seen them.");
-        }
+        html += gain_charts(charts, record.experiment.measurements[k], k, record.diagnosis);
     }
     return html;
 }
@@ -295,26 +288,31 @@ std::string verdict_sentence(const Diagnosis& found) {
            gained(found.gain);
 }
 
-std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot) {
+std::string diagnosis_page(const DiagnosisRecord& record) {
     const Diagnosis& found = record.diagnosis;
-    std::string body = data_and_models(record, gnuplot) + detection(record, gnuplot);
+    Charts charts;
+    std::string body = data_and_models(record, charts) + detection(record, charts);
     if (found.detected) {
         body += causes(found);
     }
     body += parameters(found);
     if (found.detected) {
-        body += gain(record, gnuplot) + proposals(found);
+        body += gain(record, charts) + proposals(found);
     }
     body += noise_section(record.noise) + left_out_section(record.experiment) + made(record);
     std::string head = header(record);
     for (const std::string& note : record.notes) {
         head += paragraph("Note: " + escaped(note) + ".", "soft");
     }
-    if (!gnuplot.problem().empty()) {
-        const std::string& problem = gnuplot.problem();
-        head += "<p class=\"missing\">" + escaped("T" + problem.substr(1)) + ".</p>\n";
+    if (diagnosis_script.empty()) {
+        head += paragraph("The figures are missing because this program was built without its pages (scripts/bundle-web).", "missing");
     }
-    return html_page((record.experiment.title.empty() ? "Diagnosis" : record.experiment.title) + " – coagula", head + body);
+    Json data = {{"charts", charts.all()}, {"causes", Json::array()}};
+    for (const Cause& cause : found.causes) {
+        data["causes"].push_back({{"name", "with " + cause.name}, {"probability", cause.posterior}});
+    }
+    return html_page((record.experiment.title.empty() ? "Diagnosis" : record.experiment.title) + " – coagula",
+                     head + body + page_data(data) + page_script(diagnosis_script), "text");
 }
 
 }  // namespace coagula::report

@@ -1,7 +1,5 @@
 #include <coagula/report/gnuplot.hpp>
 
-#include "html.hpp"
-
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -11,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace coagula::report {
 
@@ -74,6 +73,14 @@ int spawn_gnuplot(const MemoryFile& commands, const MemoryFile& picture, const M
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
+/// gnuplot repeats the command before it says what is wrong with it.
+std::string last_line(std::string text) {
+    text.erase(text.find_last_not_of(" \n") + 1);
+    const std::size_t begin = text.rfind('\n');
+    text.erase(0, begin == std::string::npos ? 0 : text.find_first_not_of(' ', begin + 1));
+    return text;
+}
+
 /// The text without what stands in elements of this name: gnuplot names every curve, and a browser shows that under the mouse.
 std::string without(std::string text, const std::string& element) {
     for (std::size_t begin = 0; (begin = text.find("<" + element + ">", begin)) != std::string::npos;) {
@@ -83,23 +90,11 @@ std::string without(std::string text, const std::string& element) {
     return text;
 }
 
-/// The element alone, with its ids marked by the number of the picture, because all pictures stand in one document.
-std::string as_element(std::string svg, int number, const std::string& title) {
-    const std::size_t begin = svg.find("<svg");
-    const std::size_t end = svg.rfind("</svg>");
-    if (begin == std::string::npos || end == std::string::npos) {
-        return {};
-    }
-    svg = without(without(svg.substr(begin, end + 6 - begin), "title"), "desc");
-    const std::string mark = "p" + std::to_string(number) + "-";
-    for (const std::string place : {"id=\"", "id='", "href=\"#", "href='#", "url(#"}) {
-        svg = replaced(std::move(svg), place, place + mark);
-    }
-    svg.insert(svg.find('>') + 1, "\n<title>" + escaped(title) + "</title>");
-    return svg;
-}
-
 }  // namespace
+
+std::string without_names(std::string svg) {
+    return without(without(std::move(svg), "title"), "desc");
+}
 
 GnuplotOutput run_gnuplot(const std::string& commands) {
     const MemoryFile script;
@@ -111,26 +106,9 @@ GnuplotOutput run_gnuplot(const std::string& commands) {
     if (status < 0 || status == 127) {
         output.problem = "gnuplot is not installed (Debian: apt-get install gnuplot-nox)";
     } else if (output.picture = status == 0 ? picture.text() : ""; output.picture.empty()) {
-        const std::string said = complaints.text();
-        output.problem = "gnuplot failed: " + said.substr(0, said.find('\n', 1));
+        output.problem = "gnuplot failed: " + last_line(complaints.text());
     }
     return output;
-}
-
-std::string Gnuplot::draw(const std::string& commands, int width, int height, const std::string& title) {
-    if (!problem_.empty()) {
-        return {};
-    }
-    const GnuplotOutput output =
-        run_gnuplot("set encoding utf8\nset terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
-                    " dynamic enhanced font \"sans-serif,13\" linewidth 1.2\n" + commands + "\nunset output\n");
-    if (!output.problem.empty()) {
-        problem_ = "the plots are missing because " + output.problem;
-        return {};
-    }
-    const std::string svg = as_element(output.picture, ++drawn_, title);
-    problem_ = svg.empty() ? "the plots are missing because gnuplot did not draw an SVG" : "";
-    return svg;
 }
 
 }  // namespace coagula::report

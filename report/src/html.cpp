@@ -1,5 +1,7 @@
 #include "html.hpp"
 
+#include "bundle.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -8,53 +10,6 @@
 namespace coagula::report {
 
 namespace {
-
-/// Read on a screen and on paper; colours by Okabe and Ito (2008), which the colour-blind tell apart.
-constexpr std::string_view page_style = R"css(
-:root { --ink: #1d2329; --soft: #5b6770; --rule: #d5dade; --pale: #f3f5f7; --base: #d55e00; --extended: #0072b2; --good: #009e73; }
-* { box-sizing: border-box; }
-body { margin: 0 auto; padding: 2.2rem 1.6rem 3rem; max-width: 66rem; color: var(--ink); background: #fff;
-  font: 16px/1.5 "Source Sans 3", "Source Sans Pro", "Helvetica Neue", Arial, "Liberation Sans", "DejaVu Sans", sans-serif; }
-h1 { margin: 0 0 .2rem; font-size: 1.75rem; line-height: 1.2; font-weight: 650; }
-h2 { margin: 2.6rem 0 .7rem; padding-top: .8rem; border-top: 1px solid var(--rule); font-size: 1.22rem; font-weight: 650; }
-h3 { margin: 1.5rem 0 .3rem; font-size: 1.02rem; font-weight: 650; }
-p { margin: .45rem 0; max-width: 46rem; }
-.soft, figcaption { color: var(--soft); font-size: .92rem; }
-.verdict { margin: 1.2rem 0 .4rem; padding: .9rem 1.1rem; border-left: 6px solid var(--extended); background: var(--pale); font-size: 1.18rem; }
-.verdict p { max-width: 52rem; margin: 0; }
-.verdict.no-discrepancy { border-color: var(--good); }
-.verdict.tied { border-color: #e69f00; }
-.verdict.none-of-catalogue { border-color: var(--base); }
-.facts { display: flex; flex-wrap: wrap; gap: .6rem 2.4rem; margin: 1rem 0 0; padding: 0; }
-.facts div { min-width: 7rem; }
-.facts dt { color: var(--soft); font-size: .84rem; }
-.facts dd { margin: 0; font-size: 1.22rem; font-variant-numeric: tabular-nums; }
-ul.findings { margin: .4rem 0; padding-left: 1.2rem; max-width: 50rem; }
-ul.findings li { margin: .3rem 0; }
-figure { margin: .6rem 0 1.4rem; }
-figure svg { display: block; width: 100%; height: auto; }
-figure svg text { font-family: inherit; }
-figcaption { max-width: 52rem; }
-table { border-collapse: collapse; margin: .6rem 0; font-size: .94rem; font-variant-numeric: tabular-nums; }
-th { text-align: left; font-weight: 600; color: var(--soft); font-size: .84rem; border-bottom: 1.5px solid var(--ink); padding: .2rem .9rem .25rem 0; vertical-align: bottom; }
-td { padding: .26rem .9rem .26rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
-table.bars { width: 100%; }
-table.bars td:nth-child(2) { width: 34%; }
-.bar { position: relative; height: 1.05rem; margin-top: .22rem; background: var(--pale); }
-.bar span { position: absolute; left: 0; top: 0; bottom: 0; background: var(--extended); }
-.outside .bar span { background: #9aa5ad; }
-.name { font-weight: 600; white-space: nowrap; }
-.number { text-align: right; white-space: nowrap; }
-.key-base { color: var(--base); font-weight: 600; } .key-extended { color: var(--extended); font-weight: 600; }
-.missing { padding: .6rem .9rem; background: #fdf3e3; border-left: 4px solid #e69f00; max-width: 52rem; }
-code, .mono { font: .87rem/1.5 "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
-dl.made { display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1.4rem; font-size: .92rem; }
-dl.made dt { color: var(--soft); } dl.made dd { margin: 0; overflow-wrap: anywhere; }
-@page { margin: 16mm 14mm; }
-@media print { body { padding: 0; max-width: none; font-size: 10.5pt; } h2 { break-after: avoid; } figure, tr, .verdict { break-inside: avoid; }
-  * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
-@media (max-width: 46rem) { table { display: block; overflow-x: auto; } }
-)css";
 
 const std::string no_break = "\u00a0";  ///< a space that no line ends at
 
@@ -179,11 +134,24 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
     return text + "</tbody></table>\n";
 }
 
-std::string html_page(const std::string& title, const std::string& body) {
+std::string html_page(const std::string& title, const std::string& body, const std::string& body_style) {
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-           escaped(title) + "</title>\n<style>" + std::string(page_style) + "</style>\n</head>\n<body>\n" + body +
+           escaped(title) + "</title>\n<style>" + std::string(page_style) + "</style>\n</head>\n" +
+           (body_style.empty() ? "<body>\n" : "<body class=\"" + body_style + "\">\n") + body +
            "</body>\n</html>\n";
+}
+
+std::string page_data(const nlohmann::ordered_json& data, const std::string& arrays) {
+    // "<" would let a text of the data end the element.
+    return "<script type=\"application/json\" id=\"data\">" + replaced(data.dump(), "<", "\\u003c") + "</script>\n" +
+           (arrays.empty() ? std::string{} : "<script type=\"text/plain\" id=\"arrays\">" + arrays + "</script>\n");
+}
+
+std::string page_script(std::string_view script) {
+    return "<noscript><p class=\"missing\">This page draws its figures with JavaScript, which is switched off here.</p></noscript>\n"
+           "<script>" +
+           std::string(script) + "</script>\n";
 }
 
 }  // namespace coagula::report

@@ -1,6 +1,8 @@
 // Parts of a page: text in HTML, tables, the style that all pages share.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +35,12 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
                        const std::string& style = {});
 
 /// A whole page that needs no other file: <title>, style, body.
-std::string html_page(const std::string& title, const std::string& body);
+std::string html_page(const std::string& title, const std::string& body, const std::string& body_style = {});
+
+/// What the script of a page draws: an element of JSON, and the long arrays beside it (PageArrays::base64; may be empty).
+std::string page_data(const nlohmann::ordered_json& data, const std::string& arrays = {});
+
+/// A script of the bundle, to stand at the end of the body.
+std::string page_script(std::string_view script);
 
 }  // namespace coagula::report

@@ -41,6 +41,8 @@ CALLS = {
     "info": ["info packing.h5"],
     "import": ["import points.csv --radius 0.5um --box 8um -o made.h5", "import plain.csv --length-unit 1um --radius 0.5um --open -o made.h5"],
     "export": ["export packing.h5 --format csv -o made.csv"],
+    "completion": ["completion bash"],
+    "man": ["man shear"],
 }
 METHODS = {"dem": "shear packing.h5 -o made.h5 --method dem --orientation xy --oscillations 1 --steps-per-oscillation 200",
            "quasistatic": "shear packing.h5 -o made.h5 --method quasistatic --orientation xy --rest-length found"}

@@ -27,6 +27,8 @@ class Install(ProgramTest):
     def test_consumer(self):
         self.call(CMAKE, "--install", BUILD, "--prefix", self.folder / "prefix")
         self.assertIn("coagula", self.call(self.folder / "prefix/bin/coagula", "--version"))
+        for file in ("man/man1/coagula-shear.1", "bash-completion/completions/coagula", "zsh/site-functions/_coagula"):
+            self.assertTrue((self.folder / "prefix/share" / file).is_file(), file)
         for component in ("common", "io", "generators", "mechanics", "diagnose", "experiment", ""):
             self.configure(component)
         self.configure("characterize;report")

@@ -1,5 +1,7 @@
 """The machine-readable results: keys, shapes and relations between the values."""
 
+import csv
+import io
 import math
 import unittest
 
@@ -122,6 +124,25 @@ class OtherVerbs(ProgramTest):
         self.assertEqual((made["particles"], made["voids"], made["seed"]), (500, 250, 2))
         self.assertAlmostEqual(made["coordination"], 4.69, delta=0.15)
         self.assertLess(made["overlap"]["rms"], 0.005)
+
+    def test_info_of_many_files_is_a_table(self):
+        self.copy_of_packing("a.h5")
+        self.copy_of_packing("b, c.h5")
+        found = self.succeed_json("characterize", "a.h5", "--only", "coordination")
+        sheared = self.succeed_json("shear", "b, c.h5")
+        rows = list(csv.DictReader(io.StringIO(self.succeed("info", "a.h5", "b, c.h5", "--csv"))))
+        self.assertEqual([row["file"] for row in rows], ["a.h5", "b, c.h5"])
+        self.assertEqual([row["particles"] for row in rows], ["500", "500"])
+        self.assertEqual(float(rows[0]["characterization/coordination"]), found["coordination"])
+        self.assertEqual(rows[1]["characterization/coordination"], "")
+        self.assertEqual(rows[0]["mechanics/linear/storage_modulus/mean [Pa]"], "")
+        self.assertEqual(float(rows[1]["mechanics/linear/storage_modulus/mean [Pa]"]), sheared["storage_modulus"]["mean"])
+        self.assertEqual(float(rows[1]["box_x [m]"]), self.succeed_json("info", "a.h5")["box"][0])
+        both = self.succeed_json("info", "a.h5", "b, c.h5")["files"]
+        self.assertEqual([file["file"] for file in both], ["a.h5", "b, c.h5"])
+        self.assertEqual(both[1]["results"]["/mechanics/linear/contacts"]["value"], sheared["contacts"])
+        self.fail_with(2, "info", "a.h5", "--csv", "--json", says="--json")
+        self.fail_with(2, "info", "a.h5", "absent.h5", "--csv", says="absent.h5")
 
     def test_info_lists_results_with_units_and_history(self):
         self.copy_of_packing()

@@ -4,9 +4,9 @@ import json
 import unittest
 from pathlib import Path
 
-from support import ProgramTest
+from support import ProgramTest, VEM
 
-VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "info", "import", "export"]
+VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "info", "import", "export", "completion", "man"]
 
 
 class Help(ProgramTest):
@@ -39,6 +39,32 @@ class Help(ProgramTest):
 
     def test_version(self):
         self.assertRegex(self.succeed("--version"), r"^coagula \d+\.\d+\.\d+ \(\S+\)\n$")
+        self.assertEqual(self.succeed("-V"), self.succeed("--version"))
+
+
+class Writing(ProgramTest):
+    """Numbers as people write them."""
+
+    CURVE = ["generate", "brownian", "--potential-curve", "--radius", "0.25um", "--surface-potential", "15mV"]
+
+    def test_whole_numbers_with_an_exponent(self):
+        wanted = self.succeed_json(*VEM, "-o", "a.h5")
+        words = ["5e2" if word == "500" else "2.5e2" if word == "250" else word for word in VEM]
+        self.assertEqual(self.succeed_json(*words, "-o", "b.h5")["coordination"], wanted["coordination"])
+        for wrong in ("1.5", "1e-1", "1e300", "1e", "e6", "1e6x", "1e3 um"):
+            self.fail_with(2, "characterize", "a.h5", "--radii", wrong, says="is not a whole number")
+
+    def test_blank_between_number_and_unit(self):
+        wanted = self.succeed_json(*self.CURVE, "--ionic-strength", "10")
+        for words in (["10mM"], ["10 mM"], ["10", "mM"], ["0.01", "mol/l"], ["1e-2", "M"]):
+            self.assertEqual(self.succeed_json(*self.CURVE, "--ionic-strength", *words), wanted)
+        self.fail_with(2, *self.CURVE, "--ionic-strength", "10", "mV", says="takes no argument")
+
+    def test_a_file_is_no_unit(self):
+        self.copy_of_packing("m")
+        self.succeed("shear", "--bond-tolerance", "0.01", "m", "-o", "b.h5")
+        self.succeed("shear", "--normal-stiffness", "100", "N/m", "m", "-o", "c.h5")
+        self.fail_with(2, "shear", "--normal-stiffness", "100", "N/s", "m", says="one FILE.h5")
 
 
 class WrongUsage(ProgramTest):
@@ -46,6 +72,15 @@ class WrongUsage(ProgramTest):
         calls = [
             ([], "verb"),
             (["fly"], "'fly'"),
+            (["shaer", "a.h5"], "did you mean 'shear'?"),
+            (["Info", "a.h5"], "did you mean 'info'?"),
+            (["generate", "vme"], "did you mean 'generate vem'?"),
+            (["genrate", "vem"], "did you mean 'generate vem'?"),
+            (["fit", "powerlaw", "a.csv"], "fit power-law"),
+            (["shear", "a.h5", "--normal-stifness", "1"], "did you mean '--normal-stiffness'?"),
+            (["shear", "a.h5", "--bond_tolerance", "1"], "did you mean '--bond-tolerance'?"),
+            (["shear", "a.h5", "--solver", "drect"], "did you mean 'direct'?"),
+            (["characterize", "a.h5", "--only", "overlapp"], "did you mean 'overlap'?"),
             (["generate"], "generate vem"),
             (["generate", "snow"], "snow"),
             (["fit"], "fit power-law"),
@@ -54,7 +89,7 @@ class WrongUsage(ProgramTest):
             (["fit", "power-law", "a.csv", "b.csv"], "one TABLE.csv"),
             (["calibrate"], "FILE.h5"),
             (["shear", "a.h5", "--colour", "red"], "--colour"),
-            (["shear", "a.h5", "--norm", "1"], "--norm"),  # no abbreviations
+            (["shear", "a.h5", "--norm", "1"], "'--norm'; did you mean '--normal-stiffness'?"),  # no abbreviations
             (["shear", "a.h5", "b.h5"], "one FILE.h5"),
             (["shear"], "FILE.h5"),
             (["shear", "a.h5", "--solver", "magic"], "magic"),
@@ -73,6 +108,15 @@ class WrongUsage(ProgramTest):
         for words, part in calls:
             with self.subTest(words=words):
                 self.fail_with(2, *words, says=part, may_say_nan="nan" in words)
+
+    def test_misspelt_keys(self):
+        self.copy_of_packing("a.h5")
+        self.write("model.toml", "normal_stifness = 1\n")
+        self.fail_with(2, "shear", "a.h5", "--model", "model.toml", says="did you mean 'normal_stiffness'?")
+        for text, says in (("[sampel]\n", "did you mean 'sample'?"), ('[sample]\nparticle_radus = "1um"\n', "did you mean 'particle_radius'?"),
+                           ('[[measurment]]\nkind = "amplitude-sweep"\n', "did you mean 'measurement'?")):
+            self.write("experiment.toml", text)
+            self.fail_with(2, "diagnose", "--check", "experiment.toml", says=says)
 
     def test_errors_with_json_are_sentences_on_standard_error(self):
         self.fail_with(2, "info", "absent.h5", "--json", says="absent.h5")

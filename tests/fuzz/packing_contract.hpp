@@ -9,24 +9,42 @@
 
 namespace coagula::fuzz {
 
-/// Without options, as an open set with radius and unit, and in a given box.
-inline std::array<io::ImportOptions, 3> import_options() {
+/// Without options, as an open set with radius and unit, in a given box, and as a trajectory.
+inline std::array<io::ImportOptions, 4> import_options() {
     return {io::ImportOptions{}, io::ImportOptions{.radius = 0.25, .box = {}, .open = true, .length_unit = 1.0},
-            io::ImportOptions{.radius = {}, .box = Eigen::Vector3d(10, 11, 12), .length_unit = 1e-6, .wrap = true}};
+            io::ImportOptions{.radius = {}, .box = Eigen::Vector3d(10, 11, 12), .length_unit = 1e-6, .wrap = true},
+            io::ImportOptions{.radius = 0.25,
+                              .box = Eigen::Vector3d(10, 11, 12),
+                              .length_unit = 1.0,
+                              .frame = io::FrameChoice{io::FrameChoice::Kind::all}}};
 }
 
-inline int read_packing(const std::uint8_t* data, std::size_t size, io::TextFormat format) {
+/// @param read gives the Structure of a path and options.
+template <class Read>
+int read_packing_by(const std::uint8_t* data, std::size_t size, const Read& read) {
     const std::string path = input_file(data, size, "packing");
     for (const io::ImportOptions& options : import_options()) {
         expect_value_or_sentence(path, [&] {
-            const Packing packing = io::read_text(path, format, options);
+            const io::Structure structure = read(path, options);
+            const Packing& packing = structure.packing;
             check(packing);
+            expect(std::isfinite(structure.time), "the time is not finite");
+            for (const io::Frame& frame : structure.earlier) {
+                expect(frame.positions.cols() == packing.size() && frame.positions.allFinite(), "a frame is another one");
+                expect(std::isfinite(frame.time), "the time of a frame is not finite");
+            }
             expect(packing.cell.lengths().allFinite() && packing.cell.origin().allFinite(), "the box is not finite");
             const double fraction = volume_fraction(packing);
             expect(fraction > 0 && fraction <= 1, "the volume fraction is " + to_text(fraction));
         });
     }
     return 0;
+}
+
+inline int read_packing(const std::uint8_t* data, std::size_t size, io::TextFormat format) {
+    return read_packing_by(data, size, [format](const std::string& path, const io::ImportOptions& options) {
+        return io::read_frames(path, format, options);
+    });
 }
 
 }  // namespace coagula::fuzz

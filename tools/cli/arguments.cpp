@@ -1,6 +1,7 @@
 #include "arguments.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/spelling.hpp>
 #include <coagula/io/units.hpp>
 #include <coagula/report/printable.hpp>
 
@@ -8,36 +9,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <sstream>
+#include <filesystem>
 
 namespace coagula::tools {
 
 namespace {
 
 namespace po = boost::program_options;
-
-/// What every verb understands.
-std::vector<Option> common_options() {
-    Option help = flag("help", "print this text");
-    help.letter = 'h';
-    return {flag("json", "print one JSON object and nothing else on standard output"),
-            count("threads", "number of threads; all cores when not given", "", within(1, 4096)),
-            flag("quiet", "no progress bar and no table"), help};
-}
-
-std::vector<Option> all_options(const Verb& verb) {
-    std::vector<Option> options;
-    if (!verb.input.empty()) {
-        Option input = text("input", verb.input, "the file to work on");
-        input.required = true;
-        options.push_back(input);
-    }
-    options.insert(options.end(), verb.options.begin(), verb.options.end());
-    for (Option& option : common_options()) {
-        options.push_back(std::move(option));
-    }
-    return options;
-}
 
 std::string hint(const std::string& verb) {
     return " (see 'coagula " + verb + " --help')";
@@ -47,6 +25,18 @@ std::string hint(const std::string& verb) {
 bool takes_many(const Verb& verb, const std::vector<std::string>& words) {
     const bool beside = !verb.many_beside.empty() && std::find(words.begin(), words.end(), "--" + verb.many_beside) != words.end();
     return verb.many_inputs || beside;
+}
+
+/// The end of the sentence about an option that does not exist.
+std::string meant_option(const std::string& written, const std::vector<Option>& options) {
+    std::vector<std::string> names;
+    for (const Option& option : options) {
+        if (option.name != "input") {
+            names.push_back(option.name);
+        }
+    }
+    const std::size_t begin = written.find_first_not_of('-');
+    return begin == std::string::npos ? std::string{} : did_you_mean(written.substr(begin), names, "--");
 }
 
 po::variables_map read_words(const Verb& verb, const std::vector<Option>& options, const std::vector<std::string>& words,
@@ -78,6 +68,9 @@ po::variables_map read_words(const Verb& verb, const std::vector<Option>& option
     } catch (const po::too_many_positional_options_error&) {
         throw InputError("coagula " + verb.name + (verb.input.empty() ? " takes no argument" : " takes one " + verb.input) +
                          " besides its options" + hint(verb.name));
+    } catch (const po::unknown_option& error) {
+        throw InputError("there is no option '" + error.get_option_name() + "'" + meant_option(error.get_option_name(), options) +
+                         hint(verb.name));
     } catch (const po::error& error) {
         throw InputError(error.what() + hint(verb.name));
     }
@@ -85,21 +78,28 @@ po::variables_map read_words(const Verb& verb, const std::vector<Option>& option
 }
 
 std::int64_t parse_count(const std::string& word) {
+    const char* last = word.data() + word.size();
     std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size()) {
-        throw InputError("'" + word + "' is not a whole number" +
-                         (error == std::errc::result_out_of_range ? " that the program can hold" : ""));
+    const auto [end, error] = std::from_chars(word.data(), last, value);
+    if (error == std::errc{} && end == last) {
+        return value;
     }
-    return value;
+    double number = 0;  // such as 1e6; every whole number up to 2^53 is a double
+    const auto [number_end, number_error] = std::from_chars(word.data(), last, number);
+    const bool whole = number_error == std::errc{} && number_end == last && number == std::nearbyint(number);
+    if (whole && std::abs(number) <= 9007199254740992.0) {
+        return static_cast<std::int64_t>(number);
+    }
+    const bool too_large = error == std::errc::result_out_of_range || whole;
+    throw InputError("'" + word + "' is not a whole number" + (too_large ? " that the program can hold" : ""));
 }
 
 /// UDUNITS knows bytes under their full name only.
-double parse_bytes(std::string word) {
-    if (word.ends_with('B')) {
+double any_quantity(std::string word, const std::string& unit) {
+    if (unit == "byte" && word.ends_with('B')) {
         word.replace(word.size() - 1, 1, "byte");
     }
-    return io::parse_quantity(word, "byte");
+    return io::parse_quantity(word, unit);
 }
 
 void check_range(const Range& range, const std::string& unit, double value, const std::string& word) {
@@ -112,6 +112,34 @@ void check_range(const Range& range, const std::string& unit, double value, cons
 /// Whether the text is a number and nothing else.
 bool is_bare(const std::string& word) {
     return word.find_first_not_of("+-.0123456789eE \t") == std::string::npos;
+}
+
+/// Puts together what the shell took apart: "--ionic-strength 10 mM" as "--ionic-strength '10 mM'". A word that is no unit of the
+/// option's dimension, or the name of a file that exists, stays by itself.
+std::vector<std::string> with_units_joined(const std::vector<Option>& options, const std::vector<std::string>& words) {
+    std::vector<std::string> joined;
+    const auto is_unit_of_last = [&](const std::string& word) {
+        if (joined.size() < 2 || !is_bare(joined.back()) || word.empty() || word.starts_with('-') || is_bare(word)) {
+            return false;
+        }
+        const auto option = std::find_if(options.begin(), options.end(), [&](const Option& entry) {
+            return entry.kind == Option::Kind::quantity && joined[joined.size() - 2] == "--" + entry.name;
+        });
+        try {
+            return option != options.end() && std::isfinite(any_quantity(joined.back() + ' ' + word, option->unit)) &&
+                   !std::filesystem::exists(word);
+        } catch (const InputError&) {
+            return false;
+        }
+    };
+    for (const std::string& word : words) {
+        if (is_unit_of_last(word)) {
+            joined.back() += ' ' + word;
+        } else {
+            joined.push_back(word);
+        }
+    }
+    return joined;
 }
 
 /// A word as a shell would have to read it.
@@ -129,126 +157,11 @@ std::string quoted(const std::string& word) {
     return text + "'";
 }
 
-std::string left_column(const Option& option) {
-    std::string text = option.letter != 0 ? std::string("  -") + option.letter + ", --" : std::string("      --");
-    text += option.name;
-    return option.kind == Option::Kind::flag ? text : text + " " + option.placeholder;
-}
-
-/// Unit, default and range in brackets.
-std::string remarks(const Option& option) {
-    std::vector<std::string> parts;
-    if (option.kind == Option::Kind::quantity) {
-        parts.push_back(option.unit == "1" ? "no unit" : "unit " + option.unit);
-    }
-    for (std::string choices; const std::string& name : option.choices) {
-        choices += (choices.empty() ? "" : ", ") + name;
-        if (name == option.choices.back()) {
-            parts.push_back(choices);
-        }
-    }
-    if (option.required) {
-        parts.emplace_back("required");
-    } else if (!option.fallback.empty()) {
-        parts.push_back("default " + option.fallback);
-    }
-    if (const std::string range = option.range.text(); !range.empty()) {
-        parts.push_back("range " + range);
-    }
-    std::string text;
-    for (const std::string& part : parts) {
-        text += (text.empty() ? " [" : "; ") + part;
-    }
-    return text.empty() ? text : text + "]";
-}
-
 }  // namespace
 
-bool Range::holds(double value) const {
-    return ends_included ? value >= low && value <= high : value > low && value < high;
-}
-
-std::string Range::text() const {
-    const bool has_low = std::isfinite(low);
-    const bool has_high = std::isfinite(high);
-    const std::string equal = ends_included ? "= " : " ";
-    if (has_low && has_high) {
-        return ends_included ? to_text(low) + " .. " + to_text(high) : "> " + to_text(low) + " and < " + to_text(high);
-    }
-    return has_low ? ">" + equal + to_text(low) : (has_high ? "<" + equal + to_text(high) : "");
-}
-
-Range at_least(double low) {
-    return {.low = low};
-}
-
-Range above(double low) {
-    return {.low = low, .ends_included = false};
-}
-
-Range between(double low, double high) {
-    return {.low = low, .high = high, .ends_included = false};
-}
-
-Range within(double low, double high) {
-    return {.low = low, .high = high};
-}
-
-Option flag(std::string name, std::string meaning) {
-    return {.kind = Option::Kind::flag, .name = std::move(name), .meaning = std::move(meaning)};
-}
-
-Option count(std::string name, std::string meaning, std::string fallback, Range range) {
-    return {.kind = Option::Kind::count,
-            .name = std::move(name),
-            .placeholder = "N",
-            .meaning = std::move(meaning),
-            .fallback = std::move(fallback),
-            .range = range};
-}
-
-Option quantity(std::string name, std::string unit, std::string meaning, std::string fallback, Range range) {
-    return {.kind = Option::Kind::quantity,
-            .name = std::move(name),
-            .placeholder = "X",
-            .meaning = std::move(meaning),
-            .unit = std::move(unit),
-            .fallback = std::move(fallback),
-            .range = range};
-}
-
-Option particle_radius(std::string meaning) {
-    Option option = quantity("radius", "m", std::move(meaning), "", physical::length);
-    option.largest_bare = 0.1;
-    return option;
-}
-
-Option text(std::string name, std::string placeholder, std::string meaning, std::string fallback) {
-    return {.kind = Option::Kind::text,
-            .name = std::move(name),
-            .placeholder = std::move(placeholder),
-            .meaning = std::move(meaning),
-            .fallback = std::move(fallback)};
-}
-
-Option choice(std::string name, std::vector<std::string> choices, std::string meaning, std::string fallback) {
-    Option option = text(std::move(name), "NAME", std::move(meaning), std::move(fallback));
-    option.choices = std::move(choices);
-    return option;
-}
-
-Option required(Option option) {
-    option.required = true;
-    return option;
-}
-
-Option output(std::string meaning) {
-    Option option = text("output", "FILE", std::move(meaning));
-    option.letter = 'o';
-    return option;
-}
-
-Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : verb_(verb.name) {
+Arguments::Arguments(const Verb& verb, const std::vector<std::string>& typed) : verb_(verb.name) {
+    const std::vector<Option> options = all_options(verb);
+    const std::vector<std::string> words = with_units_joined(options, typed);
     command_line_ = "coagula " + verb.name;
     for (const std::string& word : words) {
         if (!report::is_utf8(word)) {
@@ -256,7 +169,6 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& words) : 
         }
         command_line_ += ' ' + quoted(word);
     }
-    const std::vector<Option> options = all_options(verb);
     const bool many_inputs = takes_many(verb, words);
     const po::variables_map map = read_words(verb, options, words, many_inputs);
     if (map.count("help") > 0) {
@@ -308,11 +220,7 @@ void Arguments::store(const Option& option, const std::string& word) {
         throw InputError("the value is empty");
     }
     if (!option.choices.empty() && std::find(option.choices.begin(), option.choices.end(), word) == option.choices.end()) {
-        std::string list;
-        for (const std::string& name : option.choices) {
-            list += (list.empty() ? "" : ", ") + name;
-        }
-        throw InputError("'" + word + "' is not one of " + list);
+        throw InputError("'" + word + "' is not one of " + list_of(option.choices) + did_you_mean(word, option.choices));
     }
     values_[option.name] = word;
 }
@@ -345,29 +253,8 @@ nlohmann::ordered_json Arguments::to_json() const {
     return json;
 }
 
-std::string help_text(const Verb& verb) {
-    std::ostringstream text;
-    text << "usage: coagula " << verb.name << (verb.input.empty() ? "" : " " + verb.input) << " [options]\n\n"
-         << verb.summary << "\n\noptions:\n";
-    std::vector<Option> options = all_options(verb);
-    std::erase_if(options, [](const Option& option) { return option.name == "input"; });
-    std::size_t width = 0;
-    for (const Option& option : options) {
-        width = std::max(width, left_column(option).size());
-    }
-    for (const Option& option : options) {
-        std::string left = left_column(option);
-        left.resize(width + 2, ' ');
-        text << left << option.meaning << remarks(option) << '\n';
-    }
-    for (const std::string& note : verb.notes) {
-        text << (note == verb.notes.front() ? "\n" : "") << note << '\n';
-    }
-    return text.str();
-}
-
 double parse_quantity(const std::string& word, const std::string& unit, const Range& range, double largest_bare) {
-    const double value = unit == "byte" ? parse_bytes(word) : io::parse_quantity(word, unit);
+    const double value = any_quantity(word, unit);
     if (value > largest_bare && is_bare(word)) {
         throw InputError("'" + word + "' has no unit and would be " + to_text(value) + " " + unit +
                          ": give it with its unit, such as " + word + "um or " + word + unit);

@@ -1,5 +1,6 @@
 // coagula: generate, characterize and shear random sphere packings. Chooses the verb and turns exceptions into exit codes.
 #include "arguments.hpp"
+#include "help_text.hpp"
 #include "interruption.hpp"
 #include "provenance.hpp"
 #include "report.hpp"
@@ -7,6 +8,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/progress.hpp>
+#include <coagula/common/spelling.hpp>
 #include <coagula/report/printable.hpp>
 
 #include <omp.h>
@@ -27,11 +29,6 @@ namespace {
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
-std::vector<Verb> all_verbs() {
-    return {generate_vem_verb(),  generate_brownian_verb(), characterize_verb(), shear_verb(),  calibrate_verb(),
-            fit_power_law_verb(), diagnose_verb(),          info_verb(),         import_verb(), export_verb()};
-}
-
 void print_program_help() {
     std::cout << "usage: coagula VERB [options]\n\n"
                  "Random sphere packings and coagulated particle gels: generate, characterize, shear.\n\nverbs:\n";
@@ -43,8 +40,19 @@ void print_program_help() {
     std::cout
         << "\noptions:\n"
            "  -h, --help    print this text; 'coagula VERB --help' lists the options of a verb\n"
-           "      --version print the version\n\n"
+           "  -V, --version print the version\n\n"
            "Quantities are SI numbers or carry a unit: 0.25um, 100N/m. Exit codes: 0 done, 1 failed, 2 wrong usage or bad input.\n";
+}
+
+/// The end of the sentence about words that begin with no verb; with the two words of a verb like "generate vem", if there are two.
+std::string suggestion(const std::vector<std::string>& words) {
+    std::vector<std::string> pairs;
+    std::vector<std::string> singles = {"generate", "fit"};
+    for (const Verb& verb : all_verbs()) {
+        (verb.name.find(' ') == std::string::npos ? singles : pairs).push_back(verb.name);
+    }
+    const std::string meant = words.size() > 1 ? did_you_mean(words[0] + ' ' + words[1], pairs) : std::string{};
+    return meant.empty() ? did_you_mean(words[0], singles) : meant;
 }
 
 /// The verb that the words begin with; they are removed.
@@ -60,11 +68,12 @@ Verb take_verb(std::vector<std::string>& words) {
         throw InputError("'fit' needs the name of a law, and the one law is 'fit power-law'");
     }
     if (words.front() == "generate") {
-        throw InputError(words.size() > 1 ? "'generate " + words[1] +
-                                                "' is not a verb: the generators are 'generate vem' and 'generate brownian'"
-                                          : "'generate' needs the name of a generator: 'generate vem' or 'generate brownian'");
+        throw InputError(words.size() > 1
+                             ? "'generate " + words[1] +
+                                   "' is not a verb: the generators are 'generate vem' and 'generate brownian'" + suggestion(words)
+                             : "'generate' needs the name of a generator: 'generate vem' or 'generate brownian'");
     }
-    throw InputError("'" + words.front() + "' is not a verb (see 'coagula --help')");
+    throw InputError("'" + words.front() + "' is not a verb" + suggestion(words) + " (see 'coagula --help')");
 }
 
 void run(std::vector<std::string> words) {
@@ -78,7 +87,7 @@ void run(std::vector<std::string> words) {
         flush_output();
         return;
     }
-    if (words.front() == "--version") {
+    if (words.front() == "--version" || words.front() == "-V") {
         std::cout << "coagula " << version_text() << '\n';
         flush_output();
         return;

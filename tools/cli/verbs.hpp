@@ -3,6 +3,8 @@
 
 #include "arguments.hpp"
 
+#include <vector>
+
 namespace coagula::tools {
 
 Verb generate_brownian_verb();
@@ -13,7 +15,14 @@ Verb diagnose_verb();
 Verb info_verb();
 Verb import_verb();
 Verb export_verb();
+Verb report_verb();
 Verb calibrate_verb();
 Verb fit_power_law_verb();
+Verb plot_verb();
+Verb completion_verb();
+Verb man_verb();
+
+/// In the order in which help texts list them.
+std::vector<Verb> all_verbs();
 
 }  // namespace coagula::tools

@@ -7,6 +7,7 @@
 #include "stages.hpp"
 
 #include <coagula/characterize/measure.hpp>
+#include <coagula/common/spelling.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ std::vector<std::string> chosen_measures(const Arguments& arguments) {
     const std::vector<std::string> chosen = split(arguments.text("only"));
     for (const std::string& name : chosen) {
         if (name != "all" && std::find(names.begin(), names.end(), name) == names.end()) {
-            throw InputError("--only: '" + name + "' is not one of " + list_of(names) + ", all");
+            throw InputError("--only: '" + name + "' is not one of " + list_of(names) + ", all" + did_you_mean(name, names));
         }
     }
     return chosen;

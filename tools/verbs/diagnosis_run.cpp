@@ -160,22 +160,17 @@ Written write_diagnosis(const Arguments& arguments, const std::string& path, con
                                  found.checked.options.level,
                                  model,
                                  found.notes()};
-    Gnuplot gnuplot;
-    folder.write("report.html", diagnosis_page(record, gnuplot));
-    std::vector<std::string> notes = record.notes;
-    if (!gnuplot.problem().empty()) {
-        notes.push_back(gnuplot.problem());
-    }
+    folder.write("report.html", diagnosis_page(record));
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
     folder.write("simulations.txt", cache_text(cache));
     Json json = report::to_json(found.diagnosis, found.checked.noise, model);
-    json["notes"] = notes;
+    json["notes"] = record.notes;
     json["report"] = (folder.path() / "report.html").string();
     json["seconds"] = clock.seconds();
     folder.write("diagnosis.json", json.dump(2) + "\n");
     folder.publish();
     Table table = table_of(found.diagnosis);
-    for (const std::string& note : notes) {
+    for (const std::string& note : record.notes) {
         table.emplace_back("note", note);
     }
     table.emplace_back("written to", folder.path().string() + ", page for people: " + (folder.path() / "report.html").string());

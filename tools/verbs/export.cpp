@@ -1,11 +1,16 @@
-// coagula export: coordinates (and bonds) as text for other programs.
+// coagula export: coordinates (and bonds) for other programs.
 #include "cli/output_file.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
 
+#include <coagula/io/gsd_file.hpp>
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/text_formats.hpp>
+#include <coagula/io/trajectory_file.hpp>
+#include <coagula/io/vtk_file.hpp>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 namespace coagula::tools {
@@ -13,38 +18,65 @@ namespace coagula::tools {
 namespace {
 
 struct Format {
-    io::TextFormat format;
+    std::string name;
     std::string ending;
+    void (*write)(const std::string& path, const io::Structure& structure, bool overwrite);
+    bool many_frames = true;
 };
 
-Format format_named(const std::string& name) {
-    if (name == "csv") {
-        return {io::TextFormat::csv, ".csv"};
+template <io::TextFormat format>
+void write_as(const std::string& path, const io::Structure& structure, bool overwrite) {
+    io::write_text(path, format, structure.packing, structure.bonds, overwrite, structure.earlier, structure.time);
+}
+
+const std::array formats = {Format{"extxyz", ".extxyz", write_as<io::TextFormat::extended_xyz>},
+                            Format{"lammps", ".data", write_as<io::TextFormat::lammps_data>, false},
+                            Format{"dump", ".dump", write_as<io::TextFormat::lammps_dump>},
+                            Format{"csv", ".csv", write_as<io::TextFormat::csv>},
+                            Format{"gsd", ".gsd", io::write_gsd},
+                            Format{"vtk", ".vtp", io::write_vtk, false}};
+
+std::vector<std::string> format_names(bool with_frames_only) {
+    std::vector<std::string> names;
+    for (const Format& format : formats) {
+        if (format.many_frames || !with_frames_only) {
+            names.push_back(format.name);
+        }
     }
-    if (name == "extxyz") {
-        return {io::TextFormat::extended_xyz, ".extxyz"};
-    }
-    return {io::TextFormat::lammps_data, ".data"};
+    return names;
 }
 
 void run(const Arguments& arguments) {
-    const Format format = format_named(arguments.text("format"));
+    const Format& format =
+        *std::find_if(formats.begin(), formats.end(), [&](const Format& entry) { return entry.name == arguments.text("format"); });
+    const bool all_frames = arguments.flag("trajectory");
+    if (all_frames && !format.many_frames) {
+        throw InputError("--trajectory: the format " + format.name + " holds one frame; many go into " +
+                         list_of(format_names(true)));
+    }
     const std::string beside = std::filesystem::path(arguments.input()).replace_extension(format.ending).string();
     const std::string output = arguments.text("output", beside);
-    const io::Structure structure = io::read_structure(arguments.input());
+    const io::Structure structure = all_frames ? io::read_trajectory(arguments.input()) : io::read_structure(arguments.input());
     check_output(output, arguments.flag("force"));
-    io::write_text(output, format.format, structure.packing, structure.bonds, arguments.flag("force"));
-    const Json json = {{"output", output}, {"format", arguments.text("format")}, {"particles", structure.packing.size()}};
-    report(arguments, json, {{"particles", std::to_string(structure.packing.size())}, {"written to", output}});
+    format.write(output, structure, arguments.flag("force"));
+    const std::size_t frames = structure.earlier.size() + 1;
+    Json json = {{"output", output}, {"format", format.name}, {"particles", structure.packing.size()}, {"frames", frames}};
+    Table table = {{"particles", std::to_string(structure.packing.size())}, {"written to", output}};
+    if (all_frames) {
+        table.insert(table.begin() + 1, {"frames", std::to_string(frames)});
+    }
+    report(arguments, json, table);
 }
 
 }  // namespace
 
 Verb export_verb() {
     return {.name = "export",
-            .summary = "write the coordinates as extended XYZ, LAMMPS data or CSV",
+            .summary = "write the coordinates as extended XYZ, LAMMPS data or dump, CSV, GSD or VTK",
             .input = "FILE.h5",
-            .options = {required(choice("format", {"extxyz", "lammps", "csv"}, "format of the text file", "")),
+            .options = {required(choice("format", format_names(false), "vtk: PolyData with the bonds; lammps: data, with the bonds",
+                                        "")),
+                        flag("trajectory", "all frames of the file, oldest first, instead of the last one"),
                         output("file to write; beside the input when not given"), flag("force", "replace an existing file")},
             .run = run};
 }

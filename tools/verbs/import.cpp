@@ -6,19 +6,87 @@
 #include "cli/verbs.hpp"
 #include "stages.hpp"
 
+#include <coagula/common/spelling.hpp>
+#include <coagula/io/gsd_file.hpp>
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/text_formats.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 
 namespace coagula::tools {
 
 namespace {
+
+/// GSD is binary; the others are text.
+bool is_gsd(const Arguments& arguments) {
+    const std::string name = arguments.text("format", "");
+    return name == "gsd" || (name.empty() && std::filesystem::path(arguments.input()).extension() == ".gsd");
+}
 
 io::TextFormat chosen_format(const Arguments& arguments) {
     const std::string name = arguments.text("format", "");
     if (name.empty()) {
         return io::format_from_name(arguments.input());
     }
-    return name == "csv" ? io::TextFormat::csv : (name == "extxyz" ? io::TextFormat::extended_xyz : io::TextFormat::lammps_data);
+    return name == "csv"      ? io::TextFormat::csv
+           : name == "extxyz" ? io::TextFormat::extended_xyz
+           : name == "dump"   ? io::TextFormat::lammps_dump
+                              : io::TextFormat::lammps_data;
+}
+
+/// "U" for all lengths, "UX,UY,UZ" for the axes, "UX,UY,UZ,UR" with that of the radius, each with its unit.
+void parse_length_units(const std::string& text, io::ImportOptions& options) {
+    std::vector<double> units;
+    for (const std::string& part : split(text)) {
+        units.push_back(parse_quantity(part, "m", physical::length));
+    }
+    if (units.size() == 1) {
+        options.length_unit = units[0];
+        return;
+    }
+    if (units.size() != 3 && units.size() != 4) {
+        throw InputError("'" + text + "' must be one length, or three of the axes, UX,UY,UZ, or four with that of the radius");
+    }
+    options.axis_units = Eigen::Vector3d(units[0], units[1], units[2]);
+    if (units.size() == 4) {
+        options.length_unit = units[3];
+    }
+}
+
+/// "x=HEADING,y=HEADING".
+std::map<std::string, std::string> parse_columns(const std::string& text) {
+    const std::vector<std::string> known = {"x", "y", "z", "radius", "diameter", "frame"};
+    std::map<std::string, std::string> columns;
+    for (const std::string& part : split(text)) {
+        const std::size_t equals = part.find('=');
+        const std::string name = part.substr(0, equals);
+        if (equals == std::string::npos || equals + 1 == part.size()) {
+            throw InputError("'" + part + "' is not of the form x=HEADING");
+        }
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            throw InputError("'" + name + "' is not one of " + list_of(known) + did_you_mean(name, known));
+        }
+        if (!columns.emplace(name, part.substr(equals + 1)).second) {
+            throw InputError("'" + name + "' is given twice");
+        }
+    }
+    return columns;
+}
+
+io::FrameChoice parse_frame(const std::string& text) {
+    using Kind = io::FrameChoice::Kind;
+    for (const auto& [name, kind] : {std::pair{"last", Kind::last}, {"first", Kind::first}, {"all", Kind::all}}) {
+        if (text == name) {
+            return {kind};
+        }
+    }
+    const double number = parse_quantity(text, "1", within(-1e15, 1e15));
+    if (number != std::nearbyint(number)) {
+        throw InputError("'" + text + "' is not a whole number, first, last or all");
+    }
+    return {Kind::number, static_cast<std::int64_t>(number)};
 }
 
 double parse_edge(const std::string& text) {
@@ -44,7 +112,15 @@ Eigen::Vector3d parse_box(const std::string& text) {
 io::ImportOptions import_options(const Arguments& arguments) {
     io::ImportOptions options;
     options.radius = arguments.optional_quantity("radius");
-    options.length_unit = arguments.optional_quantity("length-unit");
+    if (arguments.has("length-unit")) {
+        arguments.parsed("length-unit", [&](const std::string& text) { parse_length_units(text, options); });
+    }
+    if (arguments.has("columns")) {
+        options.columns = arguments.parsed("columns", parse_columns);
+    }
+    if (arguments.has("frame")) {
+        options.frame = arguments.parsed("frame", parse_frame);
+    }
     options.open = arguments.flag("open");
     options.wrap = arguments.flag("wrap");
     if (arguments.has("box")) {
@@ -56,52 +132,69 @@ io::ImportOptions import_options(const Arguments& arguments) {
     return options;
 }
 
+io::Structure imported(const Arguments& arguments) {
+    const io::ImportOptions options = import_options(arguments);
+    io::Structure structure = is_gsd(arguments) ? io::read_gsd(arguments.input(), options)
+                                                : io::read_frames(arguments.input(), chosen_format(arguments), options);
+    check(structure.packing, arguments.input());
+    return structure;
+}
+
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     const std::string output = arguments.text("output");
     const bool force = arguments.flag("force");
-    chosen_format(arguments);
-    import_options(arguments);
     check_output(output, force);
-    const Packing packing = import_packing(arguments);
+    const io::Structure structure = imported(arguments);
+    const Packing& packing = structure.packing;
     progress.update("writing", 1.0);
-    io::write_structure(output, {packing, std::nullopt}, {}, {}, describe_call(arguments, nullptr, clock), force);
+    io::write_structure(output, structure, {}, {}, describe_call(arguments, nullptr, clock), force);
 
     const Eigen::Vector3d box = packing.cell.lengths();
+    const std::size_t frames = structure.earlier.size() + 1;
     const Json json = {{"particles", packing.size()},
+                       {"frames", frames},
                        {"box", {box.x(), box.y(), box.z()}},
                        {"periodic", packing.cell.is_periodic()},
                        {"volume_fraction", volume_fraction(packing)},
                        {"radius_mean", mean_radius(packing)},
                        {"output", output}};
-    report(arguments, json,
-           {{"particles", std::to_string(packing.size())},
-            {"box", describe(packing.cell)},
-            {"mean radius", with_unit(mean_radius(packing), "m")},
-            {"written to", output}});
+    Table table = {{"particles", std::to_string(packing.size())},
+                   {"box", describe(packing.cell)},
+                   {"mean radius", with_unit(mean_radius(packing), "m")},
+                   {"written to", output}};
+    if (frames > 1) {
+        table.insert(table.begin() + 1, {"frames", std::to_string(frames)});
+    }
+    report(arguments, json, table);
 }
 
 }  // namespace
 
 Packing import_packing(const Arguments& arguments) {
-    const io::TextFormat format = chosen_format(arguments);
-    Packing packing = io::read_text(arguments.input(), format, import_options(arguments));
-    check(packing, arguments.input());
-    return packing;
+    return imported(arguments).packing;
 }
 
 Verb import_verb() {
     return {
         .name = "import",
-        .summary = "take over coordinates from CSV, extended XYZ or LAMMPS data",
+        .summary = "take over coordinates from CSV, extended XYZ, LAMMPS data or dump, or GSD",
         .input = "FILE",
         .options = {required(output("HDF5 file to write")), flag("force", "replace an existing file"),
-                    choice("format", {"csv", "extxyz", "lammps"}, "format of the file; by its ending when not given", ""),
+                    choice("format", {"csv", "extxyz", "lammps", "dump", "gsd"}, "format of the file; by its ending when not given",
+                           ""),
                     particle_radius("radius of every particle; a column of the file when not given"),
                     text("box", "L|LX,LY,LZ", "edge lengths of the periodic box [unit m; range " + physical::length.text() + "]"),
                     flag("open", "the set has a free surface: no periodic box"),
-                    quantity("length-unit", "m", "length of one unit of columns that name no unit", "", physical::length),
+                    text("length-unit", "U|UX,UY,UZ[,UR]",
+                         "length of one unit of columns that name none, or name pixels: of all, or of each axis and of the radius, "
+                         "such as 0.1um,0.1um,0.3um [unit m; range " +
+                             physical::length.text() + "]"),
+                    text("columns", "NAME=HEADING,...", "columns of a CSV file: x, y, z, radius, diameter, frame"),
+                    text("frame", "N|first|last|all",
+                         "of a trajectory: the value in the column frame of a CSV file, which has no default; otherwise counted "
+                         "from 0, the last when not given; all: the whole trajectory"),
                     flag("wrap", "bring particles outside the periodic box back in; otherwise they are an error")},
         .run = run};
 }

@@ -1,12 +1,15 @@
 // coagula info: what is in a file.
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "info_rows.hpp"
+#include "recorded_options.hpp"
 
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>
+#include <coagula/io/table.hpp>
 
+#include <iostream>
 #include <map>
-#include <sstream>
 
 namespace coagula::tools {
 
@@ -50,26 +53,12 @@ Json results_json(const Results& results) {
     return json;
 }
 
-/// The options of a stage, which are no deeper than this; a text that is no JSON stays a text.
-Json options_json(const std::string& path, const std::string& text) {
-    constexpr int deepest = 16;
-    const auto refuse_deep = [&](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
-        if (depth > deepest) {
-            throw InputError(path + ": the options in its provenance are JSON nested deeper than " + std::to_string(deepest) +
-                             " levels");
-        }
-        return true;
-    };
-    const Json options = Json::parse(text, refuse_deep, false);
-    return options.is_discarded() ? Json(text) : options;
-}
-
 Json provenance_json(const std::string& path, const std::vector<io::Provenance>& history) {
     Json list = Json::array();
     for (const io::Provenance& entry : history) {
         list.push_back({{"stage", entry.stage},
                         {"command_line", entry.command_line},
-                        {"options", options_json(path, entry.options)},
+                        {"options", recorded_options(path, entry.options)},
                         {"seed", entry.seed},
                         {"version", entry.version},
                         {"time", entry.time},
@@ -117,35 +106,72 @@ std::map<std::string, std::size_t> own_bonds(const Results& results) {
     return found;
 }
 
-void run(const Arguments& arguments) {
-    const std::string path = arguments.input();
-    const auto [structure, results, history] = io::read_contents(path);
+Json contents_json(const std::string& path, const io::Contents& contents) {
+    Json json = structure_json(contents.structure);
+    json["own_bonds"] = own_bonds(contents.results);
+    json["results"] = results_json(contents.results);
+    json["provenance"] = provenance_json(path, contents.history);
+    return json;
+}
 
-    Json json = structure_json(structure);
-    const std::map<std::string, std::size_t> own = own_bonds(results);
-    json["own_bonds"] = own;
-    json["results"] = results_json(results);
-    json["provenance"] = provenance_json(path, history);
-
-    Table table = structure_table(structure);
-    for (const auto& [group, bonds] : own) {
+Table contents_table(const io::Contents& contents) {
+    Table table = structure_table(contents.structure);
+    for (const auto& [group, bonds] : own_bonds(contents.results)) {
         table.emplace_back(group, "found with " + std::to_string(bonds) + " other bonds, which are in " + group + "/connectivity");
     }
-    for (const io::Dataset& dataset : results) {
+    for (const io::Dataset& dataset : contents.results) {
         table.emplace_back(dataset.path, value_text(dataset) + "   (" + dataset.description + ")");
     }
-    for (const io::Provenance& entry : history) {
+    for (const io::Provenance& entry : contents.history) {
         table.emplace_back(entry.time,
                            entry.command_line + "   (" + with_unit(entry.seconds, "s") + ", coagula " + entry.version + ")");
     }
-    report(arguments, json, table);
+    return table;
+}
+
+void print_rows(const std::vector<std::string>& paths) {
+    InfoRows rows;
+    for (const std::string& path : paths) {
+        const io::Contents contents = io::read_contents(path);
+        rows.add(path, contents.structure, contents.results);
+    }
+    std::cout << io::csv_text(rows.with_header());
+    flush_output();
+}
+
+void run(const Arguments& arguments) {
+    const std::vector<std::string>& paths = arguments.inputs();
+    if (arguments.flag("csv")) {
+        if (arguments.flag("json") || arguments.flag("quiet")) {
+            throw InputError("--csv goes without --json and --quiet");
+        }
+        print_rows(paths);
+        return;
+    }
+    Json files = Json::array();
+    Table table;
+    for (const std::string& path : paths) {
+        const io::Contents contents = io::read_contents(path);
+        files.push_back(contents_json(path, contents));
+        if (paths.size() > 1) {
+            files.back()["file"] = path;
+            table.emplace_back("file", path);
+        }
+        const Table lines = contents_table(contents);
+        table.insert(table.end(), lines.begin(), lines.end());
+    }
+    report(arguments, paths.size() > 1 ? Json{{"files", files}} : files.front(), table);
 }
 
 }  // namespace
 
 Verb info_verb() {
-    return {
-        .name = "info", .summary = "what is in a file: structure, results, history", .input = "FILE.h5", .options = {}, .run = run};
+    return {.name = "info",
+            .summary = "what is in files: structure, results, history",
+            .input = "FILE.h5",
+            .options = {flag("csv", "print a table with one row per file and every scalar result as a column")},
+            .run = run,
+            .many_inputs = true};
 }
 
 }  // namespace coagula::tools

@@ -8,7 +8,6 @@ namespace coagula::tools {
 namespace {
 
 using coagula::Cluster;
-using mechanics::Fabric;
 using mechanics::LoadStructure;
 using mechanics::ShearLoad;
 

@@ -77,7 +77,7 @@ std::vector<Option> potential_options() {
             quantity("cutoff-gap", "m", "no forces beyond; R when not given", "", physical::length),
             quantity("temperature", "K", "of the suspension", "293K", within(1, 1e4)),
             flag("potential-curve", "print the potential over the gap instead of a run"),
-            text("picture", "FILE", "with --potential-curve: draw it with gnuplot, .png or .svg")};
+            text("picture", "FILE", "with --potential-curve: draw it, .svg, .png or .pdf")};
 }
 
 PairPotential make_potential(const Arguments& arguments, double radius, std::optional<double> surface_potential) {

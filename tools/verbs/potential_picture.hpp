@@ -12,7 +12,7 @@ struct PotentialCurve {
     std::vector<double> force;   ///< [N]
 };
 
-/// Throws InputError unless the name ends in .png or .svg, which says how the picture is drawn.
+/// Throws InputError unless the name ends in .svg, .png or .pdf, which says how the picture is drawn.
 void check_picture_name(const std::string& path);
 
 /// Draws the energy over the gap with gnuplot. Throws as check_picture_name and io::write_file do, and std::runtime_error when

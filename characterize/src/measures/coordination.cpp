@@ -9,9 +9,9 @@ namespace {
 
 void add_means(const Coordination& coordination, double tolerance, MeasureResult& result) {
     const bool has_surface = coordination.inner_particles < coordination.contacts.particles;
-    result.add("coordination", coordination.mean, "1",
-               std::string("mean number of contacts of ") + (has_surface ? "an inner particle" : "a particle") +
-                   ", rattlers included");
+    result.add(
+        "coordination", coordination.mean, "1",
+        std::string("mean number of contacts of ") + (has_surface ? "an inner particle" : "a particle") + ", rattlers included");
     if (has_surface) {
         result.add_count("inner_particles", coordination.inner_particles,
                          "particles that no neighbour beyond the free surface could touch: the means are over these");
@@ -44,10 +44,8 @@ MeasureResult run(const MeasureInput& input) {
 }  // namespace
 
 Measure coordination_measure() {
-    return {.name = "coordination",
-            .summary = "contacts per particle, rattlers",
-            .run = run,
-            .options = {contact_tolerance_option()}};
+    return {
+        .name = "coordination", .summary = "contacts per particle, rattlers", .run = run, .options = {contact_tolerance_option()}};
 }
 
 }  // namespace coagula::characterize

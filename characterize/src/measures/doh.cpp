@@ -40,7 +40,7 @@ Measure doh_measure() {
     return {.name = "doh",
             .summary = "degree of heterogeneity a: width of the error function fitted to the pore-size curve",
             .run = run,
-            .options = {radii_option()},
+            .options = {radii_option(), pore_tolerance_option()},
             .along = {"pores"}};
 }
 

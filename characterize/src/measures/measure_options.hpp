@@ -13,4 +13,8 @@ inline MeasureOption radii_option() {
     return {"radii", "", "number of radii of the pore-size curve", 200, 4, 100000};
 }
 
+inline MeasureOption pore_tolerance_option() {
+    return {"pore-tolerance", "1", "error allowed in the pore-size curve of unequal spheres; 0: exact, slow", 5e-5, 0, 1e-2};
+}
+
 }  // namespace coagula::characterize

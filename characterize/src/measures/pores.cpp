@@ -23,6 +23,8 @@ void add_space(const PoreSizes& pores, MeasureResult& result) {
     result.add("pore_space/volume", pores.volume, "m3",
                "volume measured: the periodic box, or the inner Voronoi cells of an open packing");
     result.add_count("pore_space/inner_particles", pores.inner_particles, "particles whose Voronoi cells were measured");
+    result.add("pore_space/curve_error", pores.curve_error, "1",
+               "estimate of the largest error of P by interpolation between radii; 0: every radius was computed");
     if (std::isfinite(pores.cell_volume_defect)) {
         result.add("pore_space/cell_volume_defect", pores.cell_volume_defect, "1",
                    "|sum of the Voronoi cell volumes / box volume - 1|");
@@ -49,7 +51,7 @@ Measure pores_measure() {
     return {.name = "pores",
             .summary = "exact pore-size curve (distance of void points to the nearest surface) and its moments",
             .run = run,
-            .options = {radii_option()}};
+            .options = {radii_option(), pore_tolerance_option()}};
 }
 
 }  // namespace coagula::characterize

@@ -30,6 +30,7 @@ Measure sampled_check_measure() {
             .summary = "random points against the exact pore-size curve",
             .run = run,
             .options = {radii_option(),
+                        pore_tolerance_option(),
                         {"samples", "", "also sample N random points, a check of the exact pore-size curve", {}, 100, 1e10}},
             .by_default = false,
             .along = {"pores"},

@@ -1,3 +1,4 @@
+#include <coagula/common/spelling.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
@@ -26,6 +27,14 @@ const ContactParameter* find_parameter(std::string_view name) {
     return found == all.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> parameter_names() {
+    std::vector<std::string> names;
+    for (const ContactParameter& parameter : contact_parameters()) {
+        names.emplace_back(parameter.name);
+    }
+    return names;
+}
+
 double read_value(const toml::node& node, const ContactParameter& parameter, const std::string& where) {
     if (node.is_string()) {
         try {
@@ -52,7 +61,8 @@ ContactModel read_contact_model(const std::string& path, const ContactModel& bas
         const std::string where = path + ", key '" + std::string(key.str()) + "'";
         const ContactParameter* parameter = find_parameter(key.str());
         if (parameter == nullptr) {
-            throw InputError(where + ": there is no such parameter of the contact model");
+            throw InputError(where + ": there is no such parameter of the contact model" +
+                             did_you_mean(key.str(), parameter_names()));
         }
         model.*parameter->value = read_value(node, *parameter, where);
     }

@@ -65,6 +65,15 @@ std::optional<CsvReader::Column> CsvReader::find(std::string_view name) const {
     return found == columns_.end() ? std::nullopt : std::optional(*found);
 }
 
+std::vector<std::string> CsvReader::names() const {
+    std::vector<std::string> names;
+    names.reserve(columns_.size());
+    for (const Column& column : columns_) {
+        names.push_back(column.name);
+    }
+    return names;
+}
+
 bool CsvReader::next() {
     if (!file_->next_filled()) {
         return false;

@@ -25,10 +25,14 @@ public:
     /// The first column of this name (in lower case).
     std::optional<Column> find(std::string_view name) const;
 
+    /// Names of all columns, in lower case.
+    std::vector<std::string> names() const;
+
     /// Moves to the next filled line; false at the end. Throws InputError when it has not as many fields as the header.
     bool next();
     /// The field as a finite number.
     double number(const Column& column) const { return file_->number_in(fields_[column.index], column.name); }
+    std::string_view text(const Column& column) const { return fields_[column.index]; }
     const LineReader& file() const { return *file_; }
 
 private:

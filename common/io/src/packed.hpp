@@ -62,7 +62,10 @@ private:
     }
     void put(const Cell& cell) { (*this)(cell.is_periodic(), cell.origin(), cell.lengths().eval()); }
     void put(const ContactNetwork& bonds) { (*this)(bonds.particles, bonds.ends, bonds.branch); }
-    void put(const Structure& found) { (*this)(found.packing.cell, found.packing.positions, found.packing.radii, found.bonds); }
+    void put(const Frame& frame) { (*this)(frame.time, frame.positions); }
+    void put(const Structure& found) {
+        (*this)(found.packing.cell, found.packing.positions, found.packing.radii, found.bonds, found.earlier, found.time);
+    }
     void put(const Dataset& dataset) { (*this)(dataset.path, dataset.shape, dataset.values, dataset.unit, dataset.description); }
 
     std::string bytes_;
@@ -151,7 +154,10 @@ private:
         cell = periodic ? Cell::periodic(lengths) : Cell::open(origin, lengths);
     }
     void get(ContactNetwork& bonds) { (*this)(bonds.particles, bonds.ends, bonds.branch); }
-    void get(Structure& found) { (*this)(found.packing.cell, found.packing.positions, found.packing.radii, found.bonds); }
+    void get(Frame& frame) { (*this)(frame.time, frame.positions); }
+    void get(Structure& found) {
+        (*this)(found.packing.cell, found.packing.positions, found.packing.radii, found.bonds, found.earlier, found.time);
+    }
     void get(Dataset& dataset) { (*this)(dataset.path, dataset.shape, dataset.values, dataset.unit, dataset.description); }
 
     std::string bytes_;

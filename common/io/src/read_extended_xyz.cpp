@@ -32,6 +32,7 @@ std::string value_of(const std::map<std::string, std::string>& pairs, const std:
 struct Layout {
     std::optional<std::size_t> position;
     std::optional<std::size_t> radius;
+    bool is_diameter = false;
     std::size_t width = 0;
 };
 
@@ -40,7 +41,7 @@ constexpr std::size_t most_columns = 1000;  ///< of a property
 /// Properties=species:S:1:pos:R:3:radius:R:1; plain XYZ is species and position.
 Layout parse_properties(const LineReader& file, const std::string& properties) {
     if (properties.empty()) {
-        return {1, std::nullopt, 4};
+        return {1, std::nullopt, false, 4};
     }
     std::vector<std::string> parts(1);
     for (const char c : properties) {
@@ -65,6 +66,10 @@ Layout parse_properties(const LineReader& file, const std::string& properties) {
             layout.position = layout.width;
         } else if ((name == "radius" || name == "radii") && columns == 1) {
             layout.radius = layout.width;
+            layout.is_diameter = false;
+        } else if (name == "diameter" && columns == 1 && !layout.radius) {
+            layout.radius = layout.width;
+            layout.is_diameter = true;
         }
         layout.width += columns;
     }
@@ -129,7 +134,7 @@ void read_particle(const LineReader& file, const Layout& layout, double divisor,
         raw.coordinates.push_back(file.number_in(words[*layout.position + axis], "a coordinate") / divisor);
     }
     if (layout.radius) {
-        raw.radii.push_back(file.number_in(words[*layout.radius], "the radius") / divisor);
+        raw.radii.push_back((layout.is_diameter ? 0.5 : 1.0) * file.number_in(words[*layout.radius], "the radius") / divisor);
     }
     raw.lines.push_back(file.number());
 }
@@ -144,6 +149,9 @@ RawPacking read_frame(LineReader& file, const ImportOptions& options) {
     const Layout layout = parse_properties(file, value_of(pairs, "properties"));
     RawPacking raw;
     raw.cell = parse_cell(file, pairs, divisor);
+    if (const std::string time = value_of(pairs, "time"); !time.empty()) {
+        raw.time = file.number_in(time, "Time");
+    }
     for (std::size_t particle = 0; particle < particles; ++particle) {
         if (!file.next()) {
             file.fail("the file ends after " + std::to_string(particle) + " of " + std::to_string(particles) + " particles");
@@ -155,13 +163,12 @@ RawPacking read_frame(LineReader& file, const ImportOptions& options) {
 
 }  // namespace
 
-/// The last frame.
-RawPacking read_extended_xyz(LineReader& file, const ImportOptions& options) {
-    RawPacking raw;
-    while (file.next_filled()) {
-        raw = read_frame(file, options);
+std::vector<RawPacking> read_extended_xyz(LineReader& file, const ImportOptions& options) {
+    FrameCollector collector(options);
+    for (std::int64_t frame = 0; file.next_filled(); ++frame) {
+        collector.add(read_frame(file, options), frame);
     }
-    return raw;
+    return collector.take(file.path());
 }
 
 }  // namespace coagula::io

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
+#include <utility>
 
 #include "text_reader.hpp"
 
@@ -45,13 +45,6 @@ std::string value_in_title(const std::string& title, const std::string& key) {
     }
     const std::size_t value = begin + key.size() + 3;
     return std::string(trim(std::string_view(title).substr(value, title.find(',', value) - value)));
-}
-
-std::string length_unit_of(const std::string& lammps_units) {
-    static const std::map<std::string, std::string> lengths{{"si", "m"},           {"cgs", "cm"},   {"real", "angstrom"},
-                                                            {"metal", "angstrom"}, {"micro", "um"}, {"nano", "nm"}};
-    const auto found = lengths.find(lammps_units);
-    return found == lengths.end() ? "" : found->second;
 }
 
 struct Header {
@@ -111,29 +104,6 @@ std::optional<Cell> cell_of(const LineReader& file, const Header& header, double
     return Cell::open(header.lower / divisor, lengths);
 }
 
-/// Lines of the section in the order of the atom numbers, which write_data shuffles.
-void sort_by_number(const LineReader& file, const std::vector<std::size_t>& numbers, RawPacking& raw) {
-    std::vector<std::size_t> order(numbers.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
-    RawPacking sorted;
-    sorted.cell = raw.cell;
-    for (std::size_t rank = 0; rank < order.size(); ++rank) {
-        const std::size_t i = order[rank];
-        if (rank > 0 && numbers[i] == numbers[order[rank - 1]]) {
-            throw InputError(file.path() + ", line " + std::to_string(raw.lines[i]) + ": atom " + std::to_string(numbers[i]) +
-                             " occurs twice");
-        }
-        sorted.coordinates.insert(sorted.coordinates.end(),
-                                  {raw.coordinates[3 * i], raw.coordinates[3 * i + 1], raw.coordinates[3 * i + 2]});
-        if (!raw.radii.empty()) {
-            sorted.radii.push_back(raw.radii[i]);
-        }
-        sorted.lines.push_back(raw.lines[i]);
-    }
-    raw = std::move(sorted);
-}
-
 void read_atoms(LineReader& file, const Header& header, std::string style, double divisor, RawPacking& raw) {
     std::vector<std::size_t> numbers;
     std::optional<Layout> layout;
@@ -159,12 +129,19 @@ void read_atoms(LineReader& file, const Header& header, std::string style, doubl
         }
         raw.lines.push_back(file.number());
     }
-    sort_by_number(file, numbers, raw);
+    sort_by_number(file.path(), numbers, raw);
 }
 
 }  // namespace
 
-RawPacking read_lammps_data(LineReader& file, const ImportOptions& options) {
+std::string length_unit_of(const std::string& lammps_units) {
+    static const std::map<std::string, std::string> lengths{{"si", "m"},           {"cgs", "cm"},   {"real", "angstrom"},
+                                                            {"metal", "angstrom"}, {"micro", "um"}, {"nano", "nm"}};
+    const auto found = lengths.find(lammps_units);
+    return found == lengths.end() ? "" : found->second;
+}
+
+std::vector<RawPacking> read_lammps_data(LineReader& file, const ImportOptions& options) {
     const Header header = read_header(file);
     if (!header.atoms) {
         throw InputError(file.path() + ": the header names no number of atoms");
@@ -186,7 +163,7 @@ RawPacking read_lammps_data(LineReader& file, const ImportOptions& options) {
         }
         raw.cell = Cell::periodic(raw.cell->lengths());
     }
-    return raw;
+    return {std::move(raw)};
 }
 
 }  // namespace coagula::io

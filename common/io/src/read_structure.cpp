@@ -1,7 +1,10 @@
 #include "read_structure.hpp"
 
+#include <coagula/io/trajectory_file.hpp>
+
 #include <coagula/io/units.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -65,8 +68,8 @@ void require_frames(const File& file, const std::string& object, std::size_t fra
     }
 }
 
-/// The last frame of an element whose slice has the shape `slice`, in metres.
-std::vector<double> read_lengths(const File& file, const std::string& object, const Shape& slice) {
+/// The last frame of an element whose slice has the shape `slice`, or all of them one after the other, in metres.
+std::vector<double> read_lengths(const File& file, const std::string& object, const Shape& slice, bool all_frames = false) {
     const Element element = find_element(file, object);
     Shape expected = slice;
     if (element.has_frames) {
@@ -78,7 +81,8 @@ std::vector<double> read_lengths(const File& file, const std::string& object, co
         require_frames(file, object, found[0]);
     }
     require_shape(file, element.data, expected);
-    std::vector<double> values = element.has_frames ? file.read_last<double>(element.data) : file.read<double>(element.data);
+    const bool last = element.has_frames && !all_frames;
+    std::vector<double> values = last ? file.read_last<double>(element.data) : file.read<double>(element.data);
     const double divisor = per_metre(file, element.data);
     for (double& value : values) {
         value /= divisor;
@@ -221,6 +225,57 @@ std::optional<ContactNetwork> read_bonds(const File& file, const Packing& packin
     return bonds;
 }
 
+/// Times of the frames [s]; their numbers where the file has no times in seconds.
+std::vector<double> read_times(const File& file, const std::string& position, std::size_t frames) {
+    std::vector<double> times;
+    const std::string object = position + "/time";
+    if (file.is_dataset(object) && file.shape(object) == Shape{frames} && file.attribute(object, "unit") == "s") {
+        times = file.read<double>(object);
+    }
+    const bool usable = !times.empty() && std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
+    for (std::size_t frame = 0; !usable && frame < frames; ++frame) {
+        times.resize(frames);
+        times[frame] = static_cast<double>(frame);
+    }
+    return times;
+}
+
+void require_same_boxes(const File& file, const std::string& edges, std::size_t frames) {
+    const Element element = find_element(file, edges);
+    if (!element.has_frames) {
+        return;
+    }
+    Shape slice = file.shape(element.data);
+    slice.erase(slice.begin());
+    const std::vector<double> values = read_lengths(file, edges, slice, true);
+    const std::size_t size = values.size() / frames;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] != values[values.size() - size + i % size]) {
+            file.fail(element.data, "changes from frame to frame; coagula follows trajectories in a box that stays the same");
+        }
+    }
+}
+
+void read_earlier(const File& file, const std::string& group, Structure& structure) {
+    const std::string position = group + "/position";
+    if (!find_element(file, position).has_frames) {
+        return;
+    }
+    const Index particles = structure.packing.size();
+    const std::vector<double> values = read_lengths(file, position, {static_cast<std::size_t>(particles), 3}, true);
+    const std::size_t frames = values.size() / static_cast<std::size_t>(3 * particles);
+    require_same_boxes(file, group + "/box/edges", frames);
+    const std::vector<double> times = read_times(file, position, frames);
+    for (std::size_t frame = 0; frame + 1 < frames; ++frame) {
+        const double* first = values.data() + frame * static_cast<std::size_t>(3 * particles);
+        structure.earlier.push_back({times[frame], Eigen::Matrix3Xd::Map(first, 3, particles)});
+        if (!structure.earlier.back().positions.allFinite()) {
+            file.fail(position, "has a coordinate in frame " + std::to_string(frame) + " that is not a finite number");
+        }
+    }
+    structure.time = times.back();
+}
+
 /// Group and structure as a child process has read them. The checks run in the calling process: they use threads, and their
 /// sentences come from values alone.
 Structure take_structure(Unpacker& found, const std::string& path) {
@@ -263,6 +318,18 @@ Structure read_structure(const std::string& path) {
         const File file = File::open(path);
         Packer packer;
         packer(particles_group(file), read_structure(file));
+        return packer.take();
+    }));
+    return take_structure(found, path);
+}
+
+Structure read_trajectory(const std::string& path) {
+    Unpacker found(run_in_child(path, [&](ReadingLimits& /*limits*/) {
+        const File file = File::open(path);
+        Structure structure = read_structure(file);
+        read_earlier(file, particles_group(file), structure);
+        Packer packer;
+        packer(particles_group(file), structure);
         return packer.take();
     }));
     return take_structure(found, path);

@@ -80,8 +80,21 @@ std::vector<Eigen::VectorXd> read_table(const std::string& path, const std::vect
     return result;
 }
 
-void write_rows(const std::string& path, const std::vector<std::vector<std::string>>& rows, bool overwrite) {
-    check_output(path, overwrite);
+std::vector<std::string> read_text_column(const std::string& path, const std::string& name) {
+    LineReader file(path);
+    CsvReader table(file);
+    const std::optional<CsvReader::Column> column = table.find(lower_case(name));
+    if (!column) {
+        throw InputError(path + ": there is no column " + name);
+    }
+    std::vector<std::string> fields;
+    while (table.next()) {
+        fields.emplace_back(table.text(*column));
+    }
+    return fields;
+}
+
+std::string csv_text(const std::vector<std::vector<std::string>>& rows) {
     std::string out;
     for (const std::vector<std::string>& row : rows) {
         for (std::size_t k = 0; k < row.size(); ++k) {
@@ -89,7 +102,12 @@ void write_rows(const std::string& path, const std::vector<std::vector<std::stri
         }
         out += '\n';
     }
-    write_file(path, out, overwrite);
+    return out;
+}
+
+void write_rows(const std::string& path, const std::vector<std::vector<std::string>>& rows, bool overwrite) {
+    check_output(path, overwrite);
+    write_file(path, csv_text(rows), overwrite);
 }
 
 }  // namespace coagula::io

@@ -16,23 +16,68 @@ std::string triple(const Eigen::Vector3d& values, char separator = ' ') {
     return to_text(values[0]) + separator + to_text(values[1]) + separator + to_text(values[2]);
 }
 
-std::string csv_text(const Packing& packing) {
-    std::string out = "x [m],y [m],z [m],radius [m]\n";
-    for (Index particle = 0; particle < packing.size(); ++particle) {
-        out += triple(packing.positions.col(particle), ',');
-        out += ',' + to_text(packing.radii[particle]) + '\n';
+/// The frames of a trajectory, the packing last.
+struct Trajectory {
+    const Packing& packing;
+    const std::vector<Frame>& earlier;
+    double time;
+
+    std::size_t frames() const { return earlier.size() + 1; }
+    const Eigen::Matrix3Xd& positions(std::size_t frame) const {
+        return frame < earlier.size() ? earlier[frame].positions : packing.positions;
+    }
+    double time_of(std::size_t frame) const { return frame < earlier.size() ? earlier[frame].time : time; }
+};
+
+/// A single packing has no column of frames, so that it is read back as it is.
+std::string csv_text(const Trajectory& run) {
+    const bool many = run.frames() > 1;
+    std::string out = many ? "frame,time [s],x [m],y [m],z [m],radius [m]\n" : "x [m],y [m],z [m],radius [m]\n";
+    for (std::size_t frame = 0; frame < run.frames(); ++frame) {
+        const std::string begin = many ? std::to_string(frame) + ',' + to_text(run.time_of(frame)) + ',' : std::string{};
+        for (Index particle = 0; particle < run.packing.size(); ++particle) {
+            out += begin + triple(run.positions(frame).col(particle), ',');
+            out += ',' + to_text(run.packing.radii[particle]) + '\n';
+        }
     }
     return out;
 }
 
-std::string extended_xyz_text(const Packing& packing) {
+std::string extended_xyz_text(const Trajectory& run) {
+    const Packing& packing = run.packing;
     const Eigen::Matrix3d edges = packing.cell.edges();
-    std::string out = std::to_string(packing.size()) + "\nLattice=\"" + triple(edges.col(0)) + ' ' + triple(edges.col(1)) + ' ' +
-                      triple(edges.col(2)) + "\" Origin=\"" + triple(packing.cell.origin()) + "\" pbc=\"" +
-                      (packing.cell.is_periodic() ? "T T T" : "F F F") +
-                      "\" Properties=species:S:1:pos:R:3:radius:R:1 length_unit=m\n";
-    for (Index particle = 0; particle < packing.size(); ++particle) {
-        out += "X " + triple(packing.positions.col(particle)) + ' ' + to_text(packing.radii[particle]) + '\n';
+    const std::string comment = "Lattice=\"" + triple(edges.col(0)) + ' ' + triple(edges.col(1)) + ' ' + triple(edges.col(2)) +
+                                "\" Origin=\"" + triple(packing.cell.origin()) + "\" pbc=\"" +
+                                (packing.cell.is_periodic() ? "T T T" : "F F F") +
+                                "\" Properties=species:S:1:pos:R:3:radius:R:1 length_unit=m";
+    std::string out;
+    for (std::size_t frame = 0; frame < run.frames(); ++frame) {
+        out += std::to_string(packing.size()) + '\n' + comment;
+        out += run.frames() > 1 ? " Time=" + to_text(run.time_of(frame)) + '\n' : "\n";
+        for (Index particle = 0; particle < packing.size(); ++particle) {
+            out += "X " + triple(run.positions(frame).col(particle)) + ' ' + to_text(packing.radii[particle]) + '\n';
+        }
+    }
+    return out;
+}
+
+std::string dump_text(const Trajectory& run) {
+    const Packing& packing = run.packing;
+    const Eigen::Vector3d lower = packing.cell.origin();
+    const Eigen::Vector3d upper = lower + packing.cell.lengths();
+    std::string box = std::string("ITEM: BOX BOUNDS ") + (packing.cell.is_periodic() ? "pp pp pp\n" : "ff ff ff\n");
+    for (int axis = 0; axis < 3; ++axis) {
+        box += to_text(lower[axis]) + ' ' + to_text(upper[axis]) + '\n';
+    }
+    std::string out;
+    for (std::size_t frame = 0; frame < run.frames(); ++frame) {
+        out += (frame == 0 ? "ITEM: UNITS\nsi\n" : "") + std::string("ITEM: TIME\n") + to_text(run.time_of(frame)) +
+               "\nITEM: TIMESTEP\n" + std::to_string(frame) + "\nITEM: NUMBER OF ATOMS\n" + std::to_string(packing.size()) + '\n' +
+               box + "ITEM: ATOMS id type x y z radius\n";
+        for (Index particle = 0; particle < packing.size(); ++particle) {
+            out += std::to_string(particle + 1) + " 1 " + triple(run.positions(frame).col(particle)) + ' ' +
+                   to_text(packing.radii[particle]) + '\n';
+        }
     }
     return out;
 }
@@ -88,10 +133,16 @@ TextFormat format_from_name(const std::string& path) {
     if (ending == ".data" || ending == ".lmp" || ending == ".lammps") {
         return TextFormat::lammps_data;
     }
-    throw InputError(path + " has no ending that names a format: .csv; .xyz, .extxyz; .data, .lmp, .lammps");
+    if (ending == ".dump" || ending == ".lammpstrj") {
+        return TextFormat::lammps_dump;
+    }
+    throw InputError(path + " has no ending that names a format: .csv; .xyz, .extxyz; .data, .lmp, .lammps; .dump, .lammpstrj");
 }
 
-Packing read_text(const std::string& path, TextFormat format, const ImportOptions& options) {
+Structure read_frames(const std::string& path, TextFormat format, const ImportOptions& options) {
+    if (format != TextFormat::csv && (options.axis_units || !options.columns.empty())) {
+        throw InputError(path + " is no CSV file: --columns and units of single axes are for these");
+    }
     LineReader file(path);
     try {
         switch (format) {
@@ -101,6 +152,8 @@ Packing read_text(const std::string& path, TextFormat format, const ImportOption
                 return finish(path, read_extended_xyz(file, options), options);
             case TextFormat::lammps_data:
                 return finish(path, read_lammps_data(file, options), options);
+            case TextFormat::lammps_dump:
+                return finish(path, read_lammps_dump(file, options), options);
         }
     } catch (const std::invalid_argument& error) {
         const std::string sentence = error.what();
@@ -109,17 +162,27 @@ Packing read_text(const std::string& path, TextFormat format, const ImportOption
     throw std::invalid_argument("unknown text format");
 }
 
+Packing read_text(const std::string& path, TextFormat format, const ImportOptions& options) {
+    return read_frames(path, format, options).packing;
+}
+
 void write_text(const std::string& path, TextFormat format, const Packing& packing, const std::optional<ContactNetwork>& bonds,
-                bool overwrite) {
+                bool overwrite, const std::vector<Frame>& earlier, double time) {
     check_output(path, overwrite);
     check(packing);
+    const Trajectory run{packing, earlier, time};
     switch (format) {
         case TextFormat::csv:
-            return write_file(path, csv_text(packing), overwrite);
+            return write_file(path, csv_text(run), overwrite);
         case TextFormat::extended_xyz:
-            return write_file(path, extended_xyz_text(packing), overwrite);
+            return write_file(path, extended_xyz_text(run), overwrite);
         case TextFormat::lammps_data:
+            if (!earlier.empty()) {
+                throw InputError("LAMMPS data holds one frame: a trajectory goes into a LAMMPS dump, extended XYZ, GSD or CSV");
+            }
             return write_file(path, lammps_text(packing, bonds), overwrite);
+        case TextFormat::lammps_dump:
+            return write_file(path, dump_text(run), overwrite);
     }
 }
 

@@ -46,20 +46,53 @@ std::vector<std::string_view> split_words(std::string_view line);
 
 /// Coordinates as a file gave them, in metres.
 struct RawPacking {
+    std::size_t size() const { return coordinates.size() / 3; }
+    /// "FILE, line 7: ", or "FILE, particle 7: " where there are no lines.
+    std::string place(const std::string& path, std::size_t particle) const;
+
     std::vector<double> coordinates;  ///< x, y, z of each particle
     std::vector<double> radii;        ///< empty when the file names none
     std::vector<std::size_t> lines;   ///< where each particle stands
     std::optional<Cell> cell;         ///< when the file names one
+    double time = unset;              ///< [s]
+    double slack = 1e-9;              ///< of the edge: what the digits of the file leave out
 };
 
 /// How many of the unit that a column or file names are in a metre; for none the unit of the options. Throws InputError.
 double per_metre(const LineReader& file, const std::string& object, const std::string& unit, const ImportOptions& options);
 
-/// Applies the options (radius, box, open, wrap) and checks the packing. Throws InputError or std::invalid_argument.
-Packing finish(const std::string& path, const RawPacking& raw, const ImportOptions& options);
+/// Brings particles into the order of their numbers. Throws InputError when one occurs twice.
+void sort_by_number(const std::string& path, const std::vector<std::size_t>& numbers, RawPacking& raw);
 
-RawPacking read_csv(LineReader& file, const ImportOptions& options);
-RawPacking read_extended_xyz(LineReader& file, const ImportOptions& options);
-RawPacking read_lammps_data(LineReader& file, const ImportOptions& options);
+/// Frames of a file that are asked for, in the order in which they are added.
+class FrameCollector {
+public:
+    explicit FrameCollector(const ImportOptions& options) : choice_(options.frame.value_or(FrameChoice{})) {}
+    /// @param number by which the user may name the frame.
+    void add(RawPacking&& raw, std::int64_t number);
+    /// Whether this one of `count` frames, numbered from 0, is asked for; one that is not may be passed over.
+    bool wants(std::int64_t number, std::int64_t count) const;
+    void pass_over(std::int64_t number);
+    /// Throws InputError when the frame that is asked for is not there.
+    std::vector<RawPacking> take(const std::string& path);
+
+private:
+    FrameChoice choice_;
+    std::vector<RawPacking> kept_;
+    std::int64_t first_ = 0;
+    std::int64_t last_ = 0;
+    std::size_t count_ = 0;
+};
+
+/// Applies the options (radius, box, open, wrap) and checks the packings. Throws InputError or std::invalid_argument.
+Structure finish(const std::string& path, const std::vector<RawPacking>& frames, const ImportOptions& options);
+
+std::vector<RawPacking> read_csv(LineReader& file, const ImportOptions& options);
+std::vector<RawPacking> read_extended_xyz(LineReader& file, const ImportOptions& options);
+std::vector<RawPacking> read_lammps_data(LineReader& file, const ImportOptions& options);
+std::vector<RawPacking> read_lammps_dump(LineReader& file, const ImportOptions& options);
+
+/// The unit of length of a style of LAMMPS units: "m" for "si"; empty for others than si, cgs, real, metal, micro, nano.
+std::string length_unit_of(const std::string& lammps_units);
 
 }  // namespace coagula::io

@@ -137,6 +137,14 @@ double apply(const Conversion& conversion, double value) {
     return value * (whole > 0 ? whole : conversion.factor) + conversion.offset;
 }
 
+/// UDUNITS does not know the molar, and M is a prefix to it: where a concentration is asked, mM is mmol/l.
+std::string spelled_out(std::string_view written, const std::string& unit) {
+    if (unit == "mol/m3" && written.ends_with('M')) {
+        return std::string(written.substr(0, written.size() - 1)) + "mol/l";
+    }
+    return std::string(written);
+}
+
 std::string_view trim(std::string_view text) {
     const auto first = text.find_first_not_of(" \t");
     return first == std::string_view::npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t") - first + 1);
@@ -160,7 +168,7 @@ double parse_quantity(const std::string& text, const std::string& unit) {
         throw InputError(what + ": it must begin with a finite number");
     }
     rest = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
-    const double result = rest.empty() ? value : apply(conversion(std::string(rest), unit, what), value);
+    const double result = rest.empty() ? value : apply(conversion(spelled_out(rest, unit), unit, what), value);
     if (!std::isfinite(result)) {
         throw InputError(what + ": the number is too large");
     }

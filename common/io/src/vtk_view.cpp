@@ -15,12 +15,6 @@ std::string in_view(const std::string& name) {
     return std::string(layout::view) + "/" + name;
 }
 
-/// True when the bond joins the two centres as they lie in the box, not through its boundary.
-bool lies_inside(const Packing& packing, const ContactNetwork& bonds, Index bond) {
-    const Eigen::Vector3d separation = packing.positions.col(bonds.ends(1, bond)) - packing.positions.col(bonds.ends(0, bond));
-    return ((separation - bonds.branch.col(bond)).array().abs() < 0.5 * packing.cell.lengths().array()).all();
-}
-
 /// Unstructured grid cells in VTK's order: the corners of all cells in a row, where each begins, and its type.
 struct GridCells {
     std::vector<std::int64_t> connectivity;
@@ -54,6 +48,11 @@ void write_size(File& file, const std::string& name, std::size_t size) {
 }
 
 }  // namespace
+
+bool lies_inside(const Packing& packing, const ContactNetwork& bonds, Index bond) {
+    const Eigen::Vector3d separation = packing.positions.col(bonds.ends(1, bond)) - packing.positions.col(bonds.ends(0, bond));
+    return ((separation - bonds.branch.col(bond)).array().abs() < 0.5 * packing.cell.lengths().array()).all();
+}
 
 void write_view_bonds(File& file, const Packing& packing, const std::optional<ContactNetwork>& bonds) {
     file.remove(in_view("CellData"));

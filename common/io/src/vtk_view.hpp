@@ -10,6 +10,9 @@
 
 namespace coagula::io {
 
+/// True when the bond joins the two centres as they lie in the box, not through its boundary.
+bool lies_inside(const Packing& packing, const ContactNetwork& bonds, Index bond);
+
 /// Writes points, cells and the point data radius.
 void write_view(hdf5::File& file, const Packing& packing, const std::optional<ContactNetwork>& bonds);
 

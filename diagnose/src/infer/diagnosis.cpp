@@ -99,6 +99,20 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
     }
 }
 
+/// Predictions of the causes after the best one, as long as they are not improbable.
+void predict_others(const Inference& inference, const std::string& best, Diagnosis& diagnosis) {
+    constexpr double improbable = 0.001;
+    constexpr std::size_t most = 4;
+    for (const Cause& cause : diagnosis.causes) {
+        const bool is_model = !cause.parameters.empty() && cause.name != diagnosis.base.name && cause.name != best;
+        if (is_model && cause.posterior >= improbable && diagnosis.others.size() < most) {
+            const Prediction prediction = inference.forward().prediction(cause.model);
+            const Eigen::VectorXd values = inference.fitted(prediction);
+            diagnosis.others.push_back({cause.name, {values.begin(), values.end()}, effects_of(inference.errors(), prediction)});
+        }
+    }
+}
+
 void keep_statistics(const Detection& detection, Diagnosis& diagnosis) {
     for (const MisfitStatistic& one : detection.statistics) {
         const bool whole = one.coordinate == Coordinate::none;
@@ -261,6 +275,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);
     predict_rows(data, inference, base.model, winner.fit.model, folds, diagnosis);
+    predict_others(inference, name_of(winner.fit.hypothesis), diagnosis);
     if (diagnosis.verdict == Verdict::tied) {
         diagnosis.proposals = proposals_for(diagnosis, comparison.all, inference, simulator, options.seed);
     }

@@ -1,6 +1,7 @@
 #include <coagula/diagnose/mechanism.hpp>
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/spelling.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -86,9 +87,13 @@ const Mechanism* find_mechanism(const std::string& name) {
 }
 
 void require_causes(const std::vector<std::string>& names) {
+    std::vector<std::string> known;
+    for (const Mechanism& entry : catalogue()) {
+        known.push_back(entry.name);
+    }
     for (const std::string& name : names) {
         if (find_mechanism(name) == nullptr) {
-            throw InputError("'" + name + "' is no cause of the catalogue");
+            throw InputError("'" + name + "' is no cause of the catalogue" + did_you_mean(name, known));
         }
     }
 }

@@ -6,14 +6,17 @@
 #include <coagula/mechanics/frequency.hpp>
 
 #include "cache_key.hpp"
+#include "drag_scatter.hpp"
 #include "interpolation.hpp"
 #include "springpot.hpp"
 #include "unit_stiffness.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <numbers>
+#include <set>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -124,32 +127,61 @@ Complex Simulator::drag_response(const Settings& settings, double angular_freque
     return 1.0 + Complex(0, std::min(drag, drag_axis.high)) * std::exp(logarithm);
 }
 
+/// Independent standard errors of the drag in a group, over the mean drag, at the nodes.
+const Eigen::MatrixXd& Simulator::drag_scatter_of(std::size_t group) {
+    const auto found = drag_scatters_.find(group);
+    if (found != drag_scatters_.end()) {
+        return found->second;
+    }
+    const std::set<std::size_t> groups = distinct_groups();
+    const auto count = static_cast<Eigen::Index>(structures_.size());
+    Eigen::MatrixXd logarithms = Eigen::MatrixXd::Zero(drag_axis.count, count);
+    for (const std::size_t each : groups) {
+        const std::vector<std::size_t> structures = members(each);
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(drag_axis.count);
+        for (const std::size_t k : structures) {
+            const std::vector<Complex>& curve = own_drag_curve(k);
+            auto column = logarithms.col(static_cast<Eigen::Index>(k));
+            std::transform(curve.begin(), curve.end(), column.begin(), [](Complex logarithm) { return logarithm.real(); });
+            sum += column;
+        }
+        for (const std::size_t k : structures) {
+            logarithms.col(static_cast<Eigen::Index>(k)) -= sum / static_cast<double>(structures.size());
+        }
+    }
+    Eigen::ArrayXd drags(drag_axis.count);
+    for (int node = 0; node < drag_axis.count; ++node) {
+        drags[node] = drag_axis.node(node);
+    }
+    DragScatter scatter = drag_scatter(drags, particles(group), logarithms, static_cast<Eigen::Index>(groups.size()),
+                                       static_cast<Eigen::Index>(members(group).size()));
+    drag_degrees_ = scatter.degrees;
+    return drag_scatters_.emplace(group, std::move(scatter.errors)).first->second;
+}
+
+/// A change of the magnitude along the frequency turns the phase by pi/2 times its slope (Bode's relation, exact for power laws).
 std::vector<Complex> Simulator::drag_errors(const Settings& settings, double angular_frequency, std::size_t group) {
-    constexpr double of_one = 0.5;
-    const std::vector<std::size_t> structures = members(group);
-    const auto count = static_cast<double>(structures.size());
-    const Complex mean = drag_response(settings, angular_frequency, group) - 1.0;
-    std::vector<Complex> errors(structures_.size(), 0);
-    if (structures.size() == 1) {
-        errors[structures.front()] = of_one * mean;
-        return errors;
-    }
+    constexpr double step = 0.1;
+    const Eigen::MatrixXd& scatter = drag_scatter_of(group);
     const double drag = reduced_drag(settings, angular_frequency);
-    Complex sum = 0;
-    for (const std::size_t k : structures) {
-        const std::vector<Complex>& curve = own_drag_curve(k);
-        errors[k] = std::exp(interpolate_nodes(drag_axis, drag, [&](int node) { return curve[static_cast<std::size_t>(node)]; }));
-        sum += errors[k];
-    }
-    for (const std::size_t k : structures) {
-        errors[k] = mean * (count * errors[k] / sum - 1.0) / std::sqrt(count * (count - 1));
+    const Complex mean = drag_response(settings, angular_frequency, group) - 1.0;
+    const std::set<std::size_t> groups = distinct_groups();
+    const auto place = std::distance(groups.begin(), groups.find(group));
+    const auto count = static_cast<std::size_t>(scatter.cols());
+    const std::size_t blocks = groups_.empty() ? 1 : groups.size() + 1;  // that of all structures together comes last
+    std::vector<Complex> errors(blocks * count, 0);
+    for (std::size_t error = 0; error < count; ++error) {
+        const auto column = scatter.col(static_cast<Eigen::Index>(error));
+        const auto at = [&](double where) { return interpolate_nodes(drag_axis, where, [&](int node) { return column[node]; }); };
+        const double slope = (at(drag * std::exp(step)) - at(drag * std::exp(-step))) / (2 * step);
+        errors[static_cast<std::size_t>(place) * count + error] = mean * Complex(at(drag), 0.5 * pi * slope);
     }
     return errors;
 }
 
-double Simulator::drag_degrees() const {
-    const auto count = static_cast<double>(structures_.size());
-    return count > 1 ? count - 1 : std::numeric_limits<double>::infinity();
+double Simulator::drag_degrees() {
+    drag_scatter_of(0);
+    return drag_degrees_;
 }
 
 Complex Simulator::exact_drag_response(const Settings& settings, double angular_frequency, std::size_t group) {

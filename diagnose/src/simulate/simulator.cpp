@@ -63,6 +63,10 @@ std::vector<std::size_t> Simulator::members(std::size_t group) const {
     return found;
 }
 
+std::set<std::size_t> Simulator::distinct_groups() const {
+    return groups_.empty() ? std::set<std::size_t>{0} : std::set(groups_.begin(), groups_.end());
+}
+
 double Simulator::particles(std::size_t group) const {
     const std::vector<std::size_t> structures = members(group);
     double sum = 0;
@@ -128,7 +132,7 @@ double Simulator::scatter_between_structures() {
         }
         degrees += static_cast<double>(values.size()) - 1;
     };
-    const std::set<std::size_t> groups = groups_.empty() ? std::set<std::size_t>{0} : std::set(groups_.begin(), groups_.end());
+    const std::set<std::size_t> groups = distinct_groups();
     for (const std::size_t group : groups) {
         std::vector<double> moduli;
         for (const std::size_t k : members(group)) {

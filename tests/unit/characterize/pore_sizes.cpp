@@ -87,11 +87,24 @@ TEST(PoreSizes, UnequalPathAgreesWithEqualPath) {
     const PoreSizes equal = measure_pores(packing, {.radii = 41});
     packing.radii[0] *= 1 + 1e-10;
     ASSERT_FALSE(is_monodisperse(packing));
-    const PoreSizes unequal = measure_pores(packing, {.radii = 41});
+    const PoreSizes unequal = measure_pores(packing, {.radii = 41, .tolerance = 0});
     expect_sane(unequal, 41);
     EXPECT_NEAR(unequal.max, equal.max, 1e-9);
     EXPECT_LT((unequal.exclusion_probability - equal.exclusion_probability).cwiseAbs().maxCoeff(), 1e-8);
     EXPECT_NEAR(unequal.mean, equal.mean, 1e-8);
+    EXPECT_EQ(unequal.curve_error, 0);
+}
+
+TEST(PoreSizes, InterpolationOfTheCurveOfUnequalSpheresStaysWithinItsTolerance) {
+    const Packing packing = test::random_spheres(1200, {10, 11, 12}, 0.3, 0.6, 6);
+    const PoreSizes exact = measure_pores(packing, {.radii = 161, .tolerance = 0});
+    const PoreSizes interpolated = measure_pores(packing, {.radii = 161, .tolerance = 1e-4});
+    const double error = (interpolated.exclusion_probability - exact.exclusion_probability).cwiseAbs().maxCoeff();
+    EXPECT_GT(error, 0);
+    EXPECT_LT(error, interpolated.curve_error);
+    EXPECT_LT(interpolated.curve_error, 1e-4);
+    EXPECT_NEAR(interpolated.mean / exact.mean, 1, 1e-5);
+    EXPECT_EQ(interpolated.max, exact.max);
 }
 
 TEST(PoreSizes, LargestPoreOfUnequalSpheresTouchesFour) {

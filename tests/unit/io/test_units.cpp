@@ -33,6 +33,15 @@ TEST(Units, ReadsNumbersWithUnits) {
     EXPECT_DOUBLE_EQ(parse_quantity("180 degrees", "rad"), 3.14159265358979323846);
 }
 
+TEST(Units, KnowsTheMolarWhereAConcentrationIsAsked) {
+    EXPECT_EQ(parse_quantity("10 mM", "mol/m3"), 10);
+    EXPECT_EQ(parse_quantity("0.01M", "mol/m3"), 10);
+    EXPECT_DOUBLE_EQ(parse_quantity("250 uM", "mol/m3"), 0.25);
+    EXPECT_EQ(parse_quantity("10 mmol/l", "mol/m3"), 10);
+    EXPECT_THROW(parse_quantity("10 mM", "m"), InputError);
+    EXPECT_THROW(parse_quantity("10 kgM", "mol/m3"), InputError);
+}
+
 TEST(Units, ConvertsColumnsWithTheirZero) {
     const std::vector<double> kelvin = convert({0, 25, std::nan("")}, "°C", "K");
     EXPECT_DOUBLE_EQ(kelvin[0], 273.15);

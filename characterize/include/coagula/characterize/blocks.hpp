@@ -24,7 +24,8 @@ Blocks make_blocks(const Packing& packing, const std::vector<bool>& counted = {}
 Eigen::MatrixXd sum_by_block(const Blocks& blocks, const Eigen::MatrixXd& values);
 
 /// Standard errors of quantities that follow from sums over blocks, by leaving out one block at a time (jackknife; Künsch, Ann.
-/// Stat. 17 (1989) 1217): sqrt((B - 1) / B * sum of squared deviations). Blocks must be larger than the structure's correlation length.
+/// Stat. 17 (1989) 1217): sqrt((B - 1) / B * sum of squared deviations). Blocks must be larger than the structure's correlation
+/// length.
 /// @param sums Q x B: sums over each block. @param estimate from a sum over blocks (Q) to the quantities (K).
 /// @returns K standard errors; NaN with fewer than four blocks.
 Eigen::VectorXd block_errors(const Eigen::MatrixXd& sums, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& estimate);

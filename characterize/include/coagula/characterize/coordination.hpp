@@ -30,6 +30,9 @@ struct Coordination {
 
 Coordination measure_coordination(const Packing& packing, const CoordinationOptions& options = {});
 
+/// Contacts left to each particle (N) when those with fewer than two are removed again and again; -1 for the removed, the rattlers.
+Eigen::VectorXi prune_rattlers(const ContactNetwork& contacts);
+
 /// Overlap of the contacts as a fraction of r_i + r_j; zero for pairs that do not overlap.
 struct Overlaps {
     double mean = unset;  ///< over the overlapping pairs; 0 if there are none

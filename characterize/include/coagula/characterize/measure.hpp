@@ -1,5 +1,5 @@
-// The table of measures: what can be measured of a packing, with the options, results and words of each. The program, its help text,
-// the file and the JSON object follow from it. CONTRIBUTING.md says how a measure is added.
+// The table of measures: what can be measured of a packing, with the options, results and words of each. The program, its help
+// text, the file and the JSON object follow from it. CONTRIBUTING.md says how a measure is added.
 #pragma once
 
 #include <coagula/characterize/measure_input.hpp>
@@ -16,9 +16,9 @@ namespace coagula::characterize {
 
 /// An option of a measure. Measures that share an option (the tolerance of contacts) take it from measure_options.hpp.
 struct MeasureOption {
-    std::string name;     ///< without dashes, "contact-tolerance"
-    std::string unit;     ///< UDUNITS text of a quantity; empty: a whole number
-    std::string meaning;  ///< one line
+    std::string name;                     ///< without dashes, "contact-tolerance"
+    std::string unit;                     ///< UDUNITS text of a quantity; empty: a whole number
+    std::string meaning;                  ///< one line
     std::optional<double> fallback = {};  ///< default [unit]
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();  ///< both ends are allowed
@@ -33,10 +33,12 @@ public:
              double standard_error = unset);
     void add_count(const std::string& name, Index value, const std::string& description);
     void add_text(const std::string& name, const std::string& value, const std::string& description);
-    void add_vector(const std::string& name, const Eigen::VectorXd& values, const std::string& unit, const std::string& description);
+    void add_vector(const std::string& name, const Eigen::VectorXd& values, const std::string& unit,
+                    const std::string& description);
     void add_counts(const std::string& name, const Eigen::VectorXi& values, const std::string& description);
     /// A matrix as it stands, [rows][cols].
-    void add_matrix(const std::string& name, const Eigen::MatrixXd& values, const std::string& unit, const std::string& description);
+    void add_matrix(const std::string& name, const Eigen::MatrixXd& values, const std::string& unit,
+                    const std::string& description);
     /// One value (or vector) per particle (d x N), which goes into the file and is seen in ParaView, not in the JSON object.
     void add_field(const std::string& name, const Eigen::MatrixXd& values, const std::string& unit, const std::string& description);
     /// A line of the table for people.
@@ -48,8 +50,8 @@ public:
     Table lines;
 };
 
-/// Thrown by a measure that is not defined for the packing at hand (open, unequal spheres ...), with a sentence that says why. Asked
-/// for by name this is an error; otherwise the measure is left out and the table says so.
+/// Thrown by a measure that is not defined for the packing at hand (open, unequal spheres ...), with a sentence that says why.
+/// Asked for by name this is an error; otherwise the measure is left out and the table says so.
 struct NotApplicable : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
@@ -58,13 +60,13 @@ void require_applicable(bool condition, const std::string& sentence);
 
 /// One line of the table of measures.
 struct Measure {
-    std::string name;                                ///< as --only names it; its results are below /characterization/<name>
-    std::string summary;                             ///< one line: what is measured
+    std::string name;     ///< as --only names it; its results are below /characterization/<name>
+    std::string summary;  ///< one line: what is measured
     MeasureResult (*run)(const MeasureInput& input);
-    std::vector<MeasureOption> options = {};         ///< that it reads
-    bool by_default = true;                          ///< whether it is measured when nothing is asked for by name
-    std::vector<std::string> along = {};             ///< measures whose results it needs beside its own, reported with it
-    std::string when_given = {};                     ///< option that asks for the measure when a value is given
+    std::vector<MeasureOption> options = {};  ///< that it reads
+    bool by_default = true;                   ///< whether it is measured when nothing is asked for by name
+    std::vector<std::string> along = {};      ///< measures whose results it needs beside its own, reported with it
+    std::string when_given = {};              ///< option that asks for the measure when a value is given
 };
 
 /// All measures, in the order in which they are reported.

@@ -4,6 +4,7 @@
 #include <coagula/characterize/blocks.hpp>
 #include <coagula/characterize/coordination.hpp>
 #include <coagula/characterize/pore_sizes.hpp>
+#include <coagula/characterize/voronoi_cells.hpp>
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
 
@@ -14,6 +15,8 @@
 #include <vector>
 
 namespace coagula::characterize {
+
+struct ReducedDiagram;
 
 class MeasureInput {
 public:
@@ -47,6 +50,12 @@ public:
     /// Contacts within the option contact-tolerance, and coordination numbers.
     const Coordination& coordination() const;
     const ContactNetwork& contacts() const { return coordination().contacts; }
+    /// Volumes of the Voronoi (power) cells.
+    const VoronoiCells& voronoi_cells() const;
+    /// Neighbours in the Voronoi (power) diagram and the areas of the faces between.
+    const VoronoiFaces& voronoi_faces() const;
+    /// The diagram itself (internal, reduced_diagram.hpp).
+    const ReducedDiagram& diagram() const;
     /// The exact pore-size curve at as many radii as the option radii says.
     const PoreSizes& pores() const;
     /// Whether somebody asked for the pores already.

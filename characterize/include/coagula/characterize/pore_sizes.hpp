@@ -13,7 +13,8 @@
 namespace coagula::characterize {
 
 struct PoreOptions {
-    Index radii = 200;  ///< number of equally spaced radii from 0 to the largest pore, >= 4
+    Index radii = 200;        ///< number of equally spaced radii from 0 to the largest pore, >= 4
+    double tolerance = 5e-5;  ///< of P by interpolation between radii, for unequal spheres; 0: every radius is computed
 };
 
 /// The pore-size curve and its moments. Lengths in metres.
@@ -28,13 +29,17 @@ struct PoreSizes {
     double volume = unset;                  ///< volume measured: the periodic cell, or the inner cells of an open packing [m^3]
     Index inner_particles = 0;              ///< particles whose Voronoi cells were measured (all, if periodic)
     double cell_volume_defect = unset;      ///< |sum of the cell volumes / volume - 1|, a check of the geometry; unset if open
+    double curve_error = 0;                 ///< estimate of the largest error of P by interpolation; 0 for equal spheres
+    Eigen::MatrixXd void_by_block;          ///< [radius][block]: volume farther than r from every surface, by sub-volume [m^3]
+    Eigen::MatrixXd volume_by_block;        ///< [radius][block]: volume of the cells [m^3]; one block if none were given
 };
 
 /// Exact curve. Periodic cells of any orthorhombic shape. In an open packing only particles count whose Voronoi cell no particle
 /// outside the convex hull of the given centres could change (inner_particles.hpp); std::invalid_argument if there are none, or no
-/// void. Equal spheres need one triangulation for all radii. Unequal ones need one per radius (at least 160), because the power
-/// cells move as the balls grow; in an open packing the measured volume then moves too, and P is normalised at each radius.
-/// Moments are accurate to 1e-6, the median to 1e-5.
+/// void. Equal spheres need one triangulation for all radii. Unequal ones need one per radius, because the power cells move as the
+/// balls grow: the curve is computed at 33 radii or more and interpolated, until P is right within the tolerance (curve_error says
+/// to how much). In an open packing the measured volume then moves too, and P is normalised at each radius. Moments are accurate to
+/// 1e-6 for equal spheres, the median to 1e-5.
 PoreSizes measure_pores(const Packing& packing, const PoreOptions& options = {}, const Progress& progress = {});
 
 /// Exclusion probability at the given radii [m] estimated from random points of the void space: a check of the exact curve.

@@ -29,4 +29,8 @@ struct Cluster {
 /// Throws std::invalid_argument when bonds or flags do not belong to the packing.
 std::vector<Cluster> find_clusters(const Packing& packing, const ContactNetwork& bonds, const std::vector<bool>& selected = {});
 
+/// For each particle (N), which of the clusters that find_clusters found for the same bonds it belongs to; -1: to none of them.
+Eigen::VectorXi cluster_of_particles(const ContactNetwork& bonds, const std::vector<Cluster>& clusters,
+                                     const std::vector<bool>& selected = {});
+
 }  // namespace coagula

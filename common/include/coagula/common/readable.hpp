@@ -15,7 +15,8 @@ using Table = std::vector<std::pair<std::string, std::string>>;
 /// A physical value: five digits, SI prefix for metres, pascals and newtons, "1.4123 MPa".
 std::string with_unit(double value, const std::string& unit);
 
-/// "0.4566 +- 0.0014": as many decimals as the error has with two digits. Without an error that is finite and positive, five decimals.
+/// "0.4566 +- 0.0014": as many decimals as the error has with two digits. Without an error that is finite and positive, five
+/// decimals.
 std::string with_error(double value, double error);
 
 /// "10.9 x 10.9 x 10.9 um, periodic".

@@ -141,6 +141,13 @@ struct PredictedRow {
     double extended_residual = 0;
 };
 
+/// What a cause other than the best predicts, to be held against the data.
+struct OtherPrediction {
+    std::string cause;
+    std::vector<double> values;         ///< of each of Diagnosis::rows, without the effect of the sample
+    std::vector<SampleEffect> effects;  ///< most probable, as Diagnosis::extended_effects
+};
+
 struct Diagnosis {
     bool detected = false;
     double p_value = 1;
@@ -161,6 +168,7 @@ struct Diagnosis {
     std::vector<double> bootstrap;               ///< largest score of each data set drawn from the base model
     std::vector<SampleEffect> base_effects;      ///< most probable b of each sample, prediction x (1 + b)
     std::vector<SampleEffect> extended_effects;  ///< the same for the best cause
+    std::vector<OtherPrediction> others;         ///< of the next most probable causes, at most four
 };
 
 /// What `diagnose` refuses before it simulates: throws InputError when there are fewer than five usable numbers, too little to say

@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -96,12 +97,11 @@ public:
     /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; springpots beside
     /// the springs are in both.
     std::complex<double> drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
-    /// What one standard error of the mean over so few structures changes that by: a value for each structure of all, 0 for those
-    /// of other groups. Nearly floppy structures differ by orders of magnitude. One structure alone tells nothing: half of its
-    /// drag.
+    /// What independent standard errors of the mean over so few structures change that by (src/simulate/drag_scatter.hpp): as many
+    /// values for every group of structures and for all of them together, 0 for those of other groups.
     std::vector<std::complex<double>> drag_errors(const Settings& settings, double angular_frequency, std::size_t group = 0);
     /// Degrees of freedom from which their common scale is known.
-    double drag_degrees() const;
+    double drag_degrees();
     std::complex<double> exact_drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
 
     /// G under a tension in all contacts over G without it, at vanishing strain.
@@ -133,6 +133,7 @@ private:
     const PoreCurve& imaged_pores(const std::array<double, 4>& errors);
     double change_in_images(const Settings& settings, double pore_radius, double probability, bool exact);
     std::vector<std::size_t> members(std::size_t group) const;
+    std::set<std::size_t> distinct_groups() const;
     const std::vector<double>& linear_moduli(std::size_t structure, double ratio, double bending, double tolerance);
     double node(double ratio, double bending, double tolerance, std::size_t group);
     double scatter_between_structures();
@@ -151,6 +152,7 @@ private:
     const std::vector<double>& drag_nodes(std::size_t structure);
     const std::vector<std::complex<double>>& drag_curve(std::size_t group);
     const std::vector<std::complex<double>>& own_drag_curve(std::size_t structure);
+    const Eigen::MatrixXd& drag_scatter_of(std::size_t group);
     double reduced_drag(const Settings& settings, double angular_frequency) const;
     std::vector<double> shells(double plane, double axis);
     const std::vector<double>& shell_node(int plane, int axis);
@@ -170,6 +172,8 @@ private:
     std::map<std::pair<int, int>, std::vector<double>> image_nodes_;
     std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;      ///< by group
     std::map<std::size_t, std::vector<std::complex<double>>> own_drag_curves_;  ///< by structure
+    std::map<std::size_t, Eigen::MatrixXd> drag_scatters_;                      ///< nodes x errors, by group
+    double drag_degrees_ = 0;                                                   ///< once one of these has been asked for
     double scatter_ = -1;                                                       ///< between structures, once it has been asked for
     SimulationCache& cache_;
     Progress progress_;

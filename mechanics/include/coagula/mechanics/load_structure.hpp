@@ -1,6 +1,7 @@
 // What carries the load of a sheared network: fabric, contact forces, backbone, non-affinity. Definitions: docs/load-structure.md.
 #pragma once
 
+#include <coagula/common/fabric.hpp>
 #include <coagula/common/percolation.hpp>
 #include <coagula/mechanics/linear.hpp>
 
@@ -16,16 +17,6 @@ struct LoadStructureOptions {
     double backbone_energy = 0.9;  ///< share of the elastic energy that the backbone stores, > 0 and < 1
     std::vector<bool> held;        ///< as in LinearOptions
 };
-
-/// Mean of n n^T over contacts, weighted or not (Satake 1982; Madadi et al. 2004); zero when there are none.
-struct Fabric {
-    Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();       ///< trace 1
-    Eigen::Vector3d eigenvalues = Eigen::Vector3d::Zero();  ///< ascending
-    double anisotropy = 0;                                  ///< sqrt(3/2) |tensor - 1/3|: 0 isotropic, 1 all contacts parallel
-};
-
-/// @param weight one per contact, >= 0 (such as |f_n|; all ones for the fabric of the contacts).
-Fabric find_fabric(const ContactNetwork& bonds, const Eigen::VectorXd& weight);
 
 /// Distribution of |f_n| over its mean.
 struct ForceDistribution {

@@ -4,7 +4,6 @@
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/noise.hpp>
 #include <coagula/io/structure_file.hpp>
-#include <coagula/report/gnuplot.hpp>
 
 #include <string>
 #include <vector>
@@ -26,6 +25,7 @@ struct DiagnosisRecord {
 /// What was found, in a sentence or two.
 std::string verdict_sentence(const diagnose::Diagnosis& found);
 
-std::string diagnosis_page(const DiagnosisRecord& record, Gnuplot& gnuplot);
+/// HTML.
+std::string diagnosis_page(const DiagnosisRecord& record);
 
 }  // namespace coagula::report

@@ -1,4 +1,4 @@
-// Pictures by the program gnuplot, as SVG to stand inside a page.
+// Pictures by the program gnuplot.
 #pragma once
 
 #include <string>
@@ -15,19 +15,7 @@ struct GnuplotOutput {
 /// @param commands beginning with those that set the terminal.
 GnuplotOutput run_gnuplot(const std::string& commands);
 
-/// Draws with gnuplot, if it is installed; asks for it once.
-class Gnuplot {
-public:
-    /// The <svg> element that the commands draw, its ids unique in the page; empty where nothing could be drawn, see problem().
-    /// @param commands after the terminal has been set. @param title in words, for those who cannot see it.
-    std::string draw(const std::string& commands, int width, int height, const std::string& title);
-
-    /// One sentence why pictures are missing; empty while all could be drawn.
-    const std::string& problem() const { return problem_; }
-
-private:
-    std::string problem_;
-    int drawn_ = 0;
-};
+/// The SVG without gnuplot's names of curves, which a browser would show under the mouse.
+std::string without_names(std::string svg);
 
 }  // namespace coagula::report

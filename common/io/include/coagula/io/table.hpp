@@ -27,8 +27,13 @@ struct TableColumn {
 /// Throws InputError that names file, line and rule.
 std::vector<Eigen::VectorXd> read_table(const std::string& path, const std::vector<TableColumn>& columns);
 
-/// Writes rows of fields as CSV through a temporary file and a rename; fields with separators or quotes are quoted. Throws as
-/// write_structure does.
+/// The fields of one column of such a file as they stand, one per line. Throws InputError where there is no such column.
+std::vector<std::string> read_text_column(const std::string& path, const std::string& name);
+
+/// Rows of fields as CSV; fields with separators or quotes are quoted.
+std::string csv_text(const std::vector<std::vector<std::string>>& rows);
+
+/// Writes them through a temporary file and a rename. Throws as write_structure does.
 void write_rows(const std::string& path, const std::vector<std::vector<std::string>>& rows, bool overwrite);
 
 }  // namespace coagula::io

@@ -11,7 +11,8 @@ namespace coagula::io {
 /// The number of `unit` ("m", "V", "N/m", UDUNITS text) in a text such as "0.25um", "0.25 um" or "2.5e-7"; a bare number already
 /// is in `unit`. Throws InputError with a sentence that names the text and the expected unit when there is no finite number in
 /// front, the rest is not a unit or the unit has another dimension (a reciprocal, such as Hz for s, is another dimension, and so is
-/// rad/s for Hz). "5ms" are milliseconds, "5 m s" and "5m.s" metre seconds. Safe to call from several threads.
+/// rad/s for Hz). "5ms" are milliseconds, "5 m s" and "5m.s" metre seconds. For "mol/m3" M is mol/l: "10 mM". Safe to call from
+/// several threads.
 double parse_quantity(const std::string& text, const std::string& unit);
 
 /// Whether UDUNITS knows the unit, of whatever dimension.

@@ -1,0 +1,126 @@
+#include <coagula/characterize/largest_pores.hpp>
+
+#include <coagula/characterize/inner_particles.hpp>
+#include <coagula/common/checks.hpp>
+
+#include "power_diagram.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace coagula::characterize {
+
+namespace {
+
+/// A tetrahedron with less than this times (longest edge)^3 has an ill-conditioned centre; a neighbour has nearly the same sphere.
+constexpr double well_conditioned = 1e-6;
+
+/// Relative gap below which spheres touch rather than overlap.
+constexpr double touching = 1e-9;
+
+struct Pore {
+    Eigen::Vector3d centre;
+    double radius;
+};
+
+/// The sphere that touches four spheres from outside (the problem of Apollonius): |x - p_k| = r_k + rho. The differences to the
+/// first of the four equations are linear, x = u - rho v, and leave a quadratic equation for rho.
+std::optional<Pore> touching_sphere(const PowerDiagram& diagram, const std::array<int, 4>& sites) {
+    const Eigen::Vector3d origin = diagram.positions.col(sites[0]);
+    const double r0 = diagram.radii[sites[0]];
+    Eigen::Matrix3d differences;
+    Eigen::Vector3d constant;
+    Eigen::Vector3d slope;
+    for (Index k = 0; k < 3; ++k) {
+        const int site = sites[static_cast<std::size_t>(k) + 1];
+        const Eigen::Vector3d difference = diagram.positions.col(site) - origin;
+        const double radius = diagram.radii[site];
+        differences.row(k) = difference;
+        constant[k] = 0.5 * (difference.squaredNorm() - (radius - r0) * (radius + r0));
+        slope[k] = radius - r0;
+    }
+    const Eigen::PartialPivLU<Eigen::Matrix3d> factors(differences);
+    const Eigen::Vector3d u = factors.solve(constant);
+    const Eigen::Vector3d v = factors.solve(slope);
+    const double a = 1 - v.squaredNorm();
+    const double half = u.dot(v) + r0;
+    const double c = r0 * r0 - u.squaredNorm();
+    const double discriminant = half * half - a * c;
+    if (!(discriminant >= 0)) {
+        return std::nullopt;
+    }
+    const double rho = -c / (half + std::sqrt(discriminant));  // the root that stays finite when the radii are equal and a = 1
+    if (!(rho > 0) || !std::isfinite(rho)) {
+        return std::nullopt;
+    }
+    return Pore{origin + u - rho * v, rho};
+}
+
+/// One candidate for every well-conditioned vertex of the diagram; each vertex is met several times.
+std::vector<Pore> candidates(const Packing& packing, const PowerDiagram& diagram, const std::vector<bool>& inner) {
+    const bool periodic = packing.cell.is_periodic();
+    const auto certain = [&](int site) { return periodic || inner[static_cast<std::size_t>(site)]; };
+    std::vector<Pore> found;
+    for (const DiagramEdge& edge : diagram.edges) {
+        const EdgeGeometry geometry = measure_edge(diagram, edge);
+        for (std::size_t which = 0; which < 2; ++which) {
+            const std::array<int, 4> sites{edge.around[0], edge.around[1], edge.around[2], edge.apex[which]};
+            if (geometry.relative_volume[which] > well_conditioned && std::all_of(sites.begin(), sites.end(), certain)) {
+                if (const auto pore = touching_sphere(diagram, sites)) {
+                    const Eigen::Vector3d centre = pore->centre + packing.cell.origin();
+                    found.push_back({periodic ? packing.cell.wrap(centre) : centre, pore->radius});
+                }
+            }
+        }
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Pore& one, const Pore& other) { return one.radius > other.radius; });
+    return found;
+}
+
+bool overlaps(const Cell& cell, const Pore& pore, const Eigen::Vector3d& centre, double radius) {
+    return cell.minimum_image(pore.centre - centre).norm() < (pore.radius + radius) * (1 - touching);
+}
+
+}  // namespace
+
+LargestPores find_largest_pores(const Packing& packing, const LargestPoreOptions& options) {
+    check(packing);
+    require(options.count > 0, "the number of pores is " + std::to_string(options.count) + ", but must be positive");
+    const std::vector<bool> inner = inner_particles(packing);
+    const PowerDiagram diagram = packing.cell.is_periodic()
+                                     ? periodic_diagram(packing, packing.radii)
+                                     : open_diagram(packing, packing.radii, {inner.begin(), inner.end()});
+    const bool equal = packing.radii.minCoeff() == packing.radii.maxCoeff();
+    const auto enters_particle = [&](const Pore& pore) {
+        for (Index i = 0; i < packing.size(); ++i) {
+            if (overlaps(packing.cell, pore, packing.positions.col(i), packing.radii[i])) {
+                return true;
+            }
+        }
+        return false;
+    };
+    std::vector<Pore> taken;
+    for (const Pore& pore : candidates(packing, diagram, inner)) {
+        if (static_cast<Index>(taken.size()) == options.count) {
+            break;
+        }
+        const bool is_new = std::none_of(taken.begin(), taken.end(), [&](const Pore& other) {
+            return overlaps(packing.cell, pore, other.centre, other.radius);
+        });
+        if (is_new && (equal || !enters_particle(pore))) {
+            taken.push_back(pore);
+        }
+    }
+    LargestPores pores{Eigen::Matrix3Xd(3, static_cast<Index>(taken.size())), Eigen::VectorXd(static_cast<Index>(taken.size()))};
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+        pores.centres.col(static_cast<Index>(k)) = taken[k].centre;
+        pores.radii[static_cast<Index>(k)] = taken[k].radius;
+    }
+    return pores;
+}
+
+}  // namespace coagula::characterize

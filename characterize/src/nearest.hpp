@@ -1,0 +1,20 @@
+// The nearest neighbours of every particle. Internal.
+#pragma once
+
+#include <coagula/common/packing.hpp>
+
+#include <vector>
+
+namespace coagula::characterize {
+
+struct Neighbour {
+    int particle;
+    Eigen::Vector3d separation;  ///< from the particle to this one or its image [m]
+    double squared_distance;
+};
+
+/// The `count` nearest of each particle by centre distance, nearest first; images count as neighbours. Fewer in an open packing of
+/// fewer particles.
+std::vector<std::vector<Neighbour>> nearest_neighbours(const Packing& packing, Index count);
+
+}  // namespace coagula::characterize

@@ -1,0 +1,44 @@
+// Conduction through faces of voxels: conjugate gradients with a multigrid preconditioner. Internal.
+#pragma once
+
+#include "voxel_pores.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace coagula::characterize {
+
+/// Conductances between the voxels of a periodic grid and the next along each axis.
+struct FaceConductances {
+    Eigen::Array3i count;
+    std::array<Eigen::ArrayXd, 3> of_face;
+};
+
+/// Of voxels with open faces, for a liquid of unit conductivity.
+FaceConductances face_conductances(const VoxelGrid& grid, const OpenFaces& faces);
+
+class ConductionSolver {
+public:
+    explicit ConductionSolver(FaceConductances conductances);
+
+    /// The periodic part u of the potential x + u under a unit gradient along one axis.
+    /// @param spacing of the voxels along that axis. @param tolerance of the residual, relative.
+    Eigen::ArrayXd solve(int axis, double spacing, double tolerance) const;
+
+    /// Power sum g (drop)^2 under that potential.
+    static double power(const FaceConductances& conductances, const Eigen::ArrayXd& potential, int axis, double spacing);
+
+private:
+    /// One grid of the hierarchy; the next has voxels twice as large.
+    struct Level {
+        FaceConductances conductances;
+        Eigen::ArrayXd inverse_diagonal;  ///< 0 for voxels without an open face
+    };
+
+    Eigen::ArrayXd precondition(std::size_t level, const Eigen::ArrayXd& residual) const;
+
+    std::vector<Level> levels_;
+};
+
+}  // namespace coagula::characterize

@@ -1,0 +1,27 @@
+// The power diagram of a packing in units of its mean radius: what several measures start from. Internal.
+#pragma once
+
+#include "power_diagram.hpp"
+
+namespace coagula::characterize {
+
+/// The packing with its lengths divided by `unit`.
+Packing in_units_of(double unit, const Packing& packing);
+
+struct ReducedDiagram {
+    double unit = 1;       ///< mean radius r0 [m]
+    Packing packing;       ///< lengths over r0
+    PowerDiagram diagram;  ///< all particles are counted, or the inner ones of an open packing; edges around counted ones only
+
+    /// N flags.
+    std::vector<bool> inner() const { return {diagram.counted.begin(), diagram.counted.begin() + packing.size()}; }
+    Index inner_count() const;
+};
+
+/// Of a packing that passed check(). No particle may be inner: the diagram has no edges then.
+ReducedDiagram reduced_diagram(const Packing& packing);
+
+/// Throws std::invalid_argument when no particle is inner.
+void require_inner(const ReducedDiagram& reduced);
+
+}  // namespace coagula::characterize

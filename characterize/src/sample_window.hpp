@@ -1,0 +1,21 @@
+// What part of space a packing samples: all of a periodic cell, or the convex hull of the centres of an open packing. Internal.
+#pragma once
+
+#include <coagula/common/packing.hpp>
+
+namespace coagula::characterize {
+
+struct SampleWindow {
+    Eigen::VectorXd depth;  ///< N: distance of each centre from the surface of the window [m]; infinite if periodic
+    double density = 0;     ///< centres per volume [1/m^3]; of an open packing those that are no corner of the hull over the volume
+                            ///< of the hull, which is unbiased (Baldin and Reiss, Stoch. Process. Appl. 126 (2016) 3716)
+    double pair_density = 0;  ///< other centres per volume that an ideal gas would have around a particle: (N - 1) / V if periodic
+    double volume = 0;        ///< of the window [m^3]
+    Eigen::Vector3d centre;   ///< of the largest known ball in the window; of the box, if periodic
+    double ball_radius = 0;   ///< of that ball [m]; infinite if periodic
+};
+
+/// Throws std::invalid_argument if an open packing has fewer than five particles or lies in a plane.
+SampleWindow sample_window(const Packing& packing);
+
+}  // namespace coagula::characterize

@@ -1,0 +1,18 @@
+// Measurements that start from a diagram which is there already. Internal.
+#pragma once
+
+#include <coagula/characterize/blocks.hpp>
+#include <coagula/characterize/pore_sizes.hpp>
+#include <coagula/characterize/voronoi_cells.hpp>
+
+#include "reduced_diagram.hpp"
+
+namespace coagula::characterize {
+
+/// @param blocks of the counted particles, or none (count 0).
+PoreSizes measure_pores(const ReducedDiagram& reduced, const PoreOptions& options, const Blocks& blocks, const Progress& progress);
+
+VoronoiCells measure_voronoi_cells(const ReducedDiagram& reduced);
+VoronoiFaces measure_voronoi_faces(const ReducedDiagram& reduced);
+
+}  // namespace coagula::characterize

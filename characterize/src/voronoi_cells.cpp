@@ -1,0 +1,179 @@
+#include <coagula/characterize/voronoi_cells.hpp>
+
+#include "shared_measurements.hpp"
+
+#include <boost/math/special_functions/digamma.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <boost/math/special_functions/trigamma.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coagula::characterize {
+
+namespace {
+
+constexpr std::size_t chunks = 64;  // fixed, so that sums do not depend on the number of threads
+
+/// Volumes of the counted cells from some of the edges.
+void add_volumes(const PowerDiagram& diagram, std::size_t begin, std::size_t end, Eigen::VectorXd& volumes) {
+    for (std::size_t k = begin; k < end; ++k) {
+        const DiagramEdge& edge = diagram.edges[k];
+        const EdgeGeometry geometry = measure_edge(diagram, edge);
+        const double height = (geometry.height[0] + geometry.height[1]) / 6;
+        for (const EdgeSide& side : geometry.sides) {
+            const int first = edge.around[static_cast<std::size_t>(side.first)];
+            const int second = edge.around[static_cast<std::size_t>(side.second)];
+            if (diagram.counted[static_cast<std::size_t>(first)] != 0) {
+                volumes[first] += side.first_distance * side.foot_distance * height;
+            }
+            if (diagram.counted[static_cast<std::size_t>(second)] != 0) {
+                volumes[second] += side.second_distance * side.foot_distance * height;
+            }
+        }
+    }
+}
+
+/// Part of the face between a counted particle and a site.
+struct FacePart {
+    int particle = 0;
+    int site = 0;
+    double area = 0;
+};
+
+std::vector<FacePart> face_parts(const PowerDiagram& diagram) {
+    std::vector<FacePart> parts;
+    for (const DiagramEdge& edge : diagram.edges) {
+        const EdgeGeometry geometry = measure_edge(diagram, edge);
+        const double height = (geometry.height[0] + geometry.height[1]) / 2;
+        for (const EdgeSide& side : geometry.sides) {
+            const std::array<int, 2> sites = {edge.around[static_cast<std::size_t>(side.first)],
+                                              edge.around[static_cast<std::size_t>(side.second)]};
+            for (std::size_t which = 0; which < 2; ++which) {
+                if (diagram.counted[static_cast<std::size_t>(sites[which])] != 0) {
+                    parts.push_back({sites[which], sites[1 - which], side.foot_distance * height});
+                }
+            }
+        }
+    }
+    std::sort(parts.begin(), parts.end(), [](const FacePart& one, const FacePart& other) {
+        return std::pair(one.particle, one.site) < std::pair(other.particle, other.site);
+    });
+    return parts;
+}
+
+/// Of a face that is seen from both of its sides, one view is kept.
+bool keeps(const PowerDiagram& diagram, const FacePart& part) {
+    const int other = diagram.particle[static_cast<std::size_t>(part.site)];
+    if (part.particle != other) {
+        return part.particle < other || diagram.counted[static_cast<std::size_t>(other)] == 0;
+    }
+    const Eigen::Vector3d step = diagram.positions.col(part.site) - diagram.positions.col(part.particle);
+    return step[0] != 0 ? step[0] > 0 : (step[1] != 0 ? step[1] > 0 : step[2] > 0);
+}
+
+/// k of largest likelihood of a gamma law with mean 1: log k - digamma(k) = -mean(log x), by Newton's method for log k.
+double gamma_shape(double minus_mean_log) {
+    double k = 0.5 / minus_mean_log;
+    for (int step = 0; step < 50; ++step) {
+        const double value = std::log(k) - boost::math::digamma(k) - minus_mean_log;
+        const double change = value / (1 - k * boost::math::trigamma(k));
+        k *= std::exp(std::clamp(-change, -1.0, 1.0));
+        if (std::abs(change) < 1e-13) {
+            break;
+        }
+    }
+    return k;
+}
+
+double kolmogorov_distance(Eigen::VectorXd x, double shape) {
+    std::sort(x.begin(), x.end());
+    double distance = 0;
+    const auto count = static_cast<double>(x.size());
+    for (Index i = 0; i < x.size(); ++i) {
+        const double law = boost::math::gamma_p(shape, shape * x[i]);
+        distance = std::max({distance, law - static_cast<double>(i) / count, static_cast<double>(i + 1) / count - law});
+    }
+    return distance;
+}
+
+}  // namespace
+
+VoronoiCells measure_voronoi_cells(const ReducedDiagram& reduced) {
+    const PowerDiagram& diagram = reduced.diagram;
+    const Index particles = reduced.packing.size();
+    VoronoiCells cells{Eigen::VectorXd::Zero(particles), reduced.inner()};
+    std::vector<Eigen::VectorXd> parts(chunks);
+    const std::size_t used = diagram.edges.size() < 100000 ? 1 : chunks / 8;
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t chunk = 0; chunk < used; ++chunk) {
+        parts[chunk] = Eigen::VectorXd::Zero(particles);
+        add_volumes(diagram, diagram.edges.size() * chunk / used, diagram.edges.size() * (chunk + 1) / used, parts[chunk]);
+    }
+    for (std::size_t chunk = 0; chunk < used; ++chunk) {
+        cells.volumes += parts[chunk];
+    }
+    cells.volumes = cells.volumes.cwiseMax(0.0) * (reduced.unit * reduced.unit * reduced.unit);
+    return cells;
+}
+
+VoronoiCells measure_voronoi_cells(const Packing& packing) {
+    check(packing);
+    return measure_voronoi_cells(reduced_diagram(packing));
+}
+
+VoronoiFaces measure_voronoi_faces(const ReducedDiagram& reduced) {
+    const PowerDiagram& diagram = reduced.diagram;
+    const std::vector<FacePart> parts = face_parts(diagram);
+    std::vector<FacePart> faces;
+    for (const FacePart& part : parts) {
+        if (!keeps(diagram, part)) {
+            continue;
+        }
+        if (faces.empty() || faces.back().particle != part.particle || faces.back().site != part.site) {
+            faces.push_back({part.particle, part.site, 0});
+        }
+        faces.back().area += part.area;
+    }
+    VoronoiFaces result;
+    const auto count = static_cast<Index>(faces.size());
+    result.neighbours.particles = reduced.packing.size();
+    result.neighbours.ends.resize(2, count);
+    result.neighbours.branch.resize(3, count);
+    result.areas.resize(count);
+    for (Index k = 0; k < count; ++k) {
+        const FacePart& face = faces[static_cast<std::size_t>(k)];
+        result.neighbours.ends.col(k) << face.particle, diagram.particle[static_cast<std::size_t>(face.site)];
+        result.neighbours.branch.col(k) = reduced.unit * (diagram.positions.col(face.site) - diagram.positions.col(face.particle));
+        result.areas[k] = reduced.unit * reduced.unit * std::max(face.area, 0.0);
+    }
+    return result;
+}
+
+VoronoiFaces measure_voronoi_faces(const Packing& packing) {
+    check(packing);
+    return measure_voronoi_faces(reduced_diagram(packing));
+}
+
+VoronoiDistribution fit_voronoi_volumes(const Eigen::VectorXd& volumes, double radius) {
+    require_positive(radius, "the radius of the spheres", "m");
+    require(volumes.size() >= 2 && volumes.allFinite() && volumes.minCoeff() >= 0,
+            "the distribution of Voronoi volumes needs at least two finite volumes that are not negative");
+    VoronoiDistribution found;
+    found.cells = volumes.size();
+    found.mean = volumes.mean();
+    found.deviation = std::sqrt((volumes.array() - found.mean).square().sum() / static_cast<double>(volumes.size() - 1));
+    const double smallest = smallest_voronoi_volume * radius * radius * radius;
+    if (found.mean <= smallest) {
+        return found;
+    }
+    found.width = found.deviation / (found.mean - smallest);
+    const Eigen::VectorXd x = (volumes.array() - smallest) / (found.mean - smallest);
+    if (x.minCoeff() > 0 && found.width > 1e-6) {
+        found.shape = gamma_shape(-x.array().log().mean());
+        found.distance = kolmogorov_distance(x, found.shape);
+    }
+    return found;
+}
+
+}  // namespace coagula::characterize

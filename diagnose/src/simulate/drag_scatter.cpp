@@ -1,0 +1,59 @@
+#include "drag_scatter.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+// tests/benchmark/drag_scatter.py measures what the next four constants state.
+constexpr double particles_of_scatter = 400;  ///< the variance goes as one over their number
+constexpr double least_scatter = 0.03;        ///< of the logarithm, where all particles are dragged along
+constexpr double largest_scatter = 1.5;       ///< added to that, where the slowest motions still follow
+constexpr double decades = 1.1;               ///< over which errors are alike: exp(-(distance / decades)^2 / 2)
+/// As much as the stated scale weighs: other coordinations scatter by up to 1.4 times that.
+constexpr double stated_degrees = 6;
+constexpr double least_share = 0.01;  ///< of the largest eigenvalue, which an error must have to count
+
+/// Standard deviation of the logarithm of the reduced viscosity of one structure.
+ArrayXd stated_scatter(const ArrayXd& drags, double particles) {
+    const ArrayXd slow = 0.1 * (drags / 1e-3).pow(-0.35);
+    return std::sqrt(particles_of_scatter / particles) * (least_scatter + slow.min(largest_scatter));
+}
+
+MatrixXd correlation(const ArrayXd& drags) {
+    const ArrayXd places = drags.log10() / decades;
+    const Index count = places.size();
+    const Eigen::ArrayXXd distance = places.replicate(1, count) - places.transpose().replicate(count, 1);
+    return (-0.5 * distance.square()).exp();
+}
+
+}  // namespace
+
+DragScatter drag_scatter(const ArrayXd& drags, double particles, const MatrixXd& logarithms, Index means, Index averaged) {
+    const ArrayXd scatter = stated_scatter(drags, particles);
+    const MatrixXd alike = correlation(drags);
+    const auto nodes = static_cast<double>(drags.size());
+    // Of a mean square over correlated nodes (Satterthwaite).
+    const double independent = nodes * nodes / alike.squaredNorm();
+    const double degrees = independent * static_cast<double>(logarithms.cols() - means);
+    const double mean_square = (logarithms.array().colwise() / scatter).square().sum() / nodes;
+    const double variance = (stated_degrees + independent * mean_square) / (stated_degrees + degrees);
+
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(alike);
+    const ArrayXd shares = axes.eigenvalues().array() / axes.eigenvalues().maxCoeff();
+    const auto kept = std::count_if(shares.begin(), shares.end(), [](double share) { return share > least_share; });
+    const ArrayXd deviation = scatter * std::sqrt(variance / static_cast<double>(averaged));
+    return {deviation.matrix().asDiagonal() * axes.eigenvectors().rightCols(kept) *
+                axes.eigenvalues().tail(kept).cwiseSqrt().asDiagonal(),
+            stated_degrees + degrees};
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,260 @@
+"""coagula report in a real browser: nothing on the console, spheres where geometry says, numbers that the file holds."""
+
+import csv
+import io
+import unittest
+
+import h5py
+import numpy
+
+from browser import Browser, needs_browser
+from geometry import Spheres, first_hits
+from support import ProgramTest
+
+PIXELS = """
+const viewer = coagula.views.stages[arguments[0]].viewer;
+viewer.drawNow();
+const canvas = document.createElement("canvas");
+[canvas.width, canvas.height] = [viewer.canvas.width, viewer.canvas.height];
+const context = canvas.getContext("2d");
+context.drawImage(viewer.canvas, 0, 0);
+const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+return arguments[1].map(([x, y]) => [...data.slice(4 * (y * canvas.width + x), 4 * (y * canvas.width + x) + 3)]);
+"""
+
+
+def rotation(n):
+    """A rotation whose first row is the unit vector n."""
+    helper = numpy.eye(3)[numpy.argmin(numpy.abs(n))]
+    second = numpy.cross(n, helper)
+    second /= numpy.linalg.norm(second)
+    return numpy.array([n, second, numpy.cross(n, second)])
+
+
+def moduli(stiffness, n):
+    """Young's modulus along n and the mean, least and largest shear modulus of plates normal to n, by turning the tensor with four indices."""
+    voigt = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)]
+    tensor = numpy.zeros((3, 3, 3, 3))
+    for a, (i, j) in enumerate(voigt):
+        for b, (k, l) in enumerate(voigt):
+            for first in ((i, j), (j, i)):
+                for second in ((k, l), (l, k)):
+                    tensor[first + second] = stiffness[a, b]
+    shears = []
+    for angle in numpy.radians(numpy.arange(0, 180, 0.5)):
+        turn = rotation(n)
+        turn[1:] = [[numpy.cos(angle), numpy.sin(angle)], [-numpy.sin(angle), numpy.cos(angle)]] @ turn[1:]
+        turned = numpy.einsum("ai,bj,ck,dl,ijkl->abcd", turn, turn, turn, turn, tensor, optimize=True)
+        compliance = numpy.linalg.inv([[turned[one + other] for other in voigt] for one in voigt])
+        shears.append(1 / compliance[5, 5])
+    return 1 / compliance[0, 0], 1 / numpy.mean(1 / numpy.array(shears)), min(shears), max(shears)
+
+
+@needs_browser
+class StructurePage(ProgramTest):
+    def make(self, *names):
+        for name in names:
+            self.copy_of_packing(name)
+            self.succeed("characterize", name)
+            self.succeed("shear", name)
+        self.succeed("report", *names, "-o", "report.html")
+        return self.folder / "report.html"
+
+    def check_console(self, browser):
+        self.assertEqual(browser.console(), [])
+        self.assertEqual(browser.run("return performance.getEntriesByType('resource').map((entry) => entry.name).filter((name) => !name.startsWith('blob:'))"), [])
+
+    def canvas_of(self, browser, view=0):
+        canvas = browser.find_all(".stage canvas")[view]
+        browser.run("arguments[0].scrollIntoView({block: 'nearest'})", canvas)
+        return canvas
+
+    def camera(self, browser, view=0):
+        return browser.run("return coagula.views.stages[arguments[0]].viewer.projection()", view)
+
+    def check_picks(self, browser, spheres, slab=None):
+        """Clicks on pixels well inside a sphere pick that sphere."""
+        canvas = self.canvas_of(browser)
+        width, height = (int(canvas.rect[name]) for name in ("width", "height"))
+        random = numpy.random.default_rng(1)
+        pixels = random.integers([0.3 * width, 0.3 * height], [0.6 * width, 0.7 * height], (200, 2))
+        hits, margins = first_hits(spheres, self.camera(browser), width, height, pixels, slab)
+        sure = [k for k in range(len(pixels)) if hits[k] >= 0 and margins[k] > 0.03][:4]
+        self.assertEqual(len(sure), 4)
+        for k in sure:
+            browser.run("coagula.views.stages[0].viewer.select(null)")  # the panel may lie over the next place
+            browser.click_at(canvas, *map(int, pixels[k]))
+            panel = browser.find(".picked")
+            self.assertEqual(int(panel.get_attribute("data-particle")), hits[k])
+            self.assertIn(f"Particle {hits[k]}", panel.text)
+            self.assertRegex(panel.text, rf"coordination\s+{spheres.coordination[hits[k]]}\b")
+            self.assertEqual(len(panel.find_elements("css selector", "tbody tr")), spheres.coordination[hits[k]])
+
+    def check_drawing(self, browser, spheres, slab=None):
+        """Spheres are drawn where rays meet them and nowhere else, each in the colour of its coordination."""
+        canvas = self.canvas_of(browser)
+        width, height = (int(canvas.rect[name]) for name in ("width", "height"))
+        random = numpy.random.default_rng(2)
+        pixels = random.integers([0.1 * width, 0.05 * height], [0.9 * width, 0.95 * height], (600, 2))
+        hits, margins = first_hits(spheres, self.camera(browser), width, height, pixels, slab)
+        colours = numpy.array(browser.run(PIXELS, 0, pixels.tolist()), dtype=float)
+        background = numpy.array(browser.run(PIXELS, 0, [[1, 1]])[0])
+        is_drawn = numpy.abs(colours - background).sum(axis=1) > 6
+        sure = margins > 0.05
+        self.assertTrue(((hits >= 0) & sure).sum() > 50 and ((hits < 0) & sure).sum() > 50)
+        wrong = (is_drawn != (hits >= 0)) & sure
+        self.assertEqual(wrong.sum(), 0, pixels[wrong])
+        # Viridis turns from blue to green with the number of contacts; light and distance change red, green and blue alike.
+        seen = sure & (hits >= 0)
+        greenness = (colours[seen, 1] - colours[seen, 2]) / colours[seen].sum(axis=1)
+        self.assertGreater(numpy.corrcoef(greenness, spheres.coordination[hits[seen]])[0, 1], 0.9)
+
+    def test_spheres_are_where_geometry_says(self):
+        page = self.make("packing.h5")
+        spheres = Spheres(self.folder / "packing.h5")
+        with Browser() as browser:
+            browser.open(page)
+            browser.run("coagula.views.change({box: false})")
+            self.check_drawing(browser, spheres)
+            self.check_picks(browser, spheres)
+            before = self.camera(browser)
+            browser.drag(self.canvas_of(browser), 120, -60)
+            self.assertGreater(numpy.linalg.norm(numpy.subtract(self.camera(browser)["eye"], before["eye"])), 1)
+            browser.run("coagula.views.stages[0].viewer.select(null)")
+            self.check_drawing(browser, spheres)
+            browser.run("coagula.views.change({slab: {on: true, axis: 0, position: 0.6, thickness: 0.2}})")
+            slab = (0, 0.5 * spheres.lengths[0], 0.7 * spheres.lengths[0])
+            self.check_drawing(browser, spheres, slab)
+            self.check_picks(browser, spheres, slab)
+            self.check_console(browser)
+
+    def test_keyboard_and_controls(self):
+        page = self.make("packing.h5")
+        with Browser() as browser:
+            browser.open(page)
+            canvas = self.canvas_of(browser)
+            first = self.camera(browser)["eye"]
+            browser.press(canvas, "\ue012", "+")  # arrow to the left
+            turned = self.camera(browser)["eye"]
+            self.assertLess(numpy.linalg.norm(turned), numpy.linalg.norm(first))
+            browser.press(canvas, "r")
+            numpy.testing.assert_allclose(self.camera(browser)["eye"], first, rtol=1e-9)
+            for settings in ("colourBy: 'cluster'", "colourBy: 'nonaffinity', logarithmic: true", "colourBy: 'energy_share'", "colourBy: 'radius'",
+                             "bonds: 'normal_force', sphereScale: 0.3", "backboneOnly: true, plane: 'yz'", "images: 'layer', pores: 20",
+                             "images: 'double'", "spheres: false"):
+                browser.run(f"coagula.views.change({{{settings}}})")
+                colours = {tuple(colour) for colour in browser.run(PIXELS, 0, [[x, y] for x in range(100, 500, 7) for y in range(100, 400, 7)])}
+                self.assertGreater(len(colours), 100, settings)
+            self.assertIn("normal force", browser.find(".legends").text)
+            self.check_console(browser)
+
+    def test_backbone_hides_the_others(self):
+        page = self.make("packing.h5")
+        with h5py.File(self.folder / "packing.h5") as file:
+            bonds = file["connectivity/bonds"][()]
+            flags = file["mechanics/linear/load_structure/xz/bonds/backbone"][()]
+        particles = len(numpy.unique(bonds[flags == 1]))
+        with Browser() as browser:
+            browser.open(page)
+            browser.run("coagula.views.change({backboneOnly: true, plane: 'xz'})")
+            self.assertEqual(browser.run("return coagula.views.stages[0].viewer.drawn.particle.length"), particles)
+            browser.run("coagula.views.change({backboneOnly: false, images: 'double'})")
+            self.assertEqual(browser.run("return coagula.views.stages[0].viewer.drawn.particle.length"), 8 * 500)
+            self.check_console(browser)
+
+    def test_numbers_as_csv(self):
+        page = self.make("packing.h5")
+        with Browser(downloads=self.folder) as browser:
+            browser.open(page)
+            buttons = browser.find_all(".figures .csv")
+            rows = list(csv.reader(io.StringIO(browser.download(buttons[0], self.folder, "pore-curve.csv"))))
+            self.assertEqual(rows[0], ["r / r₀", "exact", "fit"])
+            with h5py.File(self.folder / "packing.h5") as file:
+                curve = file["characterization/pore_curve"]
+                r0 = file["characterization/mean_radius"][()]
+                expected = numpy.stack([curve["radius"][()] / r0, curve["exclusion_probability"][()], curve["fit"][()]], axis=1)
+                stiffness = file["mechanics/linear/elastic_tensor"][()]
+            numpy.testing.assert_allclose(numpy.array(rows[1:], dtype=float), expected, rtol=1e-7)
+            elastic = browser.find(".elastic .csv")
+            table = list(csv.DictReader(io.StringIO(browser.download(elastic, self.folder, "moduli-in-every-direction.csv"))))
+            self.assertGreater(len(table), 500)
+            for row in table[::97]:
+                n = numpy.array([float(row[name]) for name in ("nx", "ny", "nz")])
+                found = [float(row[name]) for name in ("youngs_modulus [Pa]", "shear_modulus [Pa]", "shear_modulus_least [Pa]", "shear_modulus_most [Pa]")]
+                numpy.testing.assert_allclose(found, moduli(stiffness, n), rtol=1e-4)  # the ends lie between half degrees
+            self.check_console(browser)
+
+    def test_light_and_dark_and_two_widths(self):
+        page = self.make("packing.h5")
+
+        def background(browser):
+            return sum(map(int, browser.run("return getComputedStyle(document.body).backgroundColor").strip("rgba()").split(",")[:3]))
+
+        with Browser() as browser:
+            browser.prefer("dark")
+            browser.open(page)
+            self.assertLess(background(browser), 150)
+            self.assertLess(sum(browser.run(PIXELS, 0, [[1, 1]])[0]), 200)
+            browser.find("#theme").click()
+            self.assertGreater(background(browser), 700)
+            self.assertGreater(sum(browser.run(PIXELS, 0, [[1, 1]])[0]), 600)
+            browser.find("#theme").click()
+            browser.prefer("light")
+            self.assertLess(background(browser), 150)  # what was chosen stays
+            for width in (1440, 400):
+                browser.set_width(width)
+                browser.wait_for("return coagula.views.stages[0].viewer.canvas.clientWidth < innerWidth")
+                self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), width, "the page is wider than the window")
+            for name in ("role", "aria-label"):
+                self.assertTrue(all(plot.get_attribute(name) for plot in browser.find_all(".plot, .stage canvas, .surfaces canvas")))
+            self.check_console(browser)
+
+    def test_two_structures_are_compared(self):
+        self.copy_of_packing("b.h5")
+        self.succeed("characterize", "b.h5", "--contact-tolerance", "0.05")
+        self.succeed("shear", "b.h5", "--normal-stiffness", "200N/m", "--shear-stiffness", "20N/m")
+        self.copy_of_packing("a.h5")
+        self.succeed("characterize", "a.h5")
+        self.succeed("shear", "a.h5")
+        self.succeed("report", "a.h5", "b.h5", "-o", "report.html")
+        with Browser() as browser:
+            browser.open(self.folder / "report.html")
+            self.assertEqual(len(browser.find_all(".stage canvas")), 2)
+            browser.drag(self.canvas_of(browser, 0), 80, 30)
+            numpy.testing.assert_allclose(self.camera(browser, 0)["eye"], self.camera(browser, 1)["eye"], rtol=1e-9)
+            next(label for label in browser.find_all("label.check") if label.text == "linked cameras").click()
+            browser.drag(self.canvas_of(browser, 1), 80, 30)
+            self.assertGreater(numpy.linalg.norm(numpy.subtract(self.camera(browser, 0)["eye"], self.camera(browser, 1)["eye"])), 1)
+            rows = {row.find_element("css selector", "th").text: row.text for row in browser.find_all(".differences tbody tr")}
+            self.assertIn("+100 %", rows["mechanics / linear / storage modulus / mean"].replace("\u00a0", " "))
+            self.assertNotIn("characterization / particles", rows)
+            self.check_console(browser)
+
+    def test_texts_stay_texts(self):
+        name = "<img src=x onerror=fail()></script>.h5".replace("/", "_")
+        self.make(name)
+        with Browser() as browser:
+            browser.open(self.folder / "report.html")
+            self.assertEqual(browser.find("h1").text, name)
+            self.assertEqual(browser.find_all("img"), [])
+            self.assertIn("onerror", browser.find(".history").text)
+            self.check_console(browser)
+
+    def test_without_webgl_a_sentence(self):
+        page = self.make("packing.h5")
+        with Browser(graphics=["--disable-3d-apis"]) as browser:
+            browser.open(page)
+            self.assertIn("WebGL 2", browser.find(".stage .missing").text)
+            self.assertGreaterEqual(len(browser.find_all(".plot canvas")), 3)
+
+    def test_structure_without_results(self):
+        self.copy_of_packing("bare.h5")
+        self.succeed("report", "bare.h5", "-o", "report.html")
+        with Browser() as browser:
+            browser.open(self.folder / "report.html")
+            self.assertIn("run coagula characterize", browser.find(".notes").text)
+            self.check_console(browser)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,93 @@
+#include "manual_page.hpp"
+
+#include "help_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace coagula::tools {
+
+namespace {
+
+/// Text as troff has to see it: '-' is the sign that can be copied, and no line begins with a control character.
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '\\') {
+            out += "\\e";
+        } else if (c == '-') {
+            out += "\\-";
+        } else if (c == '\'' || c == '.') {
+            out += (out.empty() ? "\\&" : "") + std::string(1, c);
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
+
+std::string bold(const std::string& text) {
+    return "\\fB" + escaped(text) + "\\fR";
+}
+
+std::string italic(const std::string& text) {
+    return "\\fI" + escaped(text) + "\\fR";
+}
+
+std::string title(const std::string& name, const std::string& version) {
+    std::string capitals = name;
+    std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return ".TH " + escaped(capitals) + " 1 \"\" \"coagula " + escaped(version) + "\" \"coagula\"\n";
+}
+
+std::string entry(const Option& option) {
+    std::string heading = option.letter != 0 ? bold(std::string("-") + option.letter) + ", " : std::string{};
+    heading += bold("--" + option.name);
+    if (option.kind != Option::Kind::flag) {
+        heading += " " + italic(option.placeholder);
+    }
+    return ".TP\n" + heading + "\n" + escaped(option.meaning + remarks(option)) + "\n";
+}
+
+constexpr const char* common_parts =
+    ".SH EXIT STATUS\n.TP\n.B 0\ndone\n.TP\n.B 1\nfailed\n.TP\n.B 2\nwrong usage or bad input\n"
+    ".SH NOTES\nQuantities are SI numbers or carry a unit: 0.25um, 100N/m, 10 mM. Whole numbers may be written 1e6.\n"
+    "Results go to a temporary file that is renamed when it is complete.\n";
+
+}  // namespace
+
+std::string page_name(const Verb& verb) {
+    std::string name = "coagula-" + verb.name;
+    std::replace(name.begin(), name.end(), ' ', '-');
+    return name;
+}
+
+std::string program_page(const std::vector<Verb>& verbs, const std::string& version) {
+    std::string text =
+        title("coagula", version) + ".SH NAME\ncoagula \\- random sphere packings and coagulated particle gels\n" +
+        ".SH SYNOPSIS\n.B coagula\n.I VERB\n.RI [ options ]\n.br\n.B coagula \\-\\-help\n.br\n.B coagula \\-\\-version\n" +
+        ".SH DESCRIPTION\nGenerates, characterizes and shears packings, and diagnoses measured moduli.\n.SH VERBS\n";
+    std::string pages;
+    for (const Verb& verb : verbs) {
+        text += ".TP\n" + bold(verb.name) + "\n" + escaped(verb.summary) + "\n";
+        pages += ".BR " + escaped(page_name(verb)) + (verb.name == verbs.back().name ? " (1)\n" : " (1),\n");
+    }
+    return text + common_parts + ".SH SEE ALSO\n" + pages;
+}
+
+std::string verb_page(const Verb& verb, const std::string& version) {
+    std::string text = title(page_name(verb), version) + ".SH NAME\n" + escaped(page_name(verb)) + " \\- " + escaped(verb.summary) +
+                       "\n.SH SYNOPSIS\n" + bold("coagula " + verb.name) + (verb.input.empty() ? "" : " " + italic(verb.input)) +
+                       " [options]\n.SH DESCRIPTION\n" + escaped(verb.summary) + "\n";
+    for (const std::string& note : verb.notes) {
+        text += ".PP\n" + escaped(note) + "\n";
+    }
+    text += ".SH OPTIONS\n";
+    for (const Option& option : all_options(verb)) {
+        text += option.name == "input" ? "" : entry(option);
+    }
+    return text + common_parts + ".SH SEE ALSO\n.BR coagula (1)\n";
+}
+
+}  // namespace coagula::tools

@@ -1,0 +1,28 @@
+// coagula info --csv: one row per file.
+#pragma once
+
+#include "cli/report.hpp"
+
+#include <coagula/io/structure_file.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::tools {
+
+/// Rows of a table whose columns are all scalar results that any of its files has, with the unit in the heading.
+class InfoRows {
+public:
+    void add(const std::string& path, const io::Structure& structure, const Results& results);
+
+    /// The header and one row per file; a field is empty where a file has no such result or no number in it.
+    std::vector<std::vector<std::string>> with_header() const;
+
+private:
+    void put(const std::string& heading, const std::string& unit, const std::string& text);
+
+    std::vector<std::string> headings_;  ///< in the order of their first file
+    std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace coagula::tools

@@ -1,0 +1,298 @@
+// coagula plot: a figure of one or more result files, or the figures of the paper.
+#include "cli/output_file.hpp"
+#include "cli/report.hpp"
+#include "cli/verbs.hpp"
+
+#include <coagula/common/statistics.hpp>
+#include <coagula/io/atomic_file.hpp>
+#include <coagula/io/table.hpp>
+#include <coagula/report/figures.hpp>
+#include <coagula/report/result_folder.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+namespace coagula::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using report::Chart;
+using report::ChartAxis;
+using report::Drawing;
+using report::FigureSource;
+using report::PictureFormat;
+using report::PictureSize;
+using report::Series;
+
+constexpr Range picture_length{0.02, 1};  // m
+
+/// Files as given; of a folder its structures and tables.
+std::vector<std::string> files_of(const Arguments& arguments) {
+    std::vector<std::string> files;
+    for (const std::string& input : arguments.inputs()) {
+        if (!fs::is_directory(input)) {
+            files.push_back(input);
+            continue;
+        }
+        std::vector<std::string> inside;
+        for (const fs::directory_entry& entry : fs::directory_iterator(input)) {
+            const std::string ending = entry.path().extension().string();
+            if (entry.is_regular_file() && (ending == ".h5" || ending == ".csv")) {
+                inside.push_back(entry.path().string());
+            }
+        }
+        if (inside.empty()) {
+            throw InputError("the folder " + input + " holds no .h5 or .csv file to draw");
+        }
+        std::sort(inside.begin(), inside.end());
+        files.insert(files.end(), inside.begin(), inside.end());
+    }
+    return files;
+}
+
+std::vector<FigureSource> read_sources(const Arguments& arguments) {
+    const std::vector<std::string> files = files_of(arguments);
+    const std::vector<std::string> labels =
+        arguments.has("labels") ? split(arguments.text("labels")) : std::vector<std::string>(files.size());
+    if (labels.size() != files.size()) {
+        throw InputError("--labels has " + std::to_string(labels.size()) + " labels for " + std::to_string(files.size()) +
+                         " files: each file needs one");
+    }
+    std::vector<FigureSource> sources;
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        sources.push_back(report::read_figure_source(files[k], labels[k]));
+    }
+    return sources;
+}
+
+PictureSize size_of(const Arguments& arguments, const Drawing& drawing) {
+    PictureSize size = report::default_size(drawing);
+    const double shape = size.height / size.width;
+    size.width = arguments.optional_quantity("width").value_or(size.width);
+    size.height = arguments.optional_quantity("height").value_or(arguments.has("width") ? shape * size.width : size.height);
+    size.resolution = static_cast<int>(arguments.count("resolution"));
+    return size;
+}
+
+/// Which axes --log names; nothing when it is not given.
+void set_logarithmic(const Arguments& arguments, Drawing& drawing) {
+    if (!arguments.has("log")) {
+        return;
+    }
+    const std::string& axes = arguments.text("log");
+    for (Chart& chart : drawing.panels) {
+        if (!chart.picture) {
+            chart.x.logarithmic = axes.find('x') != std::string::npos;
+            chart.y.logarithmic = axes.find('y') != std::string::npos;
+        }
+    }
+}
+
+Json axis_json(const ChartAxis& axis) {
+    return {{"quantity", axis.plain}, {"unit", axis.unit}};
+}
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json to_json(const MeanWithError& found) {
+    return {{"structures", found.count},
+            {"mean", number(found.mean)},
+            {"std", number(found.standard_deviation)},
+            {"standard_error", number(found.standard_error)}};
+}
+
+/// Mean over the structures of a series.
+std::optional<MeanWithError> over_structures(const Series& series, const std::vector<double>& values) {
+    const Eigen::VectorXd all = Eigen::VectorXd::Map(values.data(), static_cast<Index>(values.size()));
+    return series.per_structure && all.size() > 0 && all.allFinite() ? std::optional(mean_and_standard_error(all)) : std::nullopt;
+}
+
+Json series_json(const Drawing& drawing) {
+    Json list = Json::array();
+    for (const Chart& chart : drawing.panels) {
+        for (const Series& series : chart.series) {
+            if (series.mark == report::Mark::arrow) {
+                continue;
+            }
+            Json json = {{"name", series.name},
+                         {"points", report::shown_places(chart, series).size()},
+                         {"x", axis_json(chart.x)},
+                         {"y", axis_json(series.second_axis ? chart.second_y : chart.y)}};
+            if (const auto x = over_structures(series, series.x)) {
+                json["x"]["over_structures"] = to_json(*x);
+                json["y"]["over_structures"] = to_json(*over_structures(series, series.y));
+            }
+            list.push_back(std::move(json));
+        }
+    }
+    return list;
+}
+
+void append_series(Table& table, const Drawing& drawing) {
+    for (const Chart& chart : drawing.panels) {
+        for (const Series& series : chart.series) {
+            if (series.name.empty()) {
+                continue;
+            }
+            table.emplace_back(series.name, std::to_string(report::shown_places(chart, series).size()) + " points");
+            const auto mean = over_structures(series, series.y);
+            if (mean && mean->count > 1) {
+                table.emplace_back("  mean " + chart.y.plain, with_unit(mean->mean, chart.y.unit) + ", standard error " +
+                                                                  with_unit(mean->standard_error, chart.y.unit) + " over " +
+                                                                  std::to_string(mean->count) + " structures");
+            }
+        }
+    }
+}
+
+void plot_figure(const Arguments& arguments) {
+    const std::string& path = arguments.text("output");
+    const bool force = arguments.flag("force");
+    const PictureFormat format = report::picture_format(path, "--output");
+    check_output(path, force);
+    if (arguments.has("data")) {
+        check_output(arguments.text("data"), force);
+    }
+    const report::Figure& figure = report::figure_named(arguments.text("figure"));
+    Drawing drawing = report::draw_figure(figure, read_sources(arguments), arguments.flag("published"));
+    set_logarithmic(arguments, drawing);
+    const PictureSize size = size_of(arguments, drawing);
+    const std::string picture = report::draw(drawing, format, size);
+    if (arguments.has("data")) {
+        io::write_rows(arguments.text("data"), report::chart_rows(drawing), force);
+    }
+    io::write_file(path, picture, force);
+
+    Json json = {{"figure", figure.name},
+                 {"output", path},
+                 {"width", size.width},
+                 {"height", size.height},
+                 {"series", series_json(drawing)},
+                 {"caption", drawing.caption}};
+    Table table{{"figure", figure.name}};
+    append_series(table, drawing);
+    if (arguments.has("data")) {
+        json["data"] = arguments.text("data");
+        table.emplace_back("data written to", arguments.text("data"));
+    }
+    table.emplace_back("written to", path);
+    report(arguments, json, table);
+}
+
+/// What stands below the figures, and what is missing.
+std::string captions_text(const std::vector<report::PaperFigure>& figures, const std::string& ending) {
+    std::string text = "# Figures of Schenker, Filser, Hütter, Gauckler, Granular Matter 14 (2012) 333, computed\n";
+    for (const report::PaperFigure& figure : figures) {
+        const std::string name = "figure" + std::to_string(figure.number);
+        text += "\n## Figure " + std::to_string(figure.number) + " (" + figure.figure + ")\n\n";
+        text += figure.drawing ? "![](" + name + ending + ")\n\n" + figure.drawing->caption + "\n" : "Not drawn.\n";
+        for (const std::string& sentence : figure.missing) {
+            text += "\nMissing: " + sentence + ".\n";
+        }
+    }
+    return text;
+}
+
+void plot_paper(const Arguments& arguments) {
+    for (const char* name : {"figure", "data", "log", "published"}) {
+        if (arguments.has(name)) {
+            throw InputError(std::string("--paper and --") + name +
+                             " exclude each other: --paper draws all figures with the published points and writes their data");
+        }
+    }
+    const std::string ending = "." + arguments.text("format");
+    const PictureFormat format = report::picture_format(ending, "--format");
+    std::vector<std::string> files;
+    for (int figure = 1; figure <= 6; ++figure) {
+        files.push_back("figure" + std::to_string(figure) + ending);
+        files.push_back("figure" + std::to_string(figure) + ".csv");
+    }
+    report::ResultFolder folder(arguments.text("output"), "captions.md", files, arguments.flag("force"));
+    const std::vector<report::PaperFigure> figures = report::draw_paper_figures(read_sources(arguments));
+
+    Json json = {{"output", arguments.text("output")}, {"figures", Json::array()}};
+    Table table;
+    std::string first_missing;
+    for (const report::PaperFigure& figure : figures) {
+        const std::string name = "figure" + std::to_string(figure.number);
+        Json entry = {{"number", figure.number},
+                      {"figure", figure.figure},
+                      {"drawn", figure.drawing.has_value()},
+                      {"missing", figure.missing}};
+        if (figure.drawing) {
+            folder.write(name + ending, report::draw(*figure.drawing, format, size_of(arguments, *figure.drawing)));
+            folder.write(name + ".csv", io::csv_text(report::chart_rows(*figure.drawing)));
+            entry["series"] = series_json(*figure.drawing);
+            entry["caption"] = figure.drawing->caption;
+            table.emplace_back("figure " + std::to_string(figure.number), figure.figure + ", written to " + name + ending);
+        } else {
+            folder.withdraw(name + ending);
+            folder.withdraw(name + ".csv");
+            table.emplace_back("figure " + std::to_string(figure.number), figure.figure + ", not drawn");
+        }
+        for (const std::string& sentence : figure.missing) {
+            first_missing = first_missing.empty() ? sentence : first_missing;
+            table.emplace_back("  missing", sentence);
+        }
+        json["figures"].push_back(std::move(entry));
+    }
+    if (std::none_of(figures.begin(), figures.end(), [](const auto& figure) { return figure.drawing.has_value(); })) {
+        throw InputError("no figure of the paper can be drawn: " + first_missing);
+    }
+    folder.write("captions.md", captions_text(figures, ending));
+    folder.publish();
+    table.emplace_back("written to", arguments.text("output"));
+    report(arguments, json, table);
+}
+
+void run(const Arguments& arguments) {
+    if (arguments.flag("paper")) {
+        plot_paper(arguments);
+        return;
+    }
+    if (!arguments.has("figure")) {
+        throw InputError("coagula plot needs --figure NAME, or --paper for those of the paper (see 'coagula plot --help')");
+    }
+    plot_figure(arguments);
+}
+
+}  // namespace
+
+Verb plot_verb() {
+    std::vector<std::string> names;
+    std::vector<std::string> notes;
+    for (const report::Figure& figure : report::figures()) {
+        std::string line = "  " + figure.name;
+        line.resize(30, ' ');
+        names.push_back(figure.name);
+        notes.push_back(line + figure.meaning);
+    }
+    notes.insert(notes.begin(), "Figures (docs/figures.md shows them):");
+    notes.insert(notes.end(), {"Several files stand in one figure. Of a folder all .h5 and .csv files are taken.",
+                               "--paper draws figures 1 - 6 of Schenker et al. 2012 into the folder that --output names."});
+    return {.name = "plot",
+            .summary = "a figure of result files for a paper, as SVG, PNG or PDF",
+            .input = "FILE ...",
+            .options = {choice("figure", names, "what is drawn, see below", ""),
+                        flag("paper", "draw the figures of the paper with the published points beside"),
+                        required(output("picture, its format by the ending .svg, .png or .pdf; a folder with --paper")),
+                        text("labels", "LIST",
+                             "names of the files in the legend, such as 'slow,fast'; files of one name share a series"),
+                        flag("published", "with the published points beside, where there are some"),
+                        choice("log", {"none", "x", "y", "xy"}, "axes that are logarithmic; by the figure when not given", ""),
+                        quantity("width", "m", "of the picture; 85mm or, for two charts, 170mm when not given", "", picture_length),
+                        quantity("height", "m", "of the picture; in proportion when not given", "", picture_length),
+                        count("resolution", "of a PNG in dots per inch", "300", within(50, 1200)),
+                        text("data", "FILE", "write what is drawn as CSV"),
+                        choice("format", {"svg", "png", "pdf"}, "with --paper: of the pictures", "svg"),
+                        flag("force", "replace existing output files")},
+            .run = run,
+            .notes = notes,
+            .many_inputs = true};
+}
+
+}  // namespace coagula::tools
