@@ -62,7 +62,9 @@ def _structure(packing, bonds=None, time=0.0, entries=(), history=()):
     return structure
 
 
-def read(path, *, format=None, radius=None, box=None, open=False, length_unit=None, wrap=False):
+def read(path: "str | PathLike[str]", *, format: "Literal['csv', 'extxyz', 'lammps'] | None" = None, radius: "float | str | None" = None,
+         box: "float | str | Sequence[float | str] | None" = None, open: "bool" = False, length_unit: "float | str | None" = None,
+         wrap: "bool" = False) -> "Structure":
     """Read a structure: an HDF5 file of coagula, or coordinates as CSV, extended XYZ or LAMMPS data.
 
     Parameters
@@ -100,7 +102,8 @@ def read(path, *, format=None, radius=None, box=None, open=False, length_unit=No
         raise
 
 
-def write(path, packing, *results, bonds=None, overwrite=False):
+def write(path: "str | PathLike[str]", packing: "Packing | Generated | Structure", *results: "Stage", bonds: "Bonds | None" = None,
+          overwrite: "bool" = False) -> "None":
     """Write a structure, and what stages found of it, as the program does.
 
     Parameters
@@ -138,6 +141,6 @@ def write(path, packing, *results, bonds=None, overwrite=False):
         raise
 
 
-def parse_quantity(text, unit):
+def parse_quantity(text: "str | float", unit: "str") -> "float":
     """The number of `unit` in a text such as "0.25um": parse_quantity("0.25um", "m") is 2.5e-7. A bare number is in `unit`."""
     return _coagula.parse_quantity(str(text), unit)
