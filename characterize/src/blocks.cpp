@@ -31,7 +31,7 @@ Bounds find_bounds(const Packing& packing, const std::vector<bool>& counted) {
 }
 
 Index wanted_blocks(Index particles) {
-    constexpr Index enough_for_27 = 540;
+    constexpr Index enough_for_27 = 4320;
     constexpr Index enough_for_8 = 64;
     return particles >= enough_for_27 ? 27 : (particles >= enough_for_8 ? 8 : 0);
 }
@@ -73,7 +73,8 @@ Eigen::MatrixXd sum_by_block(const Blocks& blocks, const Eigen::MatrixXd& values
     return sums;
 }
 
-Eigen::VectorXd block_errors(const Eigen::MatrixXd& sums, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& estimate) {
+Eigen::VectorXd block_errors(const Eigen::MatrixXd& sums, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& estimate,
+                             const std::function<double(const Eigen::VectorXd&)>& held_fixed) {
     constexpr Index fewest = 4;
     const Index blocks = sums.cols();
     const Eigen::VectorXd total = sums.rowwise().sum();
@@ -81,12 +82,21 @@ Eigen::VectorXd block_errors(const Eigen::MatrixXd& sums, const std::function<Ei
         return Eigen::VectorXd::Constant(estimate(total).size(), unset);
     }
     Eigen::MatrixXd without(estimate(total - sums.col(0)).size(), blocks);
+    Eigen::RowVectorXd fixed = Eigen::RowVectorXd::Zero(blocks);
     for (Index block = 0; block < blocks; ++block) {
-        without.col(block) = estimate(total - sums.col(block));
+        const Eigen::VectorXd rest = total - sums.col(block);
+        without.col(block) = estimate(rest);
+        fixed[block] = held_fixed ? held_fixed(rest) : 0.0;
     }
-    const Eigen::MatrixXd deviations = without.colwise() - without.rowwise().mean();
+    Eigen::MatrixXd deviations = without.colwise() - without.rowwise().mean();
+    auto freedom = static_cast<double>(blocks - 1);
+    fixed.array() -= fixed.mean();
+    if (const double squares = fixed.squaredNorm(); squares > 0) {
+        deviations -= deviations * fixed.transpose() / squares * fixed;
+        freedom -= 1;
+    }
     const auto count = static_cast<double>(blocks);
-    return (deviations.rowwise().squaredNorm() * (count - 1) / count).cwiseSqrt();
+    return (deviations.rowwise().squaredNorm() * (count - 1) * (count - 1) / (count * freedom)).cwiseSqrt();
 }
 
 }  // namespace coagula::characterize

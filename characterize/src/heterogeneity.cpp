@@ -53,13 +53,17 @@ void add_standard_errors(const ErrorFunctionResiduals& model, const Eigen::Vecto
 
 }  // namespace
 
-DegreeOfHeterogeneity fit_degree_of_heterogeneity(const PoreSizes& pores, double r0) {
+DegreeOfHeterogeneity fit_degree_of_heterogeneity(const PoreSizes& pores, double r0, double lowest_probability) {
     require_positive(r0, "the radius that makes pore sizes dimensionless", "m");
     require(pores.radius.size() >= 4 && pores.radius.size() == pores.exclusion_probability.size() && pores.radius.allFinite() &&
                 pores.exclusion_probability.allFinite() && pores.mean > 0,
             "the degree of heterogeneity needs a pore-size curve of at least four finite points and a positive mean");
-    const Eigen::VectorXd x = pores.radius / r0;
-    const ErrorFunctionResiduals model{x, pores.exclusion_probability};
+    const Index fitted = (pores.exclusion_probability.array() >= lowest_probability).count();  // P falls with r
+    require(fitted >= 4, "the degree of heterogeneity needs at least four radii with P >= " + to_text(lowest_probability) + ", and the curve has " +
+                             std::to_string(fitted) + ": ask for more radii");
+    const Eigen::VectorXd x = pores.radius.head(fitted) / r0;
+    const Eigen::VectorXd probability = pores.exclusion_probability.head(fitted);
+    const ErrorFunctionResiduals model{x, probability};
     // Start from the half normal distribution (b = 0) with the same mean.
     Eigen::VectorXd parameters(2);
     parameters << pores.mean / r0 * std::sqrt(std::numbers::pi / 2), 0.0;

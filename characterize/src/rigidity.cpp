@@ -18,7 +18,7 @@ namespace coagula::characterize {
 
 namespace {
 
-constexpr int blas_threads = 2;  // fixed: the bits of a factor depend on it
+constexpr int blas_threads = 1;  // fixed: the bits of a factor depend on it
 
 void check(const Packing& packing, const ContactNetwork& contacts, const RigidityOptions& options) {
     coagula::check(packing);
@@ -69,6 +69,9 @@ void find_redundancies(const RigidityMatrix& matrix, const NullSpace& space, con
         const Eigen::Vector3d normal = contacts.branch.col(contact).normalized();
         result.normal_redundancy[contact] = rows == 1 ? redundancy(0, 0) : normal.dot(redundancy * normal);
     }
+    result.trace_defect = std::abs(result.contact_redundancy.sum() - static_cast<double>(result.self_stresses));
+    result.contact_redundancy = result.contact_redundancy.cwiseMax(0.0);  // rounding errors
+    result.normal_redundancy = result.normal_redundancy.cwiseMax(0.0);
     for (Index contact = 0; contact < contacts.size(); ++contact) {
         const double half = 0.5 * result.contact_redundancy[contact];
         for (int end = 0; end < 2; ++end) {
@@ -76,7 +79,6 @@ void find_redundancies(const RigidityMatrix& matrix, const NullSpace& space, con
             result.particle_freedom[contacts.ends(end, contact)] += half - 0.5 * static_cast<double>(matrix.rows_per_contact());
         }
     }
-    result.trace_defect = std::abs(result.contact_redundancy.sum() - static_cast<double>(result.self_stresses));
 }
 
 void count_modes(const Packing& packing, const ContactNetwork& contacts, const RigidityMatrix& matrix, const NullSpace& space,

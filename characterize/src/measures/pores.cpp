@@ -1,5 +1,6 @@
 // Measure: the pore-size curve and its moments.
 #include "measure_options.hpp"
+#include "pore_errors.hpp"
 
 namespace coagula::characterize {
 
@@ -7,10 +8,28 @@ Measure pores_measure();
 
 namespace {
 
+/// Standard errors of mean, mean square and median by the trapezium rule on the curve [m, m2, m].
+Eigen::VectorXd size_errors(const PoreSizes& pores) {
+    return pore_errors(pores, [](const PoreSizes& curve) {
+        const Eigen::VectorXd& p = curve.exclusion_probability;
+        const double step = curve.radius[1] - curve.radius[0];
+        const double mean = step * (p.sum() - 0.5 * p[0]);
+        const double square = 2 * step * p.dot(curve.radius);
+        Index k = 1;
+        while (k + 1 < p.size() && p[k] > 0.5) {
+            ++k;
+        }
+        const double median = curve.radius[k - 1] + step * (p[k - 1] - 0.5) / (p[k - 1] - p[k]);
+        return Eigen::VectorXd{{mean, square, median}};
+    });
+}
+
 void add_sizes(const PoreSizes& pores, double r0, MeasureResult& result) {
-    result.add("pore_size/mean", pores.mean / r0, "1", "mean pore radius over r0");
-    result.add("pore_size/second_moment", pores.second_moment / (r0 * r0), "1", "mean square of the pore radius over r0^2");
-    result.add("pore_size/median", pores.median / r0, "1", "median pore radius over r0");
+    const Eigen::VectorXd error = size_errors(pores);
+    result.add("pore_size/mean", pores.mean / r0, "1", "mean pore radius over r0", error[0] / r0);
+    result.add("pore_size/second_moment", pores.second_moment / (r0 * r0), "1", "mean square of the pore radius over r0^2",
+               error[1] / (r0 * r0));
+    result.add("pore_size/median", pores.median / r0, "1", "median pore radius over r0", error[2] / r0);
     result.add("pore_size/max", pores.max / r0, "1", "radius of the largest pore over r0");
     result.add("pore_size/mean_m", pores.mean, "m", "mean pore radius");
     result.add("pore_size/second_moment_m2", pores.second_moment, "m2", "mean square of the pore radius");

@@ -1,4 +1,5 @@
 // Measures: local rigidity of the network, with normal-and-shear bonds and with central forces only.
+#include "inner_sums.hpp"
 #include "measure_options.hpp"
 
 #include <coagula/characterize/rigidity.hpp>
@@ -46,8 +47,8 @@ public:
         values << Eigen::RowVectorXd::Ones(values.cols()), (rigid.of_particle.transpose().array() == 0).cast<double>(),
             (rigid.of_particle.transpose().array() < 0).cast<double>();
         const auto shares = [](const Eigen::VectorXd& sums) -> Eigen::VectorXd { return sums.tail<2>() / sums[0]; };
-        const Eigen::VectorXd share = shares(values.rowwise().sum());
-        const Eigen::VectorXd error = block_errors(sum_by_block(input_.blocks(), values), shares);
+        const Eigen::VectorXd share = shares(sum_inner(input_, values));
+        const Eigen::VectorXd error = errors_of_means(input_, values, shares);
         const Index windings = count > 0 ? static_cast<Index>(rigid.clusters.front().windings.size()) : 0;
         count_of("rigid_clusters", count, "clusters of two or more particles that move as one in every floppy motion");
         add("largest_fraction", share[0], "particles in the largest rigid cluster over all", error[0]);
@@ -96,8 +97,8 @@ private:
             const double contact_sum = std::max(0.5 * sums[3], 0.5);
             return Eigen::Vector4d(sums[1] / sums[0], sums[2] / sums[0], sums[2] / contact_sum, sums[4] / contact_sum);
         };
-        const Eigen::VectorXd value = shares(values.rowwise().sum());
-        const Eigen::VectorXd error = block_errors(sum_by_block(input_.blocks(), values), shares);
+        const Eigen::VectorXd value = shares(sum_inner(input_, values));
+        const Eigen::VectorXd error = errors_of_means(input_, values, shares);
         add("freedom_per_particle", value[0], "motions without stiffness per particle", error[0]);
         add("redundancy_per_particle", value[1], "states of self-stress per particle", error[1]);
         add("redundancy_per_contact", value[2], "states of self-stress per contact", error[2]);

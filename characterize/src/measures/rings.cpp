@@ -1,4 +1,5 @@
 // Measure: shortest-path rings of the contact network.
+#include "inner_sums.hpp"
 #include "measure_options.hpp"
 
 #include <coagula/characterize/rings.hpp>
@@ -23,8 +24,8 @@ MeasureResult run(const MeasureInput& input) {
     const Rings rings = measure_rings(input.contacts(), largest);
     Eigen::MatrixXd values(rings.per_particle.rows() + 1, rings.per_particle.cols());
     values << Eigen::RowVectorXd::Ones(values.cols()), rings.per_particle.cast<double>();
-    const Eigen::VectorXd found = per_particle(values.rowwise().sum());
-    const Eigen::VectorXd error = block_errors(sum_by_block(input.blocks(), values), per_particle);
+    const Eigen::VectorXd found = per_particle(sum_inner(input, values));
+    const Eigen::VectorXd error = errors_of_means(input, values, per_particle);
     MeasureResult result;
     result.add_vector("rings/per_particle", found, "1", "shortest-path rings of 0, 1, 2 ... particles, per particle");
     if (error.allFinite()) {

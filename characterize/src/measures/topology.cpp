@@ -1,4 +1,5 @@
 // Measure: spread of the contact numbers, triangles, loops, clusters, percolation.
+#include "inner_sums.hpp"
 #include "measure_options.hpp"
 
 #include <coagula/characterize/topology.hpp>
@@ -44,15 +45,8 @@ void add_clusters(const Topology& topology, double largest, double error, Measur
 MeasureResult run(const MeasureInput& input) {
     const Topology topology = measure_topology(input.packing(), input.contacts());
     const Eigen::MatrixXd values = particle_values(topology);
-    const Blocks& blocks = input.blocks();
-    const Eigen::VectorXd error = block_errors(sum_by_block(blocks, values), scalars);
-    Eigen::VectorXd sums = Eigen::VectorXd::Zero(values.rows());
-    const bool any_inner = std::find(input.inner().begin(), input.inner().end(), true) != input.inner().end();
-    for (Index particle = 0; particle < values.cols(); ++particle) {
-        sums += !any_inner || input.inner()[static_cast<std::size_t>(particle)] ? values.col(particle)
-                                                                               : Eigen::VectorXd::Zero(values.rows());
-    }
-    const Eigen::VectorXd found = scalars(sums);
+    const Eigen::VectorXd error = errors_of_means(input, values, scalars);
+    const Eigen::VectorXd found = scalars(sum_inner(input, values));
     MeasureResult result;
     result.add("topology/contact_spread", found[0], "1", "standard deviation of the number of contacts of a particle", error[0]);
     result.add("topology/triangles", found[1], "1", "triples of particles that touch each other, per particle", error[1]);

@@ -16,6 +16,7 @@ struct DegreeOfHeterogeneity {
 };
 
 /// @param r0 radius that makes lengths dimensionless [m].
-DegreeOfHeterogeneity fit_degree_of_heterogeneity(const PoreSizes& pores, double r0);
+/// @param lowest_probability only the part of the curve with P at or above it is fitted; 0: all of it, as published.
+DegreeOfHeterogeneity fit_degree_of_heterogeneity(const PoreSizes& pores, double r0, double lowest_probability = 0);
 
 }  // namespace coagula::characterize

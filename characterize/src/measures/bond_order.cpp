@@ -1,0 +1,37 @@
+// Measure: bond-orientational order.
+#include <coagula/characterize/bond_order.hpp>
+
+#include "optional_results.hpp"
+
+namespace coagula::characterize {
+
+Measure bond_order_measure();
+
+namespace {
+
+MeasureResult run(const MeasureInput& input) {
+    const BondOrder found =
+        if_applicable([&] { return measure_bond_order(input.packing(), input.voronoi_faces(), input.inner()); });
+    MeasureResult result;
+    result.add("bond_order/q4", found.q4_mean, "1", "mean q4 of the Voronoi cells, facets weighted by area", found.q4_mean_stderr);
+    result.add("bond_order/q6", found.q6_mean, "1", "mean q6 of the Voronoi cells, facets weighted by area", found.q6_mean_stderr);
+    result.add("bond_order/q4_spread", found.q4_spread, "1", "standard deviation of q4");
+    result.add("bond_order/q6_spread", found.q6_spread, "1", "standard deviation of q6");
+    result.add("bond_order/facets", found.facets, "1", "mean number of facets of a Voronoi cell", found.facets_stderr);
+    if (found.q6.allFinite()) {
+        result.add_field("q4", found.q4.transpose(), "1", "q4 of the particle's Voronoi cell");
+        result.add_field("q6", found.q6.transpose(), "1", "q6 of the particle's Voronoi cell");
+    }
+    result.add_line("bond order", "q4 " + with_unit(found.q4_mean, "1") + ", q6 " + with_unit(found.q6_mean, "1"));
+    return result;
+}
+
+}  // namespace
+
+Measure bond_order_measure() {
+    return {.name = "bond_order",
+            .summary = "bond-orientational order q4, q6, weighted by the facets of the Voronoi cells",
+            .run = run};
+}
+
+}  // namespace coagula::characterize

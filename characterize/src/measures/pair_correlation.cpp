@@ -1,0 +1,54 @@
+// Measure: the pair correlation function.
+#include <coagula/characterize/pair_correlation.hpp>
+
+#include "measure_options.hpp"
+#include "optional_results.hpp"
+
+namespace coagula::characterize {
+
+Measure pair_correlation_measure();
+
+namespace {
+
+void add_distribution(const RadialDistribution& found, const std::string& name, const std::string& unit, const std::string& of,
+                      MeasureResult& result) {
+    result.add_vector(name + "/lower", found.lower, unit, "lower edges of the bins of " + of);
+    result.add_vector(name + "/upper", found.upper, unit, "upper edges of the bins of " + of);
+    result.add_vector(name + "/g", found.g, "1", "pairs in the bin over those of an ideal gas");
+    add_known(result, name + "/g_stderr", found.g_stderr, "1", "standard error of g from sub-volumes");
+    result.add_vector(name + "/neighbours", found.neighbours, "1", "mean number of particles nearer than the upper edge");
+}
+
+MeasureResult run(const MeasureInput& input) {
+    const PairCorrelation found = if_applicable([&] {
+        return measure_pair_correlation(input.packing(), {.range = input.has("pair-range") ? input.number("pair-range") : unset,
+                                                          .bin_width = input.number("pair-bin")});
+    });
+    MeasureResult result;
+    add_distribution(found.by_distance, "pair_correlation", "m", "the distance of centres", result);
+    if (!is_monodisperse(input.packing())) {
+        add_distribution(found.by_contact, "pair_correlation/by_contact", "1", "the distance of centres over r_i + r_j", result);
+    }
+    add_known(result, "pair_correlation/contact_peak", found.contact_peak, "1",
+              "mean number of neighbours in the bin of the contacts", found.contact_peak_stderr);
+    add_known(result, "pair_correlation/contact_value", found.contact_value, "1",
+              "g at r_i + r_j, extrapolated from outside the bin of the contacts", found.contact_value_stderr);
+    result.add("pair_correlation/number_density", found.number_density, "m-3", "particles per volume");
+    result.add_count("pair_correlation/centres", found.centres, "particles around which neighbours were counted");
+    if (std::isfinite(found.contact_peak)) {
+        result.add_line("contact peak of g(r)", with_unit(found.contact_peak, "1") + " neighbours");
+    }
+    return result;
+}
+
+}  // namespace
+
+Measure pair_correlation_measure() {
+    return {.name = "pair_correlation",
+            .summary = "pair correlation function g(r), with the contacts in a bin of their own",
+            .run = run,
+            .options = {{"pair-range", "m", "largest distance of g(r); default: half the box, at most 12 mean diameters", {}, 0},
+                        {"pair-bin", "1", "width of the bins of g(r) in mean diameters", 0.05, 0.01, 1}}};
+}
+
+}  // namespace coagula::characterize

@@ -1,0 +1,104 @@
+// Measure: the distribution of the Voronoi volumes.
+#include <coagula/characterize/measure.hpp>
+
+#include <boost/math/special_functions/gamma.hpp>
+
+namespace coagula::characterize {
+
+Measure voronoi_measure();
+
+namespace {
+
+/// Volumes of the certain cells [m^3].
+Eigen::VectorXd certain_volumes(const VoronoiCells& cells) {
+    std::vector<double> volumes;
+    for (std::size_t i = 0; i < cells.certain.size(); ++i) {
+        if (cells.certain[i]) {
+            volumes.push_back(cells.volumes[static_cast<Index>(i)]);
+        }
+    }
+    return Eigen::Map<const Eigen::VectorXd>(volumes.data(), std::ssize(volumes));
+}
+
+/// Standard errors of mean [m^3], relative standard deviation, and width.
+Eigen::VectorXd moment_errors(const MeasureInput& input, double smallest) {
+    const Eigen::VectorXd& volumes = input.voronoi_cells().volumes;
+    Eigen::MatrixXd values(3, volumes.size());
+    values << Eigen::RowVectorXd::Ones(volumes.size()), volumes.transpose(), volumes.array().square().matrix().transpose();
+    return block_errors(
+        sum_by_block(input.blocks(), values),
+        [smallest](const Eigen::VectorXd& sum) {
+            const double mean = sum[1] / sum[0];
+            const double deviation = std::sqrt(std::max(0.0, sum[2] / sum[0] - mean * mean));
+            return Eigen::VectorXd{{deviation / mean, deviation / (mean - smallest)}};
+        },
+        [](const Eigen::VectorXd& sum) { return sum[0] / sum[1]; });
+}
+
+/// The density of x = free volume over its mean, measured and fitted.
+void add_distribution(const Eigen::VectorXd& volumes, const VoronoiDistribution& found, double smallest, MeasureResult& result) {
+    constexpr Index bins = 60;
+    constexpr double end = 4;
+    Eigen::VectorXd middle(bins), density = Eigen::VectorXd::Zero(bins), fit(bins);
+    const double width = end / bins;
+    for (const double volume : volumes) {
+        const double x = (volume - smallest) / (found.mean - smallest);
+        const auto bin = static_cast<Index>(std::floor(x / width));
+        if (bin >= 0 && bin < bins) {
+            density[bin] += 1 / (width * static_cast<double>(volumes.size()));
+        }
+    }
+    for (Index bin = 0; bin < bins; ++bin) {
+        middle[bin] = (static_cast<double>(bin) + 0.5) * width;
+        const double k = found.shape;
+        fit[bin] = k * boost::math::gamma_p_derivative(k, k * middle[bin]);
+    }
+    result.add_vector("voronoi/free_volume", middle, "1", "x = (V - V_min) / (mean V - V_min), middles of the bins");
+    result.add_vector("voronoi/density", density, "1", "probability density of x");
+    result.add_vector("voronoi/fit", fit, "1", "k^k / Gamma(k) x^(k-1) exp(-k x)");
+}
+
+void add_free_volumes(const Eigen::VectorXd& volumes, const VoronoiDistribution& found, const Eigen::VectorXd& error, double radius,
+                      MeasureResult& result) {
+    const double smallest = smallest_voronoi_volume * radius * radius * radius;
+    result.add("voronoi/width", found.width, "1",
+               "standard deviation of x = (V - V_min) / (mean V - V_min), V_min = 5.55 r^3 the smallest cell of equal spheres", error[1]);
+    result.add_line("width of the Voronoi volumes", with_error(found.width, error[1]) + "   (free volume over its mean)");
+    if (std::isfinite(found.shape)) {
+        result.add("voronoi/shape", found.shape, "1", "k of the gamma law fitted to x by largest likelihood");
+        result.add("voronoi/distance", found.distance, "1", "largest difference between the distribution of x and the gamma law");
+        result.add_line("gamma law of the free volumes",
+                        "k = " + with_unit(found.shape, "1") + ", largest difference " + with_unit(found.distance, "1"));
+        add_distribution(volumes, found, smallest, result);
+    }
+}
+
+MeasureResult run(const MeasureInput& input) {
+    const VoronoiCells& cells = input.voronoi_cells();
+    const Eigen::VectorXd volumes = certain_volumes(cells);
+    require_applicable(volumes.size() >= 2, "fewer than two particles have a certain Voronoi cell");
+    const double r0 = input.r0();
+    const VoronoiDistribution found = fit_voronoi_volumes(volumes, r0);
+    const bool equal = is_monodisperse(input.packing());
+    const Eigen::VectorXd error = moment_errors(input, smallest_voronoi_volume * r0 * r0 * r0);
+    MeasureResult result;
+    result.add("voronoi/mean", found.mean, "m3", "mean volume of the Voronoi (power) cells");
+    result.add("voronoi/deviation", found.deviation / found.mean, "1", "standard deviation of the volumes over their mean", error[0]);
+    result.add_count("voronoi/cells", found.cells, "number of cells");
+    if (equal && std::isfinite(found.width)) {
+        add_free_volumes(volumes, found, error, r0, result);
+    } else {
+        result.add_line("deviation of the Voronoi volumes", with_error(found.deviation / found.mean, error[0]) + "   of their mean");
+    }
+    result.add_field("voronoi_volume", cells.volumes.transpose(), "m3",
+                     "volume of the Voronoi (power) cell; 0 where it is not certain");
+    return result;
+}
+
+}  // namespace
+
+Measure voronoi_measure() {
+    return {.name = "voronoi", .summary = "distribution of the Voronoi (power) cell volumes: width, gamma law", .run = run};
+}
+
+}  // namespace coagula::characterize

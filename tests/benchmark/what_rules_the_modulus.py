@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+"""What rules the modulus of a network at equal volume fraction: heterogeneity, coordination, or what else?
+
+    tests/benchmark/what_rules_the_modulus.py build/bin/coagula FOLDER
+
+makes structures by void expansion (several numbers of voids) and by Brownian dynamics (several surface potentials) to the same coordination
+numbers, measures and shears them, and asks (1) which measures explain G' over all structures, with errors from structures that the fit has not
+seen, and (2) how much of the difference between the two generators at equal heterogeneity and coordination each measure accounts for. Needs
+numpy. What is in the folder already is used.
+"""
+
+import concurrent.futures
+import json
+import pathlib
+import subprocess
+import sys
+
+import numpy
+
+PARTICLES = 1000
+VOIDS = (1 / 4, 1 / 2, 1, 13 / 8)  # per particle
+POTENTIALS = (0, 12, 13, 14)  # mV
+COORDINATIONS = (4.5, 4.7, 4.9)
+SEEDS = (1, 2, 3)
+MEASURES = ("coordination", "doh", "topology", "rings", "rigidity")
+RESAMPLES = 2000
+
+VARIABLES = {  # name: how it follows from the JSON object of characterize
+    "heterogeneity a": lambda c: c["doh"]["a"],
+    "coordination C": lambda c: c["coordination"],
+    "redundancy per particle": lambda c: c["rigidity"]["redundancy_per_particle"],
+    "freedom per particle": lambda c: c["rigidity"]["freedom_per_particle"],
+    "normal share of redundancy": lambda c: c["rigidity"]["normal_redundancy_per_contact"] / c["rigidity"]["redundancy_per_contact"],
+    "in the largest rigid cluster": lambda c: c["rigidity"]["largest_fraction"],
+    "spread of the contacts": lambda c: c["topology"]["contact_spread"],
+    "below three contacts": lambda c: c["below_three_fraction"],
+    "rattlers": lambda c: c["rattler_fraction"],
+    "triangles per particle": lambda c: c["topology"]["triangles"],
+    "rings of 4": lambda c: c["rings"]["per_particle"][4],
+    "rings of 5": lambda c: c["rings"]["per_particle"][5],
+}
+BASE = ("heterogeneity a", "coordination C")
+
+
+def run(program, *words):
+    result = subprocess.run([program, *map(str, words), "--quiet", "--threads", "1"], check=True, capture_output=True, text=True)
+    return json.loads(result.stdout) if "--json" in words else None
+
+
+def structures():
+    """(generator, its parameter, coordination number, seed)"""
+    for coordination in COORDINATIONS:
+        for seed in SEEDS:
+            yield from (("vem", voids, coordination, seed) for voids in VOIDS)
+            yield from (("brownian", potential, coordination, seed) for potential in POTENTIALS)
+
+
+def generate(program, path, generator, parameter, coordination, seed):
+    common = ("--particles", PARTICLES, "--volume-fraction", 0.4, "--radius", "0.25um", "--seed", seed, "-o", path)
+    if generator == "vem":
+        run(program, "generate", "vem", "--voids", int(parameter * PARTICLES), "--target-coordination", coordination, *common)
+    else:
+        run(program, "generate", "brownian", "--surface-potential", f"{parameter}mV", "--stop-coordination", coordination,
+            "--sample-interval", "0.05ms", *common)
+
+
+def measure(program, folder, structure):
+    name = "_".join(str(round(part, 3)) for part in structure[1:])
+    path = folder / f"{structure[0]}_{name}.h5"
+    known = path.with_suffix(".json")
+    if not known.exists():
+        if not path.exists():
+            try:
+                generate(program, path, *structure)
+            except subprocess.CalledProcessError as error:  # some coordinations are out of reach of some numbers of voids
+                print(f"{path.stem} left out: {error.stderr.strip()}", file=sys.stderr)
+                return None
+        found = run(program, "characterize", path, "--only", ",".join(MEASURES), "--json", "--force", "-o", path.with_suffix(".measured"))
+        response = run(program, "shear", path, "--json", "--force", "-o", path.with_suffix(".sheared"))
+        row = {name: of(found) for name, of in VARIABLES.items()}
+        row["G"] = response["storage_modulus"]["mean"] / 1e6
+        known.write_text(json.dumps(row))
+    return json.loads(known.read_text())
+
+
+def design(rows, names, brownian=None):
+    columns = [numpy.ones(len(rows))] + [numpy.array([row[name] for row in rows]) for name in names]
+    return numpy.column_stack(columns + ([brownian] if brownian is not None else []))
+
+
+def fit(matrix, moduli):
+    return numpy.linalg.lstsq(matrix, moduli, rcond=None)[0]
+
+
+def unseen_residuals(matrix, moduli, groups):
+    """Of structures that the fit has not seen; the seeds of one recipe are left out together."""
+    residuals = numpy.empty_like(moduli)
+    for group in set(groups):
+        out = numpy.array([g == group for g in groups])
+        residuals[out] = moduli[out] - matrix[out] @ fit(matrix[~out], moduli[~out])
+    return residuals
+
+
+def explained(residuals, moduli):
+    return 1 - numpy.mean(residuals**2) / numpy.var(moduli)
+
+
+def offsets(rows, names, brownian, moduli):
+    """Brownian minus void expansion at equal values of the named measures [MPa], and resampled ones."""
+    matrix = design(rows, names, brownian)
+    generator = numpy.random.default_rng(1)
+    draws = [numpy.concatenate([generator.choice(numpy.flatnonzero(brownian == kind), int(numpy.sum(brownian == kind)))
+                                for kind in (0, 1)]) for _ in range(RESAMPLES)]
+    return fit(matrix, moduli)[-1], numpy.array([fit(matrix[draw], moduli[draw])[-1] for draw in draws])
+
+
+def transfer(rows, names, brownian, moduli):
+    """Mean and rms error on Brownian structures of a line through those of void expansion alone [MPa]."""
+    matrix = design(rows, names)
+    error = moduli[brownian == 1] - matrix[brownian == 1] @ fit(matrix[brownian == 0], moduli[brownian == 0])
+    return error.mean(), numpy.sqrt(numpy.mean(error**2))
+
+
+def table(rows, groups, brownian):
+    moduli = numpy.array([row["G"] for row in rows])
+    others = [name for name in VARIABLES if name not in BASE]
+    print(f"{len(rows)} structures of {PARTICLES} particles, {int(brownian.sum())} of them Brownian; G' {moduli.min():.2f} .. {moduli.max():.2f} MPa")
+    print("\nvariance of G' explained in structures left out (per recipe), and rms error there")
+    for names in [(name,) for name in VARIABLES] + [BASE] + [(*BASE, name) for name in others]:
+        residuals = unseen_residuals(design(rows, names), moduli, groups)
+        print(f"  {' + '.join(names):62s} {100 * explained(residuals, moduli):5.0f} %   {numpy.sqrt(numpy.mean(residuals**2)):.3f} MPa")
+    reference, resampled = offsets(rows, BASE, brownian, moduli)
+    print(f"\nBrownian minus void expansion at equal a and C: {reference:.3f} +- {resampled.std():.3f} MPa")
+    print("what is left of it at equal values of one measure more; the share explained; void expansion predicts Brownian: mean, rms error")
+    for name in (None, *others):
+        names = BASE if name is None else (*BASE, name)
+        left, draws = offsets(rows, names, brownian, moduli)
+        share = 1 - draws / resampled
+        mean, rms = transfer(rows, names, brownian, moduli)
+        print(f"  {name or '(a and C only)':30s} {left:7.3f} +- {draws.std():.3f} MPa   {100 * (1 - left / reference):5.0f} % "
+              f"({100 * numpy.quantile(share, 0.05):.0f} to {100 * numpy.quantile(share, 0.95):.0f})   {mean:7.3f}, {rms:.3f} MPa")
+
+
+def main():
+    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    every = list(structures())
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        rows = list(pool.map(lambda structure: measure(program, folder, structure), every))
+    made = [(structure, row) for structure, row in zip(every, rows) if row is not None]
+    table([row for _, row in made], [structure[:3] for structure, _ in made],
+          numpy.array([float(structure[0] == "brownian") for structure, _ in made]))
+
+
+if __name__ == "__main__":
+    main()
