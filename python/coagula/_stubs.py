@@ -24,7 +24,8 @@ ATTRIBUTES = {"Packing": {"periodic": "bool", "volume_fraction": "float", "mean_
               "Bonds": {"particles": "int", "coordination": "float"},
               "Stage": {"bonds": "Bonds | None", "notes": "list[str]"},
               "Generated": {"packing": "Packing", "frames": "list[tuple[float, Array]]"},
-              "Structure": {"packing": "Packing", "bonds": "Bonds | None", "time": "float", "history": "list[dict[str, Any]]"}}
+              "Structure": {"packing": "Packing", "bonds": "Bonds | None", "time": "float", "frames": "list[tuple[float, Array]]",
+                            "history": "list[dict[str, Any]]"}}
 CONSTRUCTORS = {"Packing": "self, positions: ArrayLike, radii: ArrayLike | str | Sequence[str], box: ArrayLike | str | Sequence[str] | None = None, wrap: bool = False"}
 METHODS = {"__getitem__": "(self, path: str) -> Any", "__getattr__": "(self, name: str) -> Any", "__len__": "(self) -> int",
            "__iter__": "(self) -> Iterator[str]", "__contains__": "(self, path: str) -> bool", "keys": "(self) -> KeysView[str]",
