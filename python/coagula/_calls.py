@@ -141,7 +141,7 @@ def diagnose(experiment, *, output=None, progress=None, threads=None, **options)
     return from_json(json.loads(_coagula.diagnose(given, folder, progress)), "Diagnosis")
 
 
-def fit_degree_of_heterogeneity(radius, exclusion_probability, r0):
+def fit_degree_of_heterogeneity(radius: "ArrayLike", exclusion_probability: "ArrayLike", r0: "float | str") -> "Result":
     """Degree of heterogeneity of a pore-size curve: P(r_P > r) = 1 - erf((r/r0 - b) / (a sqrt 2)) by least squares.
 
     Parameters
@@ -160,6 +160,6 @@ def fit_degree_of_heterogeneity(radius, exclusion_probability, r0):
     return from_json(found, "DegreeOfHeterogeneity")
 
 
-def find_contacts(packing, tolerance=0.01):
+def find_contacts(packing: "Packing | Generated | Structure", tolerance: "float" = 0.01) -> "Bonds":
     """All pairs nearer than (1 + tolerance) (r_i + r_j), periodic images included: coagula.Bonds."""
     return _coagula.find_contacts(packing_of(packing), float(tolerance))

@@ -4,8 +4,8 @@ import errno
 import os
 
 from . import _coagula
-from ._calls import packing_of
-from ._options import call_text, words
+from ._calls import REQUIRED, packing_of
+from ._options import call_text, documented, words
 from ._results import Generated, Result, Stage, from_entries
 
 
@@ -34,6 +34,7 @@ class Structure(Result):
     _bonds = None
     _time = 0.0
     _history = ()
+    _frames = ()
 
     @property
     def packing(self):
@@ -51,48 +52,38 @@ class Structure(Result):
         return self._time
 
     @property
+    def frames(self):
+        """Earlier frames of a trajectory from another program: pairs of a time [s] and an array (N, 3) [m]."""
+        return list(self._frames)
+
+    @property
     def history(self):
         """One dictionary for each stage, oldest first: stage, command_line, options, seed, version, time, seconds, positions_sha256."""
         return list(self._history)
 
 
-def _structure(packing, bonds=None, time=0.0, entries=(), history=()):
+def _structure(packing, bonds=None, time=0.0, entries=(), history=(), frames=()):
     structure = from_entries(entries, "Structure", Structure)
-    structure._packing, structure._bonds, structure._time, structure._history = packing, bonds, time, history
+    structure._packing, structure._bonds, structure._time, structure._history, structure._frames = packing, bonds, time, history, frames
     return structure
 
 
-def read(path, *, format=None, radius=None, box=None, open=False, length_unit=None, wrap=False):
-    """Read a structure: an HDF5 file of coagula, or coordinates as CSV, extended XYZ or LAMMPS data.
+@documented("import", replaced=["output", "force"], returns="Structure", common=False, first=[
+    ("path", "str | PathLike[str]", REQUIRED, "An HDF5 file of coagula (.h5), or a file of another program.")])
+def read(path, **options):
+    """Reads an HDF5 file of coagula, too: with its results, and without options. Returns a coagula.Structure.
 
-    Parameters
-    ----------
-    path : str | PathLike
-        .h5, or a text file.
-    format : "csv", "extxyz" or "lammps", default None
-        Of a text file; by its ending when None.
-    radius : float | str, default None
-        Radius of every particle [m]; a column of the text file when None.
-    box : float | str | three of them, default None
-        Edge lengths of the periodic box [m], where the text file names none.
-    open : bool, default False
-        The set has a free surface: no periodic box.
-    length_unit : float | str, default None
-        Length of one unit of columns that name none [m]: "1um".
-    wrap : bool, default False
-        Bring particles outside the periodic box back in; otherwise they are an error.
-
-    Returns a coagula.Structure. Raises coagula.MissingFileError (also a FileNotFoundError) when there is no such file, and
-    coagula.InputError (also a ValueError) for one that cannot be read.
+    Raises coagula.MissingFileError (also a FileNotFoundError) when there is no such file, and coagula.InputError (also a ValueError) for
+    one that cannot be read.
     """
     name = os.fspath(path)
-    options = {"format": format, "radius": radius, "box": box, "open": open, "length_unit": length_unit, "wrap": wrap}
-    is_text = format is not None or not name.lower().endswith((".h5", ".hdf5", ".h5md"))
+    given = words("import", options)
     try:
-        if is_text:
-            return _structure(_coagula.import_text([name, *words("import", {**options, "output": "none"})]))
-        if any(value not in (None, False) for value in options.values()):
-            raise TypeError("format, radius, box, open, length_unit and wrap are for text files; an HDF5 file says all that itself")
+        if not name.lower().endswith((".h5", ".hdf5", ".h5md")):
+            packing, bonds, time, frames = _coagula.import_structure([name, "--output=none", *given])
+            return _structure(packing, bonds, time, frames=frames)
+        if given:
+            raise TypeError(f"an HDF5 file says all that itself: {', '.join(given)} is for files of other programs")
         return _structure(*_coagula.read_file(name))
     except _coagula.InputError as error:
         if not os.path.lexists(name):
@@ -100,14 +91,15 @@ def read(path, *, format=None, radius=None, box=None, open=False, length_unit=No
         raise
 
 
-def write(path, packing, *results, bonds=None, overwrite=False):
+def write(path: "str | PathLike[str]", packing: "Packing | Generated | Structure", *results: "Stage", bonds: "Bonds | None" = None,
+          overwrite: "bool" = False) -> "None":
     """Write a structure, and what stages found of it, as the program does.
 
     Parameters
     ----------
     path : str | PathLike
-        .h5 for a file that holds everything; .csv, .xyz, .extxyz, .data, .lmp or .lammps for the coordinates (and bonds, in LAMMPS
-        data) alone.
+        .h5 for a file that holds everything; .csv, .extxyz, .data, .dump, .gsd or .vtp for the coordinates (and bonds, in LAMMPS data
+        and VTK) alone.
     packing : Packing | Generated | Structure
         The packing, or something that has one.
     *results : what characterize and shear returned for this packing.
@@ -129,7 +121,7 @@ def write(path, packing, *results, bonds=None, overwrite=False):
         if not name.lower().endswith((".h5", ".hdf5", ".h5md")):
             if results:
                 raise TypeError("a text file holds coordinates only: give results with a name that ends in .h5")
-            _coagula.write_text(name, packing, bonds, overwrite)
+            _coagula.export_structure(name, packing, bonds, overwrite)
         else:
             _coagula.write_file(name, packing, bonds, stages, call_text("write", [repr(name), "packing"], {}), overwrite)
     except _coagula.InputError as error:
@@ -138,6 +130,6 @@ def write(path, packing, *results, bonds=None, overwrite=False):
         raise
 
 
-def parse_quantity(text, unit):
+def parse_quantity(text: "str | float", unit: "str") -> "float":
     """The number of `unit` in a text such as "0.25um": parse_quantity("0.25um", "m") is 2.5e-7. A bare number is in `unit`."""
     return _coagula.parse_quantity(str(text), unit)

@@ -27,6 +27,8 @@ def _word(value):
         return repr(float(value))
     if isinstance(value, (str, os.PathLike)):
         return os.fspath(value)
+    if isinstance(value, dict):
+        return ",".join(f"{name}={_word(item)}" for name, item in value.items())
     try:
         return ",".join(_word(item) for item in value)
     except TypeError:
@@ -94,7 +96,7 @@ def _about(option):
     return option["meaning"] + (f" [{'; '.join(facts)}]" if facts else "")
 
 
-def documented(verb, first=(), replaced=(), extra=(), returns="", notes=()):
+def documented(verb, first=(), replaced=(), extra=(), returns="", common=True):
     """Decorator: signature and documentation of a function that takes the options of a verb.
 
     first, extra: (name, annotation, default, meaning) of arguments before and after the options; a default of inspect.Parameter.empty
@@ -113,8 +115,8 @@ def documented(verb, first=(), replaced=(), extra=(), returns="", notes=()):
             parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation(option)))
             shown = "" if option["required"] else f", default {default!r}"
             lines += [f"{name} : {annotation(option)}{shown}", f"    {_about(option)}"]
-        common = [("progress", "Callable[[str, float, str], object] | None", None, PROGRESS), ("threads", "int | None", None, THREADS)]
-        for name, kind, default, meaning in [*extra, *common]:
+        of_all = [("progress", "Callable[[str, float, str], object] | None", None, PROGRESS), ("threads", "int | None", None, THREADS)]
+        for name, kind, default, meaning in [*extra, *(of_all if common else [])]:
             parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind))
             lines += [f"{name} : {kind}, default {default!r}", f"    {meaning}"]
         function.__signature__ = inspect.Signature(parameters, return_annotation=returns)

@@ -242,10 +242,24 @@ void write_file(const std::string& path, const std::shared_ptr<Packing>& packing
     }
 }
 
-void write_text(const std::string& path, const std::shared_ptr<Packing>& packing, const std::shared_ptr<ContactNetwork>& bonds,
-                bool overwrite) {
+void export_structure(const std::string& path, const std::shared_ptr<Packing>& packing,
+                      const std::shared_ptr<ContactNetwork>& bonds, bool overwrite) {
     tools::check_output(path, overwrite);
-    io::write_text(path, io::format_from_name(path), *packing, bonds ? std::optional(*bonds) : std::nullopt, overwrite);
+    tools::export_structure(path, {*packing, bonds ? std::optional(*bonds) : std::nullopt}, overwrite);
+}
+
+/// Packing, bonds, time and earlier frames.
+py::tuple import_structure(const Words& words) {
+    io::Structure structure = tools::import_structure(arguments_of("import", words));
+    py::list frames;
+    for (const io::Frame& frame : structure.earlier) {
+        frames.append(py::make_tuple(frame.time, frame.positions.transpose().eval()));
+    }
+    std::shared_ptr<ContactNetwork> bonds;
+    if (structure.bonds) {
+        bonds = std::make_shared<ContactNetwork>(std::move(*structure.bonds));
+    }
+    return py::make_tuple(std::make_shared<Packing>(std::move(structure.packing)), bonds, structure.time, frames);
 }
 
 }  // namespace
@@ -264,10 +278,9 @@ void define_stages(py::module_& module) {
     module.def("fit_power_law", &fit_power_law, "words"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a);
     module.def("diagnose", &diagnose, "words"_a, "folder"_a, "progress"_a);
     module.def("fit_degree_of_heterogeneity", &fit_degree_of_heterogeneity, "radius"_a, "exclusion_probability"_a, "r0"_a);
-    module.def("import_text",
-               [](const Words& words) { return std::make_shared<Packing>(tools::import_packing(arguments_of("import", words))); });
+    module.def("import_structure", &import_structure, "words"_a);
     module.def("write_file", &write_file, "path"_a, "packing"_a, "bonds"_a, "stages"_a, "call"_a, "overwrite"_a);
-    module.def("write_text", &write_text, "path"_a, "packing"_a, "bonds"_a, "overwrite"_a);
+    module.def("export_structure", &export_structure, "path"_a, "packing"_a, "bonds"_a, "overwrite"_a);
 }
 
 }  // namespace coagula::python

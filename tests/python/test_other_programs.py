@@ -64,6 +64,22 @@ class ExtendedXyz(ModuleTest):
         coagula.write("again.extxyz", packing)
         np.testing.assert_allclose(coagula.read("again.extxyz").packing.positions, packing.positions, rtol=1e-15)
 
+    def test_columns_and_frames_of_a_table(self):
+        (self.folder / "track.csv").write_text("t,px,py,pz,d\n" + "".join(
+            f"{frame},{10 + frame},{20 * k + 10},10,8\n" for frame in (0, 1) for k in range(3)))
+        track = coagula.read("track.csv", columns={"x": "px", "y": "py", "z": "pz", "diameter": "d", "frame": "t"}, frame=1, open=True,
+                             length_unit=["0.1um", "0.1um", "0.2um", "0.1um"])
+        np.testing.assert_allclose(track.packing.positions, [[1.1e-6, (2 * k + 1) * 1e-6, 2e-6] for k in range(3)])
+        np.testing.assert_allclose(track.packing.radii, 4e-7)
+
+    def test_other_formats(self):
+        made = self.made(particles=100, voids=50)
+        for name in ("a.dump", "a.gsd", "a.data"):
+            coagula.write(name, made)
+            again = coagula.read(name, length_unit=None if name == "a.gsd" else "1m")
+            np.testing.assert_allclose(again.packing.positions, made.packing.positions, rtol=0, atol=1e-6 * made.packing.mean_radius, err_msg=name)
+        coagula.write("a.vtp", made)
+
 
 if __name__ == "__main__":
     unittest.main()

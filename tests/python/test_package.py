@@ -57,7 +57,10 @@ class Stubs(ModuleTest):
     def test_mypy(self):
         (self.folder / "use.py").write_text("import coagula\nmade = coagula.generate_vem(volume_fraction=0.4, radius='1um')\n"
                                             "count: int = len(made.packing)\nvalue: float = made.packing.mean_radius\n"
-                                            "response = coagula.shear(made, method='linear', frequency=[1.0, '10Hz'])\n")
+                                            "response = coagula.shear(made)\nmodulus: float = response.storage_modulus.mean\n"
+                                            "a: float = coagula.characterize(made).doh.a\nvoids: int = made.voids\n"
+                                            "swept = coagula.shear(made, method='linear', frequency=[1.0, '10Hz'])\n"
+                                            "print(swept.storage_modulus.mean[0])\n")
         done = subprocess.run(["/usr/bin/mypy", "--strict", "--cache-dir", "cache", "use.py"], env={**os.environ, "MYPYPATH": str(STUBS.parents[1])},
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout)

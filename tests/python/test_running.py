@@ -98,7 +98,7 @@ class Threads(ModuleTest):
             np.testing.assert_array_equal(one, other)
 
     def test_files_from_many_threads(self):
-        """Files are read in a child process; h5py and coagula share one libhdf5 in this process."""
+        """Files are read in a child process, which must not inherit the lock of libhdf5 while h5py holds it in another thread."""
         made = self.made(particles=100, voids=50)
         coagula.write("shared.h5", made)
         wrong = []

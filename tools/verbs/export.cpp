@@ -2,6 +2,7 @@
 #include "cli/output_file.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "stages.hpp"
 
 #include <coagula/io/gsd_file.hpp>
 #include <coagula/io/structure_file.hpp>
@@ -69,6 +70,17 @@ void run(const Arguments& arguments) {
 }
 
 }  // namespace
+
+void export_structure(const std::string& path, const io::Structure& structure, bool overwrite) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    const auto* const format =
+        std::find_if(formats.begin(), formats.end(), [&](const Format& entry) { return entry.ending == ending; });
+    if (format != formats.end()) {
+        format->write(path, structure, overwrite);
+    } else {
+        io::write_text(path, io::format_from_name(path), structure.packing, structure.bonds, overwrite);
+    }
+}
 
 Verb export_verb() {
     return {.name = "export",

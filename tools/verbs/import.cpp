@@ -132,21 +132,13 @@ io::ImportOptions import_options(const Arguments& arguments) {
     return options;
 }
 
-io::Structure imported(const Arguments& arguments) {
-    const io::ImportOptions options = import_options(arguments);
-    io::Structure structure = is_gsd(arguments) ? io::read_gsd(arguments.input(), options)
-                                                : io::read_frames(arguments.input(), chosen_format(arguments), options);
-    check(structure.packing, arguments.input());
-    return structure;
-}
-
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     const std::string output = arguments.text("output");
     const bool force = arguments.flag("force");
     check_output(output, force);
-    const io::Structure structure = imported(arguments);
+    const io::Structure structure = import_structure(arguments);
     const Packing& packing = structure.packing;
     progress.update("writing", 1.0);
     io::write_structure(output, structure, {}, {}, describe_call(arguments, nullptr, clock), force);
@@ -172,8 +164,12 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-Packing import_packing(const Arguments& arguments) {
-    return imported(arguments).packing;
+io::Structure import_structure(const Arguments& arguments) {
+    const io::ImportOptions options = import_options(arguments);
+    io::Structure structure = is_gsd(arguments) ? io::read_gsd(arguments.input(), options)
+                                                : io::read_frames(arguments.input(), chosen_format(arguments), options);
+    check(structure.packing, arguments.input());
+    return structure;
 }
 
 Verb import_verb() {

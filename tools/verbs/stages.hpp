@@ -47,8 +47,11 @@ Json calibrate_packings(const Arguments& arguments, const std::vector<std::strin
 /// The object that `coagula fit power-law` prints.
 Json fit_power_law(const Arguments& arguments, const mechanics::PowerLawData& data, const Progress& progress);
 
-/// A packing from a text file as the options say.
-Packing import_packing(const Arguments& arguments);
+/// A structure from a file of another program as the options say.
+io::Structure import_structure(const Arguments& arguments);
+
+/// Writes a structure for other programs, in the format that the ending of the name says. Throws InputError for others.
+void export_structure(const std::string& path, const io::Structure& structure, bool overwrite);
 
 /// The object of diagnosis.json. @param folder where everything goes that `coagula diagnose` writes; empty: nothing is written.
 Json diagnose_experiment(const Arguments& arguments, const std::string& folder, const Progress& progress);

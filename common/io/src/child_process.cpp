@@ -1,10 +1,9 @@
 #include "child_process.hpp"
 
-#include "hdf5_file.hpp"
-
 #include <coagula/common/checks.hpp>
 
 #include <fcntl.h>
+#include <hdf5.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -80,6 +79,18 @@ void write_all(int pipe, const std::string& bytes) {
         }
         done += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
     }
+}
+
+/// Debian's libhdf5 has one lock for all threads. A child that inherits it from another thread, such as one of h5py, waits for it for
+/// ever. HDF5 calls what walks over properties with the lock held by this thread, to which it also belongs in the child.
+pid_t fork_with_lock_of_hdf5() {
+    pid_t child = -1;
+    const auto fork_once = [](hid_t /*list*/, const char* /*property*/, void* result) -> herr_t {
+        *static_cast<pid_t*>(result) = fork();
+        return 1;
+    };
+    H5Piterate(H5P_DATASET_XFER, nullptr, fork_once, &child);
+    return child;
 }
 
 using Work = std::function<std::string(ReadingLimits&)>;
@@ -189,10 +200,7 @@ std::string run_in_child(const std::string& path, const Work& work) {
     const Descriptor from_child(ends[0]);
     Descriptor to_parent(ends[1]);
     const pid_t parent = getpid();
-    const pid_t child = [] {
-        const hdf5::Turn turn;  // the child must not inherit a libhdf5 in the middle of another thread's work
-        return fork();
-    }();
+    const pid_t child = fork_with_lock_of_hdf5();
     if (child < 0) {
         fail("cannot start a process to read " + path);
     }

@@ -9,7 +9,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <numeric>
 
 #include "utf8.hpp"
@@ -71,36 +70,12 @@ Shape extent_of(const Handle& space) {
 
 }  // namespace
 
-namespace {
-
-std::mutex& one_at_a_time() {
-    static std::mutex mutex;
-    return mutex;
-}
-
-thread_local int turns_of_thread = 0;
-
-}  // namespace
-
-Turn::Turn() {
-    if (turns_of_thread++ == 0) {
-        one_at_a_time().lock();
-    }
-}
-
-Turn::~Turn() {
-    if (taken_ && --turns_of_thread == 0) {
-        one_at_a_time().unlock();
-    }
-}
-
 void silence_errors() {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
 File File::open(const std::string& path) {
     check_input(path);
-    const Turn turn;
     silence_errors();
     Handle id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access().get()), H5Fclose);
     if (!id) {

@@ -44,21 +44,6 @@ private:
     Close close_ = nullptr;
 };
 
-/// A turn at libhdf5, which as Debian builds it is not thread-safe: other threads wait until it ends. A thread may take several at
-/// once, also in a process that it forks meanwhile.
-class Turn {
-public:
-    Turn();
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
-    Turn(Turn&& other) noexcept : taken_(std::exchange(other.taken_, false)) {}
-    Turn& operator=(Turn&&) = delete;
-    ~Turn();
-
-private:
-    bool taken_ = true;
-};
-
 /// Keeps HDF5 from printing its error stack, for good: what it would say is said in sentences.
 void silence_errors();
 
@@ -181,7 +166,6 @@ private:
     void write_numbers(const std::string& dataset, const Shape& shape, hid_t file_type, hid_t memory_type, const void* values);
     void write_attribute(const std::string& object, const std::string& name, hid_t type, const Handle& space, const void* values);
 
-    Turn turn_;
     std::string path_;
     std::size_t length_ = 0;              ///< of an opened file [byte]
     std::unique_ptr<MemoryImage> image_;  ///< of a created file, filled when it is closed; outlives the handle

@@ -144,7 +144,6 @@ void require_written(bool done, const std::string& path, const std::string& obje
 }  // namespace
 
 File File::create(const std::string& path) {
-    const Turn turn;
     silence_errors();
     auto image = std::make_unique<MemoryImage>(nullptr, std::free);
     const Handle access = file_access_in_memory(*image);
