@@ -5,7 +5,7 @@
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
 
-#include <coagula/characterize/measure.hpp>
+#include <coagula/characterize/position_noise.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
@@ -42,6 +42,26 @@ std::map<std::string, double> option_values(const Arguments& arguments) {
     return values;
 }
 
+/// "40nm" or "40nm,40nm,80nm".
+Eigen::Vector3d parse_noise(const std::string& text) {
+    const std::vector<std::string> words = split(text);
+    if (words.size() != 1 && words.size() != 3) {
+        throw InputError("'" + text + "' must be one length or three, X,Y,Z");
+    }
+    Eigen::Vector3d noise;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        noise[static_cast<Index>(axis)] = parse_quantity(words.size() == 1 ? words[0] : words[axis], "m", within(0, 1), 1e-3);
+    }
+    return noise;
+}
+
+void add_noise_shifts(const Arguments& arguments, const Packing& packing, const std::vector<std::string>& only,
+                      const Progress& progress, characterize::MeasureResult& found) {
+    const characterize::PositionNoise noise{arguments.parsed("position-noise", parse_noise), arguments.count("noise-replicas")};
+    found.append(characterize::measure_noise_shifts(packing, found, noise, option_values(arguments), only,
+                                                    static_cast<std::uint64_t>(arguments.count("seed")), progress));
+}
+
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
@@ -52,6 +72,9 @@ void run(const Arguments& arguments) {
     const characterize::MeasureInput input(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
                                            progress);
     characterize::MeasureResult found = characterize::run_measures(input, only);
+    if (arguments.has("position-noise")) {
+        add_noise_shifts(arguments, packing, only, progress, found);
+    }
     check_finite(found.datasets);
     progress.update("writing", 1.0);
     io::add_results(arguments.input(), target, {"/characterization"}, std::nullopt, found.fields, found.datasets,
@@ -78,6 +101,9 @@ std::vector<Option> all_options() {
         options.push_back(to_option(option));
     }
     options.push_back(text("only", "LIST", "measure only these (see below), such as doh,overlap; all: every measure"));
+    options.push_back(text("position-noise", "X|X,Y,Z",
+                           "measure again with noise of this standard deviation added to the coordinates, and say what changes"));
+    options.push_back(count("noise-replicas", "number of packings with noise", "4", within(2, 1000)));
     options.push_back(count("seed", "of random points", "1", at_least(0)));
     options.push_back(output("write to a new file; results are added to the input file when not given"));
     options.push_back(flag("force", "replace an existing output file"));

@@ -28,7 +28,8 @@ int count_simplices(const Packing& packing, double growth) {
     std::vector<Regular::Weighted_point> balls;
     for (Index i = 0; i < packing.size(); ++i) {
         const double radius = packing.radii[i] + growth;
-        balls.emplace_back(Kernel::Point_3(packing.positions(0, i), packing.positions(1, i), packing.positions(2, i)), radius * radius);
+        balls.emplace_back(Kernel::Point_3(packing.positions(0, i), packing.positions(1, i), packing.positions(2, i)),
+                           radius * radius);
     }
     const Shape shape(balls.begin(), balls.end(), 0, Shape::GENERAL);
     int sum = 0;

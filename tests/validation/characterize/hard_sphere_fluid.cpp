@@ -1,5 +1,5 @@
-// A hard-sphere fluid at volume fraction 0.4, equilibrated by Monte Carlo: contact value of Carnahan and Starling, structure factor of
-// Percus and Yevick, and the order of a fluid.
+// A hard-sphere fluid at volume fraction 0.4, equilibrated by Monte Carlo: contact value of Carnahan and Starling, structure factor
+// of Percus and Yevick, and the order of a fluid.
 #include "unit/characterize/test_packings.hpp"
 
 #include <coagula/characterize/bond_order.hpp>
@@ -36,7 +36,8 @@ public:
     void sweep(int times) {
         for (int sweep = 0; sweep < times; ++sweep, ++step_) {
             for (Index i = 0; i < packing_.size(); ++i) {
-                const Eigen::Vector3d shift = random_uniform(1, RandomPurpose::test, step_, static_cast<std::uint64_t>(i)).array() - 0.5;
+                const Eigen::Vector3d shift =
+                    random_uniform(1, RandomPurpose::test, step_, static_cast<std::uint64_t>(i)).array() - 0.5;
                 try_move(i, packing_.cell.wrap(packing_.positions.col(i) + 0.3 * shift));
             }
         }
@@ -73,8 +74,8 @@ private:
     std::uint64_t step_ = 0;
 };
 
-/// 1 / (1 - n c(q)) with the direct correlation function of Percus and Yevick, a cubic polynomial of r (Wertheim, Phys. Rev. Lett. 10
-/// (1963) 321). @param q in units of 1 / diameter.
+/// 1 / (1 - n c(q)) with the direct correlation function of Percus and Yevick, a cubic polynomial of r (Wertheim, Phys. Rev. Lett.
+/// 10 (1963) 321). @param q in units of 1 / diameter.
 double percus_yevick(double q) {
     const double first = std::pow(1 + 2 * fraction, 2) / std::pow(1 - fraction, 4);
     const double second = -std::pow(1 + fraction / 2, 2) / std::pow(1 - fraction, 4);
@@ -139,7 +140,8 @@ TEST(HardSphereFluid, HasTheTabulatedStructure) {
     for (std::size_t shell = 0; shell < direct.size(); ++shell) {
         const double exact = percus_yevick(last.wave_number[static_cast<Index>(shell)]);
         largest = std::max(largest, exact);
-        EXPECT_NEAR(direct[shell].mean(), exact, 4 * direct[shell].error() + 0.04 * exact) << last.wave_number[static_cast<Index>(shell)];
+        EXPECT_NEAR(direct[shell].mean(), exact, 4 * direct[shell].error() + 0.04 * exact)
+            << last.wave_number[static_cast<Index>(shell)];
         EXPECT_NEAR(transformed[shell].mean(), exact,
                     4 * transformed[shell].error() + last.transformed_error[static_cast<Index>(shell)] + 0.04 * exact)
             << last.wave_number[static_cast<Index>(shell)];

@@ -22,6 +22,7 @@ enum class RandomPurpose : std::uint64_t {
     equilibration = 8,
     brownian_rotation = 9,
     rotation_observation = 10,
+    position_noise = 12,
     test = 100,
 };
 
