@@ -35,6 +35,7 @@ set(coagula_slow_tests
   "Forces[.]AndStepsAreEqualBit.*"
   "FrequencyResponse[.]WithoutLosses.*"
   "GeneralContacts[.]BalanceTheEnergyOfACycle"
+  "HardSphereFluid[.].*"
   "NetworkFailure[.](SnappingParts|RampPast).*"
   "PoreSizes[.]DoNotDependOnTheNumberOfThreads"
   "Relax[.]IsEqualBit.*"

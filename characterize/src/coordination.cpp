@@ -74,16 +74,18 @@ Coordination measure_coordination(const Packing& packing, const CoordinationOpti
 Overlaps measure_overlaps(const Packing& packing) {
     check(packing);
     const ContactNetwork contacts = find_contacts(packing, 0);
-    Overlaps overlaps{0, 0, 0, contacts.size()};
+    Overlaps overlaps{0, 0, 0, contacts.size(), 0};
     for (Index pair = 0; pair < contacts.size(); ++pair) {
         const double touching = packing.radii[contacts.ends(0, pair)] + packing.radii[contacts.ends(1, pair)];
         const double overlap = 1 - contacts.branch.col(pair).norm() / touching;
         overlaps.mean += overlap;
         overlaps.rms += overlap * overlap;
         overlaps.max = std::max(overlaps.max, overlap);
+        overlaps.implied_noise += overlap * overlap * touching * touching;
     }
     if (overlaps.pairs > 0) {
         overlaps.mean /= static_cast<double>(overlaps.pairs);
+        overlaps.implied_noise = std::sqrt(overlaps.implied_noise / (2 * static_cast<double>(overlaps.pairs)));
         overlaps.rms = std::sqrt(overlaps.rms / static_cast<double>(overlaps.pairs));
     }
     return overlaps;

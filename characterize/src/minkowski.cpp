@@ -16,8 +16,8 @@ namespace {
 constexpr const char* stage = "Minkowski functionals";
 
 /// Sums over the counted cells at each radius of a grid: columns are covered volume, area, mean curvature, Euler characteristic and
-/// the volume of the cells.
-enum Functional : Index { covered, area, curvature, euler, cells, functionals };
+/// the volume of the cells, and their number.
+enum Functional : Index { covered, area, curvature, euler, cells, particles, functionals };
 using Sums = Eigen::Array<double, Eigen::Dynamic, functionals>;
 
 double sign(double x) {
@@ -115,6 +115,7 @@ void add_small_simplices(const PowerDiagram& diagram, const Levels& levels, cons
             centre_inside = centre_inside && facets[first].signed_distance >= 0;
         }
         add_simplex(levels, centre_inside ? -radius * radius : birth, 1, sums);
+        sums.col(particles) += 1;
     }
 }
 
@@ -215,18 +216,25 @@ double zero_of(const Eigen::VectorXd& curve, const Eigen::VectorXd& place) {
     return unset;
 }
 
+/// Blocks differ in their number of particles, but structures of the same kind and size do not: what follows the density of the
+/// blocks is taken out by regression.
 void add_standard_errors(const std::vector<Sums>& blocks, double unit, Minkowski& result) {
-    const auto error = [&](Functional functional) {
-        BlockSums sums(std::ssize(blocks));
-        for (std::size_t k = 0; k < blocks.size(); ++k) {
-            sums.add(static_cast<int>(k), blocks[k](0, functional), blocks[k](0, cells));
-        }
-        return sums.mean_stderr();
-    };
-    result.volume_fraction_stderr = error(covered);
-    result.surface_stderr = error(area) / unit;
-    result.mean_curvature_stderr = error(curvature) / (unit * unit);
-    result.euler_characteristic_stderr = error(euler) / (unit * unit * unit);
+    Eigen::MatrixXd sums(static_cast<Index>(functionals), std::ssize(blocks));
+    for (Index k = 0; k < sums.cols(); ++k) {
+        sums.col(k) = blocks[static_cast<std::size_t>(k)].row(0).transpose();
+    }
+    const Eigen::VectorXd mean = sums.rowwise().sum() / sums.row(cells).sum();
+    const Eigen::MatrixXd deviation = sums - mean * sums.row(cells);
+    const Eigen::VectorXd excess = deviation.row(particles).transpose();
+    const Eigen::Vector4d slope =
+        excess.squaredNorm() > 0 ? Eigen::Vector4d(deviation.topRows(4) * excess / excess.squaredNorm()) : Eigen::Vector4d::Zero();
+    const Eigen::VectorXd error = block_errors(sums, [&](const Eigen::VectorXd& sum) -> Eigen::VectorXd {
+        return (sum.head(4) - slope * (sum[particles] - mean[particles] * sum[cells])) / sum[cells];
+    });
+    result.volume_fraction_stderr = error[covered];
+    result.surface_stderr = error[area] / unit;
+    result.mean_curvature_stderr = error[curvature] / (unit * unit);
+    result.euler_characteristic_stderr = error[euler] / (unit * unit * unit);
 }
 
 }  // namespace

@@ -212,31 +212,34 @@ void add_transformed(const Packing& packing, const SampleWindow& window, Structu
     }
     const double reach = width * static_cast<double>(bins);
     const PairHistogram histogram = count_pairs(packing, window, reach, bins, PairDistance::by_mean_diameter);
-    Eigen::VectorXd excess =
+    const Eigen::VectorXd excess =
         (histogram.pairs.rowwise().sum() - histogram.expected.rowwise().sum()).array() / histogram.centres.array().max(1.0);
+    Eigen::VectorXd radius(bins), window_excess(bins), correction(bins);
     for (Index bin = 0; bin < bins; ++bin) {
-        excess[bin] *= 0.5 * (1 + std::cos(pi * (static_cast<double>(bin) + 0.5) / static_cast<double>(bins)));
+        radius[bin] = width * (static_cast<double>(bin) + 0.5);
+        const double x = pi * radius[bin] / reach;
+        window_excess[bin] = 0.5 * (1 + std::cos(x)) * excess[bin];
+        correction[bin] = x * x / 4 * window_excess[bin];
     }
-    const auto transform = [&](double q) {
-        double sum = 1;
+    const auto transform = [&](const Eigen::VectorXd& of, double q) {
+        double sum = 0;
         for (Index bin = 0; bin < bins; ++bin) {
-            sum += excess[bin] * sinc(q * width * (static_cast<double>(bin) + 0.5));
+            sum += of[bin] * sinc(q * radius[bin]);
         }
         return sum;
     };
 #pragma omp parallel for schedule(static)
     for (Index k = 0; k < shells; ++k) {
         const double q = result.wave_number[k];
-        const double step = std::min(0.5 / reach, q / 2);
-        const double here = transform(q), below = transform(q - step), above = transform(q + step);
-        const double second = (above - 2 * here + below) / (step * step);
-        const double first = (above - below) / (2 * step);
-        const double bias = pi * pi / (4 * reach * reach) * std::abs(second + 2 * first / q);
-        // The squared window has the transform of a shell 8 pi / (3 R) wide: its modes are V q^2 / (4 pi^2) times that, q and -q
-        // once.
-        const double counting = here * here * 3 * pi * reach / (2 * window.volume * q * q);
+        // What the second factor of the window adds is the first term of the bias that the first factor alone would have.
+        const double corrected = transform(correction, q);
+        const double here = 1 + transform(window_excess, q) + corrected;
+        // The squared window has the transform of a shell pi / (R mean(w^2)) wide; its modes are V q^2 / (4 pi^2) times that, q and
+        // -q counted once.
+        constexpr double mean_square_window = 0.5614;
+        const double counting = here * here * 4 * pi * reach * mean_square_window / (window.volume * q * q);
         result.transformed[k] = here;
-        result.transformed_error[k] = std::sqrt(bias * bias + counting);
+        result.transformed_error[k] = std::sqrt(corrected * corrected + counting);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "stages.hpp"
 
 #include <coagula/characterize/measure.hpp>
+#include <coagula/characterize/position_noise.hpp>
 #include <coagula/common/spelling.hpp>
 #include <coagula/io/structure_file.hpp>
 
@@ -44,6 +45,26 @@ std::map<std::string, double> option_values(const Arguments& arguments) {
     return values;
 }
 
+/// "40nm" or "40nm,40nm,80nm".
+Eigen::Vector3d parse_noise(const std::string& text) {
+    const std::vector<std::string> words = split(text);
+    if (words.size() != 1 && words.size() != 3) {
+        throw InputError("'" + text + "' must be one length or three, X,Y,Z");
+    }
+    Eigen::Vector3d noise;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        noise[static_cast<Index>(axis)] = parse_quantity(words.size() == 1 ? words[0] : words[axis], "m", within(0, 1), 1e-3);
+    }
+    return noise;
+}
+
+void add_noise_shifts(const Arguments& arguments, const Packing& packing, const std::vector<std::string>& only,
+                      const Progress& progress, characterize::MeasureResult& found) {
+    const characterize::PositionNoise noise{arguments.parsed("position-noise", parse_noise), arguments.count("noise-replicas")};
+    found.append(characterize::measure_noise_shifts(packing, found, noise, option_values(arguments), only,
+                                                    static_cast<std::uint64_t>(arguments.count("seed")), progress));
+}
+
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
@@ -77,6 +98,9 @@ std::vector<Option> all_options() {
         options.push_back(to_option(option));
     }
     options.push_back(text("only", "LIST", "measure only these (see below), such as doh,overlap; all: every measure"));
+    options.push_back(text("position-noise", "X|X,Y,Z",
+                           "measure again with noise of this standard deviation added to the coordinates, and say what changes"));
+    options.push_back(count("noise-replicas", "number of packings with noise", "4", within(2, 1000)));
     options.push_back(count("seed", "of random points", "1", at_least(0)));
     options.push_back(output("write to a new file; results are added to the input file when not given"));
     options.push_back(flag("force", "replace an existing output file"));
@@ -102,7 +126,11 @@ std::vector<std::string> measure_notes() {
 Findings characterize_packing(const Arguments& arguments, const Packing& packing, const Progress& progress) {
     const characterize::MeasureInput input(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
                                            progress);
-    characterize::MeasureResult found = characterize::run_measures(input, chosen_measures(arguments));
+    const std::vector<std::string> only = chosen_measures(arguments);
+    characterize::MeasureResult found = characterize::run_measures(input, only);
+    if (arguments.has("position-noise")) {
+        add_noise_shifts(arguments, packing, only, progress, found);
+    }
     check_finite(found.datasets);
     return {.group = "/characterization",
             .results = std::move(found.datasets),

@@ -27,7 +27,8 @@ MeasureResult run(const MeasureInput& input) {
     result.add("structure_factor/peak", found.peak, "1", "largest S(q)");
     result.add("structure_factor/peak_wave_number", found.peak_wave_number, "m-1", "q of the largest S(q)");
     result.add_line("structure factor",
-                    "largest " + with_unit(found.peak, "1") + " at q = " + with_unit(found.peak_wave_number, "m-1") +
+                    "largest " + with_unit(found.peak, "1") +
+                        " at q = " + with_unit(2 * input.r0() * found.peak_wave_number, "/ diameter") +
                         (std::isfinite(found.at_zero) ? ", S(0) " + with_error(found.at_zero, found.at_zero_stderr) : ""));
     return result;
 }

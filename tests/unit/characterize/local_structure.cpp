@@ -135,8 +135,8 @@ TEST(BondOrder, OfCubicLatticesIsThatOfTheirCells) {
     const BondOrder cubic = measure_bond_order(test::simple_cubic({3, 3, 3}, 1));
     EXPECT_NEAR(cubic.q4_mean, std::sqrt(7.0 / 12), 1e-9);
     EXPECT_NEAR(cubic.q6_mean, std::sqrt(1.0 / 8), 1e-9);
-    // The truncated octahedron: Y_lm of (1 1 1) and (1 0 0) in the cubic harmonics. Along (100) K4 = sqrt(7/12), K6 = sqrt(1/8); along
-    // (111) K4 = -2/3 sqrt(7/12), K6 = 16/9 sqrt(1/8). Eight hexagons of area 3 sqrt(3) / 2 and six squares of area 1.
+    // The truncated octahedron: Y_lm of (1 1 1) and (1 0 0) in the cubic harmonics. Along (100) K4 = sqrt(7/12), K6 = sqrt(1/8);
+    // along (111) K4 = -2/3 sqrt(7/12), K6 = 16/9 sqrt(1/8). Eight hexagons of area 3 sqrt(3) / 2 and six squares of area 1.
     const double hexagons = 8 * 3 * std::sqrt(3.0) / 2, squares = 6;
     const BondOrder bcc = measure_bond_order(test::body_centred({3, 2, 2}, 1));
     EXPECT_NEAR(bcc.q4_mean, std::sqrt(7.0 / 12) * std::abs(squares - 2.0 / 3 * hexagons) / (squares + hexagons), 1e-9);

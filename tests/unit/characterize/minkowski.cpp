@@ -14,8 +14,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 TEST(Minkowski, OfFccAreThoseOfSpheresAndLenses) {
-    // While no three balls overlap: each ball of radius R minus half of twelve lenses. Two balls whose centres are 2 apart meet in a
-    // circle of radius s = sqrt(R^2 - 1); their normals there differ by 2 asin(1 / R).
+    // While no three balls overlap: each ball of radius R minus half of twelve lenses. Two balls whose centres are 2 apart meet in
+    // a circle of radius s = sqrt(R^2 - 1); their normals there differ by 2 asin(1 / R).
     const Minkowski found = measure_minkowski(test::face_centred({2, 2, 2}, 1), {.dilations = 40});
     const double density = 1 / (4 * std::sqrt(2.0));
     int compared = 0;

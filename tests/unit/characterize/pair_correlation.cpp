@@ -134,8 +134,10 @@ TEST(StructureFactor, BothWaysAgreeForTheIdealGas) {
     Packing packing = test::random_spheres(4000, {10, 10, 10}, 0.5, 0.5, 6);
     for (const bool open : {false, true}) {
         const StructureFactor found = measure_structure_factor(packing, {.largest = 12});
+        // Both see the same particles: their difference is at most what independent errors would make it.
         const Eigen::ArrayXd error = (found.direct_stderr.array().square() + found.transformed_error.array().square()).sqrt();
-        EXPECT_NEAR(((found.direct - found.transformed).array() / error).square().mean(), 1, 0.6) << open;
+        EXPECT_LT(((found.direct - found.transformed).array() / error).square().mean(), 1.6) << open;
+        EXPECT_NEAR(((found.transformed.array() - 1) / found.transformed_error.array()).square().mean(), 1, 0.8) << open;
         EXPECT_NEAR(found.direct.mean(), 1, 0.1) << open;
         EXPECT_NEAR(found.at_zero, 1, 4 * found.at_zero_stderr) << open;
         packing.cell = Cell::open({0, 0, 0}, packing.cell.lengths());

@@ -28,7 +28,8 @@ TEST(ChordLengths, InTheVoidOfAnIdealGasAreExponential) {
     EXPECT_NEAR(found.voids.second_moment, 2 / (rate * rate), 0.05 * 2 / (rate * rate));
     const double width = found.voids.length[1] - found.voids.length[0];
     for (Index k = 0; k < 8; ++k) {
-        const double expected = (std::exp(-rate * width * static_cast<double>(k)) - std::exp(-rate * width * static_cast<double>(k + 1))) / width;
+        const double expected =
+            (std::exp(-rate * width * static_cast<double>(k)) - std::exp(-rate * width * static_cast<double>(k + 1))) / width;
         EXPECT_NEAR(found.voids.density[k] / expected, 1, 0.1) << k;
     }
     const double empty = std::exp(-pi / 6);
@@ -58,8 +59,8 @@ TEST(ChordLengths, OfAChainOfSpheresReachThroughTheBox) {
 }
 
 TEST(Transport, AroundALatticeIsThatOfRayleigh) {
-    // Conductivity of a simple cubic array of insulating spheres (McPhedran and McKenzie, Proc. R. Soc. A 359 (1978) 45, in the form of
-    // Sangani and Acrivos, Proc. R. Soc. A 386 (1983) 263); Maxwell's to first order.
+    // Conductivity of a simple cubic array of insulating spheres (McPhedran and McKenzie, Proc. R. Soc. A 359 (1978) 45, in the
+    // form of Sangani and Acrivos, Proc. R. Soc. A 386 (1983) 263); Maxwell's to first order.
     for (const double f : {0.05, 0.3}) {
         const double correction = 1.3047 * std::pow(f, 10.0 / 3) / (4.0 / 3 + 0.4054 * std::pow(f, 7.0 / 3));
         const double exact = 1 / (1 - 3 * f / (2 + f - correction - 0.07231 * std::pow(f, 14.0 / 3)));

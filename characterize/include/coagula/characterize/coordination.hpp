@@ -38,7 +38,9 @@ struct Overlaps {
     double mean = unset;  ///< over the overlapping pairs; 0 if there are none
     double rms = unset;   ///< over the same pairs
     double max = unset;
-    Index pairs = 0;  ///< number of overlapping pairs
+    Index pairs = 0;               ///< number of overlapping pairs
+    double implied_noise = unset;  ///< standard deviation of a coordinate that would explain the overlaps if the overlapping
+                                   ///< spheres just touched in truth: rms overlap / sqrt(2) [m]; 0 if there are none
 };
 Overlaps measure_overlaps(const Packing& packing);
 

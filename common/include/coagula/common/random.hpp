@@ -23,6 +23,7 @@ enum class RandomPurpose : std::uint64_t {
     brownian_rotation = 9,
     rotation_observation = 10,
     floppy_motion = 12,
+    position_noise = 13,
     gelb_gubbins_sample = 21,
     test = 100,
 };
