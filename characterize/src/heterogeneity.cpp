@@ -59,8 +59,8 @@ DegreeOfHeterogeneity fit_degree_of_heterogeneity(const PoreSizes& pores, double
                 pores.exclusion_probability.allFinite() && pores.mean > 0,
             "the degree of heterogeneity needs a pore-size curve of at least four finite points and a positive mean");
     const Index fitted = (pores.exclusion_probability.array() >= lowest_probability).count();  // P falls with r
-    require(fitted >= 4, "the degree of heterogeneity needs at least four radii with P >= " + to_text(lowest_probability) + ", and the curve has " +
-                             std::to_string(fitted) + ": ask for more radii");
+    require(fitted >= 4, "the degree of heterogeneity needs at least four radii with P >= " + to_text(lowest_probability) +
+                             ", and the curve has " + std::to_string(fitted) + ": ask for more radii");
     const Eigen::VectorXd x = pores.radius.head(fitted) / r0;
     const Eigen::VectorXd probability = pores.exclusion_probability.head(fitted);
     const ErrorFunctionResiduals model{x, probability};

@@ -181,7 +181,8 @@ private:
     /// Returns whether some were unpinned.
     bool unpin_independent(NullSpace& space) const {
         for (int sketch = first_sketch;; sketch *= 2) {
-            Eigen::MatrixXd x = rows_where(random_matrix(matrix_.unknowns(), sketch, Draw::sketch, options_.seed), space.pinned, true);
+            Eigen::MatrixXd x =
+                rows_where(random_matrix(matrix_.unknowns(), sketch, Draw::sketch, options_.seed), space.pinned, true);
             relax(matrix_, *space.factor, space.pinned, x);
             const Eigen::MatrixXd residual = matrix_.apply(x);
             const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(residual, Eigen::ComputeThinU);
@@ -199,7 +200,8 @@ private:
         }
     }
 
-    /// As many of the pinned unknowns as `range` (orthonormal columns that span the range of R) has columns, those that span it best.
+    /// As many of the pinned unknowns as `range` (orthonormal columns that span the range of R) has columns, those that span it
+    /// best.
     void unpin(NullSpace& space, const Eigen::MatrixXd& range) const {
         Eigen::MatrixXd load = matrix_.apply_transposed(range);
         const Eigen::MatrixXd free = space.factor->solve(rows_where(load, space.pinned, false));
@@ -226,7 +228,8 @@ NullSpace find_null_space(const RigidityMatrix& matrix, const RigidityOptions& o
     }
     NullSpace space = RankDecision(matrix, options).run(progress);
     space.dimension = std::count(space.pinned.begin(), space.pinned.end(), true);
-    space.motions = rows_where(random_matrix(matrix.unknowns(), options.random_motions, Draw::motions, options.seed), space.pinned, true);
+    space.motions =
+        rows_where(random_matrix(matrix.unknowns(), options.random_motions, Draw::motions, options.seed), space.pinned, true);
     relax(matrix, *space.factor, space.pinned, space.motions);
     space.largest_zero = largest_ratio(matrix.apply(space.motions), space.motions);
     return space;

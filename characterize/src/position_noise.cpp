@@ -47,12 +47,14 @@ void add_lines(std::vector<Shift> shifts, MeasureResult& result) {
     constexpr std::size_t most = 12;
     constexpr double noticeable = 0.001;
     const auto relative = [](const Shift& shift) { return shift.value != 0 ? std::abs(shift.mean / shift.value) : 0.0; };
-    std::erase_if(shifts, [&](const Shift& shift) { return relative(shift) < noticeable || std::abs(shift.mean) < 2 * shift.error; });
-    std::stable_sort(shifts.begin(), shifts.end(), [&](const Shift& one, const Shift& other) { return relative(one) > relative(other); });
+    std::erase_if(shifts,
+                  [&](const Shift& shift) { return relative(shift) < noticeable || std::abs(shift.mean) < 2 * shift.error; });
+    std::stable_sort(shifts.begin(), shifts.end(),
+                     [&](const Shift& one, const Shift& other) { return relative(one) > relative(other); });
     shifts.resize(std::min(shifts.size(), most));
     for (const Shift& shift : shifts) {
-        result.add_line("noise moves " + shift.name, with_unit(shift.mean, shift.unit) + ", " +
-                                                         with_unit(100 * shift.mean / shift.value, "%"));
+        result.add_line("noise moves " + shift.name,
+                        with_unit(shift.mean, shift.unit) + ", " + with_unit(100 * shift.mean / shift.value, "%"));
     }
 }
 
@@ -91,8 +93,10 @@ MeasureResult measure_noise_shifts(const Packing& packing, const MeasureResult& 
         const std::vector<double>& noisy = values[name];
         if (std::ssize(noisy) == noise.replicas && name != "mean_radius" && name != "contact_tolerance") {
             const Shift shift = shift_of(name, *dataset, noisy);
-            result.add("noise/shift/" + name, shift.mean, shift.unit, "change of " + name + " when noise is added to the positions");
-            result.add("noise/shift_error/" + name, shift.error, shift.unit, "standard error of the change over the packings with noise");
+            result.add("noise/shift/" + name, shift.mean, shift.unit,
+                       "change of " + name + " when noise is added to the positions");
+            result.add("noise/shift_error/" + name, shift.error, shift.unit,
+                       "standard error of the change over the packings with noise");
             shifts.push_back(shift);
         }
     }

@@ -45,9 +45,8 @@ RigidityMatrix::RigidityMatrix(const Packing& packing, const ContactNetwork& con
 Eigen::MatrixXd RigidityMatrix::apply(const Eigen::MatrixXd& x) const {
     Eigen::MatrixXd y(constraints(), x.cols());
     for (Index contact = 0; contact < contacts(); ++contact) {
-        y.middleRows(rows_ * contact, rows_) =
-            end(contact, 0) * x.middleRows(freedoms_ * particle(contact, 0), freedoms_) +
-            end(contact, 1) * x.middleRows(freedoms_ * particle(contact, 1), freedoms_);
+        y.middleRows(rows_ * contact, rows_) = end(contact, 0) * x.middleRows(freedoms_ * particle(contact, 0), freedoms_) +
+                                               end(contact, 1) * x.middleRows(freedoms_ * particle(contact, 1), freedoms_);
     }
     return y;
 }

@@ -33,9 +33,7 @@ public:
     Index constraints() const { return rows_ * contacts(); }
 
     Index particle(Index contact, int end) const { return ends_(end, contact); }
-    const End& end(Index contact, int which) const {
-        return (which == 0 ? first_ : second_)[static_cast<std::size_t>(contact)];
-    }
+    const End& end(Index contact, int which) const { return (which == 0 ? first_ : second_)[static_cast<std::size_t>(contact)]; }
 
     /// A x for several x, as columns.
     Eigen::MatrixXd apply(const Eigen::MatrixXd& x) const;

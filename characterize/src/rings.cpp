@@ -47,7 +47,8 @@ public:
         return (a - b).squaredNorm() < tolerance_ * tolerance_;
     }
 
-    /// All images within `depth` contacts of a particle, nearest first. @param seen scratch: the nodes of every particle, all empty.
+    /// All images within `depth` contacts of a particle, nearest first. @param seen scratch: the nodes of every particle, all
+    /// empty.
     std::vector<Node> ball(std::int32_t centre, int depth, std::vector<std::vector<int>>& seen) const {
         std::vector<Node> nodes = {{centre, 0, Eigen::Vector3d::Zero()}};
         seen[static_cast<std::size_t>(centre)].push_back(0);

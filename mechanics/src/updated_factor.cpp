@@ -4,7 +4,6 @@
 
 #include <coagula/common/blas_threads.hpp>
 
-
 #include <algorithm>
 
 namespace coagula::mechanics {

@@ -69,7 +69,8 @@ Table table_over_structures(const std::vector<Json>& structures) {
     for (const Json& structure : structures) {
         const Json& modulus = structure.at("storage_modulus");
         if (count == 1 && modulus.at("mean").is_number()) {
-            table.emplace_back(structure.at("file").get<std::string>(), "G' " + with_unit(modulus.at("mean").get<double>(), "Pa") + " +- " +
+            table.emplace_back(structure.at("file").get<std::string>(), "G' " + with_unit(modulus.at("mean").get<double>(), "Pa") +
+                                                                            " +- " +
                                                                             with_unit(modulus.at("std").get<double>(), "Pa"));
         }
     }

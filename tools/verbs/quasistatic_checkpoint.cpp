@@ -15,7 +15,7 @@ using mechanics::StrainPoint;
 
 const std::string kind = "checkpoint of coagula shear --method quasistatic";
 
-constexpr std::array point_numbers{&StrainPoint::strain,   &StrainPoint::work,     &StrainPoint::stored,
+constexpr std::array point_numbers{&StrainPoint::strain,     &StrainPoint::work,     &StrainPoint::stored,
                                    &StrainPoint::dissipated, &StrainPoint::breakage, &StrainPoint::released};
 constexpr std::size_t stress_numbers = 9;
 constexpr std::array amplitude_numbers{&AmplitudeResponse::amplitude,      &AmplitudeResponse::storage_modulus,
@@ -129,7 +129,8 @@ std::string group_of(std::size_t number, const char* part) {
 
 }  // namespace
 
-void write_quasistatic_checkpoint(const std::string& path, const std::string& signature, const std::vector<QuasistaticTest>& finished) {
+void write_quasistatic_checkpoint(const std::string& path, const std::string& signature,
+                                  const std::vector<QuasistaticTest>& finished) {
     std::vector<io::Dataset> all = checkpoint_head(kind, signature);
     put(all, "/count", Integers{static_cast<std::int64_t>(finished.size())});
     for (std::size_t number = 0; number < finished.size(); ++number) {
@@ -160,7 +161,8 @@ std::vector<QuasistaticTest> read_quasistatic_checkpoint(const std::string& path
         test.sweep.amplitudes = read_amplitudes(file, group_of(number, "sweep_"));
         test.sweep.broken = read_broken(file, group_of(number, "sweep_"));
         test.sweep.failure = read_failure(file, group_of(number, "sweep_"));
-        if (test.orientation.normal == test.orientation.direction || (test.ramp.points.empty() == test.sweep.amplitudes.empty() && !test.sweep.failure)) {
+        if (test.orientation.normal == test.orientation.direction ||
+            (test.ramp.points.empty() == test.sweep.amplitudes.empty() && !test.sweep.failure)) {
             file.fail("has an orientation that no run has: the checkpoint is damaged");
         }
     }

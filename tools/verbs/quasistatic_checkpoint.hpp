@@ -17,7 +17,8 @@ struct QuasistaticTest {
 
 /// Writes what the results are made of by temporary file and rename; not the loops of a sweep and the effort of the solver.
 /// @param signature text that tells runs apart: options and structure.
-void write_quasistatic_checkpoint(const std::string& path, const std::string& signature, const std::vector<QuasistaticTest>& finished);
+void write_quasistatic_checkpoint(const std::string& path, const std::string& signature,
+                                  const std::vector<QuasistaticTest>& finished);
 
 /// Throws InputError when the file is no checkpoint, is damaged or belongs to another run.
 std::vector<QuasistaticTest> read_quasistatic_checkpoint(const std::string& path, const std::string& signature);

@@ -7,8 +7,8 @@ Measure coordination_measure();
 
 namespace {
 
-/// Standard errors of the mean number of contacts and of the fraction of particles with fewer than three; structures of the same kind
-/// have the same number density.
+/// Standard errors of the mean number of contacts and of the fraction of particles with fewer than three; structures of the same
+/// kind have the same number density.
 Eigen::VectorXd mean_errors(const MeasureInput& input, const Eigen::VectorXi& counts) {
     Eigen::MatrixXd values(4, counts.size());
     values.row(0) = counts.cast<double>();
@@ -22,10 +22,10 @@ Eigen::VectorXd mean_errors(const MeasureInput& input, const Eigen::VectorXi& co
 
 void add_means(const Coordination& coordination, double tolerance, const Eigen::VectorXd& error, MeasureResult& result) {
     const bool has_surface = coordination.inner_particles < coordination.contacts.particles;
-    result.add("coordination", coordination.mean, "1",
-               std::string("mean number of contacts of ") + (has_surface ? "an inner particle" : "a particle") +
-                   ", rattlers included",
-               error[0]);
+    result.add(
+        "coordination", coordination.mean, "1",
+        std::string("mean number of contacts of ") + (has_surface ? "an inner particle" : "a particle") + ", rattlers included",
+        error[0]);
     if (has_surface) {
         result.add_count("inner_particles", coordination.inner_particles,
                          "particles that no neighbour beyond the free surface could touch: the means are over these");

@@ -23,7 +23,8 @@ MeasureResult run(const MeasureInput& input) {
     if (std::isfinite(found.integral)) {
         result.add("density_fluctuations/integral", found.integral, "1",
                    "integral of the deviation over the edge in units of r0, from 2 to 10", found.integral_error);
-        result.add_line("density fluctuations", with_error(found.integral, found.integral_error) + "   (integral over windows of 2 to 10 r0)");
+        result.add_line("density fluctuations",
+                        with_error(found.integral, found.integral_error) + "   (integral over windows of 2 to 10 r0)");
     } else {
         result.add_line("density fluctuations", "no integral: the sample is too small for windows of 10 r0");
     }

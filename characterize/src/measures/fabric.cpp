@@ -35,13 +35,14 @@ MeasureResult run(const MeasureInput& input) {
     const ContactNetwork& contacts = input.contacts();
     require_applicable(contacts.size() > 0, "no particles are in contact: there is no fabric");
     const Fabric fabric = find_fabric(contacts, Eigen::VectorXd::Ones(contacts.size()));
-    const Eigen::VectorXd error =
-        block_errors(sum_by_block(input.blocks(), directions(contacts)),
-                     [](const Eigen::VectorXd& sums) { return Eigen::VectorXd::Constant(1, anisotropy_of(sums)); });
+    const Eigen::VectorXd error = block_errors(sum_by_block(input.blocks(), directions(contacts)), [](const Eigen::VectorXd& sums) {
+        return Eigen::VectorXd::Constant(1, anisotropy_of(sums));
+    });
     MeasureResult result;
     result.add_matrix("fabric/tensor", fabric.tensor, "1", "mean of n n^T over the contacts, n their unit vectors");
     result.add_vector("fabric/eigenvalues", fabric.eigenvalues, "1", "of the fabric tensor, ascending");
-    result.add("fabric/anisotropy", fabric.anisotropy, "1", "sqrt(3/2) |fabric - 1/3|: 0 isotropic, 1 all contacts parallel", error[0]);
+    result.add("fabric/anisotropy", fabric.anisotropy, "1", "sqrt(3/2) |fabric - 1/3|: 0 isotropic, 1 all contacts parallel",
+               error[0]);
     result.add("fabric/by_chance", std::sqrt(1 / static_cast<double>(contacts.size())), "1",
                "anisotropy that as many contacts of random directions have by chance");
     result.add_line("anisotropy of the contacts", with_unit(fabric.anisotropy, "1") + "   (by chance " +

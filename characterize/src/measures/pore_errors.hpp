@@ -6,8 +6,8 @@
 
 namespace coagula::characterize {
 
-/// Standard errors of what `estimate` makes of a pore-size curve; structures of the same kind have the same void fraction. NaN if the
-/// curve is not known by sub-volumes.
+/// Standard errors of what `estimate` makes of a pore-size curve; structures of the same kind have the same void fraction. NaN if
+/// the curve is not known by sub-volumes.
 inline Eigen::VectorXd pore_errors(const PoreSizes& pores, const std::function<Eigen::VectorXd(const PoreSizes&)>& estimate) {
     const Index radii = pores.radius.size();
     Eigen::MatrixXd sums(2 * radii, pores.void_by_block.cols());

@@ -28,11 +28,12 @@ public:
         const std::string suffix = group_ == "rigidity" ? "" : "_central";
         result_.add_field("local_redundancy" + suffix, found_.particle_redundancy.transpose(), "1",
                           "redundant constraints at the particle, half of each of its contacts': over-braced where large");
-        result_.add_field("local_freedom" + suffix, found_.particle_freedom.transpose(), "1",
-                          "freedoms of the particle less half of the independent constraints of its contacts: under-braced where large");
-        result_.add_line(group_ == "rigidity" ? "floppy modes" : "floppy modes, central forces",
-                         std::to_string(found_.floppy_modes) + ", " + std::to_string(found_.rattler_modes) +
-                             " of them motions of rattlers");
+        result_.add_field(
+            "local_freedom" + suffix, found_.particle_freedom.transpose(), "1",
+            "freedoms of the particle less half of the independent constraints of its contacts: under-braced where large");
+        result_.add_line(
+            group_ == "rigidity" ? "floppy modes" : "floppy modes, central forces",
+            std::to_string(found_.floppy_modes) + ", " + std::to_string(found_.rattler_modes) + " of them motions of rattlers");
         result_.add_line(group_ == "rigidity" ? "states of self-stress" : "states of self-stress, central forces",
                          std::to_string(found_.self_stresses) + " of " + std::to_string(found_.constraints) + " constraints");
     }
@@ -53,7 +54,8 @@ public:
         count_of("rigid_clusters", count, "clusters of two or more particles that move as one in every floppy motion");
         add("largest_fraction", share[0], "particles in the largest rigid cluster over all", error[0]);
         add("loose_fraction", share[1], "particles that move against all their neighbours over all", error[1]);
-        count_of("largest_windings", windings, "linearly independent ways in which the largest rigid cluster reaches around the box");
+        count_of("largest_windings", windings,
+                 "linearly independent ways in which the largest rigid cluster reaches around the box");
         result_.add_counts(group_ + "/cluster_particles", sizes, "particles of each rigid cluster, largest first");
         result_.add_vector(group_ + "/cluster_self_stress", rigid.self_stress, "1",
                            "redundant constraints among the contacts within each rigid cluster");
@@ -125,8 +127,9 @@ private:
                 redundancy[topology.of_particle[particle]] += found_.particle_redundancy[particle];
             }
         }
-        result_.add_vector(group_ + "/connected_modes", freedom.array().round(), "1",
-                           "motions without stiffness of each connected cluster, its own as a whole included, largest cluster first");
+        result_.add_vector(
+            group_ + "/connected_modes", freedom.array().round(), "1",
+            "motions without stiffness of each connected cluster, its own as a whole included, largest cluster first");
         result_.add_vector(group_ + "/connected_self_stress", redundancy.array().round(), "1",
                            "states of self-stress of each connected cluster");
     }

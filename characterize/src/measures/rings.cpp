@@ -48,8 +48,7 @@ Measure rings_measure() {
     return {.name = "rings",
             .summary = "shortest-path rings of the contact network (Franzblau)",
             .run = run,
-            .options = {contact_tolerance_option(),
-                        {"largest-ring", "", "largest size of rings that are searched", 8, 3, 12}}};
+            .options = {contact_tolerance_option(), {"largest-ring", "", "largest size of rings that are searched", 8, 3, 12}}};
 }
 
 }  // namespace coagula::characterize

@@ -62,7 +62,8 @@ void add_free_volumes(const Eigen::VectorXd& volumes, const VoronoiDistribution&
                       MeasureResult& result) {
     const double smallest = smallest_voronoi_volume * radius * radius * radius;
     result.add("voronoi/width", found.width, "1",
-               "standard deviation of x = (V - V_min) / (mean V - V_min), V_min = 5.55 r^3 the smallest cell of equal spheres", error[1]);
+               "standard deviation of x = (V - V_min) / (mean V - V_min), V_min = 5.55 r^3 the smallest cell of equal spheres",
+               error[1]);
     result.add_line("width of the Voronoi volumes", with_error(found.width, error[1]) + "   (free volume over its mean)");
     if (std::isfinite(found.shape)) {
         result.add("voronoi/shape", found.shape, "1", "k of the gamma law fitted to x by largest likelihood");
@@ -83,12 +84,14 @@ MeasureResult run(const MeasureInput& input) {
     const Eigen::VectorXd error = moment_errors(input, smallest_voronoi_volume * r0 * r0 * r0);
     MeasureResult result;
     result.add("voronoi/mean", found.mean, "m3", "mean volume of the Voronoi (power) cells");
-    result.add("voronoi/deviation", found.deviation / found.mean, "1", "standard deviation of the volumes over their mean", error[0]);
+    result.add("voronoi/deviation", found.deviation / found.mean, "1", "standard deviation of the volumes over their mean",
+               error[0]);
     result.add_count("voronoi/cells", found.cells, "number of cells");
     if (equal && std::isfinite(found.width)) {
         add_free_volumes(volumes, found, error, r0, result);
     } else {
-        result.add_line("deviation of the Voronoi volumes", with_error(found.deviation / found.mean, error[0]) + "   of their mean");
+        result.add_line("deviation of the Voronoi volumes",
+                        with_error(found.deviation / found.mean, error[0]) + "   of their mean");
     }
     result.add_field("voronoi_volume", cells.volumes.transpose(), "m3",
                      "volume of the Voronoi (power) cell; 0 where it is not certain");

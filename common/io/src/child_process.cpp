@@ -81,8 +81,8 @@ void write_all(int pipe, const std::string& bytes) {
     }
 }
 
-/// Debian's libhdf5 has one lock for all threads. A child that inherits it from another thread, such as one of h5py, waits for it for
-/// ever. HDF5 calls what walks over properties with the lock held by this thread, to which it also belongs in the child.
+/// Debian's libhdf5 has one lock for all threads. A child that inherits it from another thread, such as one of h5py, waits for it
+/// for ever. HDF5 calls what walks over properties with the lock held by this thread, to which it also belongs in the child.
 pid_t fork_with_lock_of_hdf5() {
     pid_t child = -1;
     const auto fork_once = [](hid_t /*list*/, const char* /*property*/, void* result) -> herr_t {

@@ -139,7 +139,8 @@ Eigen::MatrixXd dense_matrix(const Packing& packing, const ContactNetwork& conta
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows * contacts.size(), freedoms * packing.size());
     for (Index c = 0; c < contacts.size(); ++c) {
         const Eigen::Vector3d branch = contacts.branch.col(c);
-        const double share = packing.radii[contacts.ends(0, c)] / (packing.radii[contacts.ends(0, c)] + packing.radii[contacts.ends(1, c)]);
+        const double share =
+            packing.radii[contacts.ends(0, c)] / (packing.radii[contacts.ends(0, c)] + packing.radii[contacts.ends(1, c)]);
         const std::array<Eigen::Vector3d, 2> to_contact{share * branch, -(1 - share) * branch};
         for (std::size_t end = 0; end < 2; ++end) {
             for (Index k = 0; k < freedoms; ++k) {

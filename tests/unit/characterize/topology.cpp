@@ -19,9 +19,9 @@ using test::simple_cubic;
 constexpr double radius = 0.25e-6;
 
 Packing diamond(int cells) {
-    return test::lattice({{0, 0, 0}, {0, .5, .5}, {.5, 0, .5}, {.5, .5, 0}, {.25, .25, .25}, {.25, .75, .75}, {.75, .25, .75},
-                          {.75, .75, .25}},
-                         8 * radius / std::sqrt(3.0), {cells, cells, cells}, radius);
+    return test::lattice(
+        {{0, 0, 0}, {0, .5, .5}, {.5, 0, .5}, {.5, .5, 0}, {.25, .25, .25}, {.25, .75, .75}, {.75, .25, .75}, {.75, .75, .25}},
+        8 * radius / std::sqrt(3.0), {cells, cells, cells}, radius);
 }
 
 Eigen::VectorXi rings_of_each(const Packing& packing, int largest) {

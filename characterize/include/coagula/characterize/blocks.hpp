@@ -24,10 +24,11 @@ Blocks make_blocks(const Packing& packing, const std::vector<bool>& counted = {}
 Eigen::MatrixXd sum_by_block(const Blocks& blocks, const Eigen::MatrixXd& values);
 
 /// Standard errors of quantities that follow from sums over blocks, by leaving out one block at a time (jackknife; Künsch, Ann.
-/// Stat. 17 (1989) 1217): sqrt((B - 1) / B * sum of squared deviations). Blocks must be larger than the structure's correlation length.
+/// Stat. 17 (1989) 1217): sqrt((B - 1) / B * sum of squared deviations). Blocks must be larger than the structure's correlation
+/// length.
 ///
-/// Blocks vary in density, but structures of the same kind have one volume fraction. What the quantities owe to the density of the block
-/// left out, by linear regression, is therefore taken off when `held_fixed` says how the density follows from the sums.
+/// Blocks vary in density, but structures of the same kind have one volume fraction. What the quantities owe to the density of the
+/// block left out, by linear regression, is therefore taken off when `held_fixed` says how the density follows from the sums.
 /// @param sums Q x B: sums over each block. @param estimate from a sum over blocks (Q) to the quantities (K).
 /// @param held_fixed from a sum over blocks (Q) to the quantity that all structures of the kind share; empty: none.
 /// @returns K standard errors; NaN with fewer than four blocks.

@@ -15,10 +15,10 @@ namespace coagula::characterize {
 inline constexpr double smallest_window = 2;
 inline constexpr double largest_window = 10;
 
-/// Relative standard deviation of the solid volume of the particles whose centres lie in a window. After the density-fluctuation method
-/// of Schenker et al., Phys. Rev. E 80 (2009) 021302; a particle counts by its centre, so that points at random have 1 / sqrt(mean
-/// number). In a periodic box with N particles the variance is divided by 1 - window volume / box volume, which is what a fixed N takes
-/// off that of points at random.
+/// Relative standard deviation of the solid volume of the particles whose centres lie in a window. After the density-fluctuation
+/// method of Schenker et al., Phys. Rev. E 80 (2009) 021302; a particle counts by its centre, so that points at random have 1 /
+/// sqrt(mean number). In a periodic box with N particles the variance is divided by 1 - window volume / box volume, which is what a
+/// fixed N takes off that of points at random.
 struct DensityFluctuations {
     Eigen::VectorXd edge;             ///< of the windows, ascending [m]
     Eigen::VectorXd deviation;        ///< standard deviation over mean
@@ -27,9 +27,9 @@ struct DensityFluctuations {
     double integral_error = unset;
 };
 
-/// Windows at every point of a grid with a spacing of r0 / 2 or, in boxes of more than 1.6e7 such points, more. In an open packing only
-/// windows count that lie where the nearest particle is an inner one. The integral takes the deviation for a power law of the edge
-/// between two windows. Throws std::invalid_argument when no window of edge 2 r0 fits twice into the box.
+/// Windows at every point of a grid with a spacing of r0 / 2 or, in boxes of more than 1.6e7 such points, more. In an open packing
+/// only windows count that lie where the nearest particle is an inner one. The integral takes the deviation for a power law of the
+/// edge between two windows. Throws std::invalid_argument when no window of edge 2 r0 fits twice into the box.
 /// @param inner N flags of inner_particles.hpp.
 DensityFluctuations measure_density_fluctuations(const Packing& packing, const std::vector<bool>& inner);
 

@@ -14,9 +14,9 @@ struct PositionNoise {
 Packing with_noise(const Packing& packing, const PositionNoise& noise, std::uint64_t seed, std::uint64_t replica);
 
 /// Measures packings with noise and says by how much each scalar moves: "noise/shift/NAME" is the mean change,
-/// "noise/shift_error/NAME" its standard error over the replicas. Coordinates that have such an error already have moved their values by about as much, as the
-/// change grows with the variance of the noise (the simulation-extrapolation of Cook and Stefanski, J. Am. Stat. Assoc. 89 (1994)
-/// 1314): value - change estimates the value without any error. This holds for small changes only.
+/// "noise/shift_error/NAME" its standard error over the replicas. Coordinates that have such an error already have moved their
+/// values by about as much, as the change grows with the variance of the noise (the simulation-extrapolation of Cook and Stefanski,
+/// J. Am. Stat. Assoc. 89 (1994) 1314): value - change estimates the value without any error. This holds for small changes only.
 /// @param measured what `run_measures` found without noise. @param options, only, seed as for that.
 MeasureResult measure_noise_shifts(const Packing& packing, const MeasureResult& measured, const PositionNoise& noise,
                                    const std::map<std::string, double>& options, const std::vector<std::string>& only,

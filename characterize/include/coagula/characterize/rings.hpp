@@ -7,11 +7,12 @@
 
 namespace coagula::characterize {
 
-/// A closed walk over n different particles is a shortest-path ring when no two of them are nearer to each other through the network
-/// than along the ring (Franzblau, Phys. Rev. B 44 (1991) 4925). It closes in space: walks around a periodic box are no rings.
+/// A closed walk over n different particles is a shortest-path ring when no two of them are nearer to each other through the
+/// network than along the ring (Franzblau, Phys. Rev. B 44 (1991) 4925). It closes in space: walks around a periodic box are no
+/// rings.
 struct Rings {
-    int largest = 0;                ///< size up to which they were searched
-    Eigen::MatrixXi per_particle;   ///< (largest + 1) x N: rings of size n through the particle; rows 0 to 2 are zero
+    int largest = 0;               ///< size up to which they were searched
+    Eigen::MatrixXi per_particle;  ///< (largest + 1) x N: rings of size n through the particle; rows 0 to 2 are zero
     /// Number of rings of size n, n = 0 .. largest; each counted once.
     Eigen::VectorXd count() const;
 };

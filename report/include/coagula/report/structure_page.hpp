@@ -20,8 +20,8 @@ struct PageStructure {
     characterize::LargestPores pores = {};  ///< drawn as translucent spheres; may be empty
 };
 
-/// HTML. Numbers for each particle and bond go in with single precision. Throws std::runtime_error when the program was built without
-/// the scripts of the pages (scripts/bundle-web).
+/// HTML. Numbers for each particle and bond go in with single precision. Throws std::runtime_error when the program was built
+/// without the scripts of the pages (scripts/bundle-web).
 std::string structure_page(const std::vector<PageStructure>& structures, const std::string& version);
 
 }  // namespace coagula::report
