@@ -13,8 +13,8 @@ namespace coagula::mechanics {
 namespace {
 
 /// Simple shear along both directions in the plates is unit shear strain yz, xz or xy of vectors along the normal: the strain moves
-/// the ends of a bond apart by half their distance along the normal (it is symmetric), hence twice that distance. Outside the sample
-/// nothing moves.
+/// the ends of a bond apart by half their distance along the normal (it is symmetric), hence twice that distance. Outside the
+/// sample nothing moves.
 Eigen::Matrix3Xd strained_parts(const MountedSample& mounted, int normal) {
     const ContactNetwork& bonds = mounted.bonds;
     Eigen::Matrix3Xd strained = Eigen::Matrix3Xd::Zero(3, bonds.size());

@@ -40,7 +40,7 @@ std::vector<PlateStiffening> stiffening_of(const Packing& packing, const Contact
     }
     std::vector<PlateStiffening> unknown;
     for (const mechanics::ShearOrientation& orientation : orientations) {
-        unknown.push_back({.orientation = orientation});
+        unknown.push_back({orientation, unset, unset});
     }
     return unknown;
 }
@@ -60,6 +60,14 @@ double gap(const Packing& packing, const std::vector<PlateStiffening>& found) {
     return sum / static_cast<double>(found.size()) / mean_radius(packing);
 }
 
+std::string effect_text(double ratio, double between, double periodic) {
+    if (std::isnan(ratio)) {
+        return "with an effect that is not known: there is no linear modulus to compare with";
+    }
+    return std::string(ratio < 1 ? "lower" : "raise") + " G' by " + with_unit(100 * std::abs(ratio - 1), "1") + " %: linear " +
+           with_unit(between, "Pa") + " with them, " + with_unit(periodic, "Pa") + " in the periodic cell";
+}
+
 }  // namespace
 
 void append_plate_stiffening(Findings& found, const Packing& packing, const ContactNetwork& bonds,
@@ -68,30 +76,27 @@ void append_plate_stiffening(Findings& found, const Packing& packing, const Cont
     const auto all = stiffening_of(packing, bonds, linear, orientations_of(result), plate_layers, progress);
     const Eigen::VectorXd between = each(all, &PlateStiffening::between_plates);
     const Eigen::VectorXd periodic = each(all, &PlateStiffening::periodic);
-    const double stiffening = PlateStiffening{.between_plates = between.mean(), .periodic = periodic.mean()}.ratio();
-    const double without = result.storage_modulus() / stiffening;
-    const std::string known = std::isnan(stiffening) ? "NaN: the structure bears no shear at vanishing strain" : "";
-    const auto say = [&](const std::string& description) { return known.empty() ? description : known; };
+    const double ratio = PlateStiffening{{}, between.mean(), periodic.mean()}.ratio();
+    const double without = result.storage_modulus() / ratio;
+    const auto say = [&](const std::string& description) {
+        return std::isnan(ratio) ? "NaN: the structure bears no shear at vanishing strain" : description;
+    };
+    const double apart = gap(packing, all);
 
     Results& results = found.results;
-    results.push_back(io::scalar(group + "gap", gap(packing, all), "1", "mean distance between the plates over the mean radius"));
+    results.push_back(io::scalar(group + "gap", apart, "1", "mean distance between the plates over the mean radius"));
     results.push_back(io::vector(group + "linear_modulus", between, "Pa",
                                  say("per orientation: G' of this structure between the plates at vanishing strain and rate")));
     results.push_back(io::vector(group + "periodic_linear_modulus", periodic, "Pa",
                                  say("per orientation: the same of its periodic cell, without plates")));
-    results.push_back(io::scalar(group + "stiffening", stiffening, "1",
+    results.push_back(io::scalar(group + "modulus_ratio", ratio, "1",
                                  say("linear_modulus over periodic_linear_modulus, means of the orientations")));
     results.push_back(io::scalar(group + "periodic_storage_modulus", without, "Pa",
-                                 say("estimate of G' without plates: storage_modulus/mean over stiffening")));
-    const std::string distance = " (" + with_unit(gap(packing, all), "1") + " r0 apart)";
-    if (std::isnan(stiffening)) {
-        found.table.emplace_back("plates", "stiffen by an unknown factor" + distance + ": there is no linear modulus to compare");
-        return;
+                                 say("estimate of G' without plates: storage_modulus/mean over modulus_ratio")));
+    found.table.emplace_back("plates", with_unit(apart, "1") + " r0 apart, " + effect_text(ratio, between.mean(), periodic.mean()));
+    if (!std::isnan(ratio)) {
+        found.table.emplace_back("  without plates", "G' about " + with_unit(without, "Pa") + ": the one above over this ratio");
     }
-    found.table.emplace_back("plates", "stiffen by " + with_unit(100 * (stiffening - 1), "1") + " %" + distance + ": linear G' " +
-                                           with_unit(between.mean(), "Pa") + ", without plates " +
-                                           with_unit(periodic.mean(), "Pa"));
-    found.table.emplace_back("  without plates", "G' would be about " + with_unit(without, "Pa") + ", the measured one over that ratio");
 }
 
 }  // namespace coagula::tools

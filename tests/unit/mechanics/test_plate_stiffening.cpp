@@ -61,15 +61,16 @@ TEST(PlateStiffening, HoldsAChainAsAClampedBeam) {
     }
 }
 
-/// The layers at the plates are stiffer by some amount each, the rest is not: the excess goes as one over the height.
+/// Springs that join the sample to the plates are strained as well, which makes a stiff crystal softer; the rest is as without
+/// plates: the effect goes as one over the height.
 TEST(PlateStiffening, FallsAsTheHeightOfACrystalGrows) {
-    const auto excess = [](int cells) {
+    const auto effect = [](int cells) {
         const Packing packing = testing::make_lattice(testing::face_centred_cubic(), 2, 2, cells);
         const ContactNetwork bonds = find_contacts(packing, 0.01);
         return cells * (plate_stiffening(packing, bonds, solve_linear(packing, bonds), {{2, 0}})[0].ratio() - 1);
     };
-    EXPECT_GT(excess(4), 0.01);
-    EXPECT_NEAR(excess(16) / excess(8), 1, 0.1);
+    EXPECT_LT(effect(4), -0.1);
+    EXPECT_NEAR(effect(16) / effect(8), 1, 0.1);
 }
 
 /// Second method: explicit steps, then minimisation at the peak, with plates mounted for every orientation.
@@ -88,14 +89,14 @@ TEST(PlateStiffening, AgreesWithTheExplicitRheometer) {
     const RheometerResult measured = run_rheometer(packing, bonds, options, orientations);
     const auto found = plate_stiffening(packing, bonds, solve_linear(packing, bonds), orientations);
     for (std::size_t k = 0; k < orientations.size(); ++k) {
-        EXPECT_NEAR(found[k].between_plates / measured.runs[k].rest_modulus, 1, 0.01);
-        EXPECT_GT(found[k].ratio(), 1.03);
+        EXPECT_NEAR(found[k].between_plates / measured.runs[k].rest_modulus, 1, 0.005);
+        EXPECT_GT(std::abs(found[k].ratio() - 1), 0.05);
     }
 }
 
 /// Direct and iterative.
 TEST(PlateStiffening, DoesNotDependOnTheSolver) {
-    const Packing packing = testing::random_spheres(300, 12, 1);
+    const Packing packing = testing::random_spheres(160, 9.7, 1);
     const ContactNetwork bonds = find_contacts(packing, 0.5);
     const LinearResponse periodic = solve_linear(packing, bonds);
     const auto by = [&](LinearSolver solver) {

@@ -21,8 +21,9 @@ struct PlateStiffening {
     double ratio() const { return periodic > 0 ? between_plates / periodic : unset; }
 };
 
-/// Solves for the linear response of `bonds` between plates as run_rheometer() mounts them: layers of the periodic repetition, whose
-/// particles neither turn nor move, but the upper plate as a whole. The modulus is twice the energy over volume and strain squared.
+/// Solves for the linear response of `bonds` between plates as run_rheometer() mounts them: layers of the periodic repetition,
+/// whose particles neither turn nor move, but the upper plate as a whole. The modulus is twice the energy over volume and strain
+/// squared.
 ///
 /// @param periodic solve_linear() of the same packing and bonds, whose springs and moduli are taken.
 /// @param plate_layers thickness of a plate in mean diameters.
