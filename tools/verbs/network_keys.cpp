@@ -50,7 +50,9 @@ std::optional<mechanics::LinearResponse> append_network_keys(Results& results, c
     results.push_back(io::integer(group + "floppy_modes", linear.floppy_modes,
                                   "zero-energy modes of the load-bearing particles at the start; -1: not counted"));
     results.push_back(io::scalar(group + "affine_modulus", linear.mean_affine_modulus(), "Pa",
-                                 "shear modulus if all particles followed the strain, mean, at the start"));
+                                 found
+                                     ? "shear modulus if all particles followed the strain, mean, at the start"
+                                     : "NaN: the contacts have no stiffness at the start, or are unstable under their prestress"));
     return found;
 }
 
