@@ -1,5 +1,7 @@
 #include "reduced_diagram.hpp"
 
+#include <coagula/characterize/measure.hpp>
+
 #include <coagula/common/checks.hpp>
 
 #include <algorithm>
@@ -41,9 +43,9 @@ ReducedDiagram reduced_diagram(const Packing& packing) {
 }
 
 void require_inner(const ReducedDiagram& reduced) {
-    require(!reduced.diagram.edges.empty(), "the packing is open and has " + std::to_string(reduced.packing.size()) +
-                                                " particles, but none lies so far inside that its Voronoi cell is certain: pores "
-                                                "cannot be measured");
+    require_applicable(!reduced.diagram.edges.empty(),
+                       "the packing is open and has " + std::to_string(reduced.packing.size()) +
+                           " particles, but none lies so far inside that its Voronoi cell is certain: a larger sample is needed");
 }
 
 }  // namespace coagula::characterize

@@ -21,7 +21,7 @@ struct ReducedDiagram {
 /// Of a packing that passed check(). No particle may be inner: the diagram has no edges then.
 ReducedDiagram reduced_diagram(const Packing& packing);
 
-/// Throws std::invalid_argument when no particle is inner.
+/// Throws NotApplicable when no particle is inner.
 void require_inner(const ReducedDiagram& reduced);
 
 }  // namespace coagula::characterize
