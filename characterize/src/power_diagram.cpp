@@ -60,10 +60,10 @@ void collect_edges(const Triangulation& triangulation, PowerDiagram& diagram) {
     }
 }
 
-/// Which of its two cells a facet is reported from, and hence the order and sense of the edges, depends on memory addresses in
-/// CGAL. A fixed order makes sums over the edges repeatable to the last bit.
-void put_in_order(std::vector<DiagramEdge>& edges) {
-    for (DiagramEdge& edge : edges) {
+/// Which of its two cells a facet is reported from, and hence the order and sense of edges and hull, depends on memory addresses in
+/// CGAL. A fixed order makes sums over them repeatable to the last bit.
+void put_in_order(PowerDiagram& diagram) {
+    for (DiagramEdge& edge : diagram.edges) {
         auto& around = edge.around;
         std::rotate(around.begin(), std::min_element(around.begin(), around.end()), around.end());
         if (around[1] > around[2]) {
@@ -71,8 +71,12 @@ void put_in_order(std::vector<DiagramEdge>& edges) {
             std::swap(edge.apex[0], edge.apex[1]);
         }
     }
-    std::sort(edges.begin(), edges.end(),
+    std::sort(diagram.edges.begin(), diagram.edges.end(),
               [](const DiagramEdge& one, const DiagramEdge& other) { return one.around < other.around; });
+    for (auto& triangle : diagram.hull) {
+        std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    }
+    std::sort(diagram.hull.begin(), diagram.hull.end());
 }
 
 template <class Triangulation>
@@ -92,7 +96,7 @@ void triangulate(PowerDiagram& diagram) {
     diagram.edges.clear();
     diagram.hull.clear();
     collect_edges(triangulation, diagram);
-    put_in_order(diagram.edges);
+    put_in_order(diagram);
 }
 
 void find_edges(PowerDiagram& diagram) {
