@@ -14,6 +14,7 @@ void add_distribution(const RadialDistribution& found, const std::string& name, 
                       MeasureResult& result) {
     result.add_vector(name + "/lower", found.lower, unit, "lower edges of the bins of " + of);
     result.add_vector(name + "/upper", found.upper, unit, "upper edges of the bins of " + of);
+    result.add_vector(name + "/distance", (found.lower + found.upper) / 2, unit, "middles of the bins of " + of);
     result.add_vector(name + "/g", found.g, "1", "pairs in the bin over those of an ideal gas");
     add_known(result, name + "/g_stderr", found.g_stderr, "1", "standard error of g from sub-volumes");
     result.add_vector(name + "/neighbours", found.neighbours, "1", "mean number of particles nearer than the upper edge");

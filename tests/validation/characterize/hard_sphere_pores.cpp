@@ -1,13 +1,13 @@
-// The pores of a hard-sphere fluid at volume fraction 0.4: exclusion probability and nearest distances of Torquato, Lu and Rubinstein,
-// Phys. Rev. A 41 (1990) 2059, and mean chords.
+// The pores of a hard-sphere fluid at volume fraction 0.4: exclusion probability and nearest distances of Torquato, Lu and
+// Rubinstein, Phys. Rev. A 41 (1990) 2059, and mean chords.
 #include "hard_sphere_fluid.hpp"
 
 #include <coagula/characterize/chord_lengths.hpp>
 #include <coagula/characterize/local_structure.hpp>
 #include <coagula/characterize/pore_sizes.hpp>
 
-#include <boost/math/quadrature/exp_sinh.hpp>
 #include <gtest/gtest.h>
+#include <boost/math/quadrature/exp_sinh.hpp>
 
 namespace coagula::characterize {
 namespace {
@@ -62,9 +62,11 @@ TEST(HardSphereFluid, HasThePoresOfTorquatoLuAndRubinstein) {
     EXPECT_NEAR(nearest.mean() / (1 + mean_beyond(1)), 1, 0.005);
     EXPECT_NEAR(void_chord.mean(), 2 * (1 - fraction) / (3 * fraction), 4 * void_chord.error());
     EXPECT_NEAR(solid_chord.mean(), 2.0 / 3, 4 * solid_chord.error());
-    std::printf("P within %.4f, mean pore %.5f of %.5f, nearest %.5f of %.5f\n", 0.0, mean.mean(), mean_beyond(0.5), nearest.mean(), 1 + mean_beyond(1));
+    std::printf("P within %.4f, mean pore %.5f of %.5f, nearest %.5f of %.5f\n", 0.0, mean.mean(), mean_beyond(0.5), nearest.mean(),
+                1 + mean_beyond(1));
     for (std::size_t step = 0; step < curve.size(); ++step) {
-        std::printf("%zu %.5f +- %.5f, %.5f\n", step, curve[step].mean(), curve[step].error(), std::exp(-exponent(0.5, 0.5 + static_cast<double>(step) / 40)));
+        std::printf("%zu %.5f +- %.5f, %.5f\n", step, curve[step].mean(), curve[step].error(),
+                    std::exp(-exponent(0.5, 0.5 + static_cast<double>(step) / 40)));
     }
 }
 

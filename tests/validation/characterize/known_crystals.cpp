@@ -62,15 +62,14 @@ TEST_P(KnownCrystals, HaveTheValuesOfTheClosedForms) {
     KnownCrystal crystal = GetParam()();
     const double solid = 4 * pi / 3 / crystal.cell_volume;
     const double surface = 4 * pi / crystal.cell_volume / radius;
-    crystal.values.insert(crystal.values.end(),
-                          {{"pore_space/void_fraction", 1 - solid},
-                           {"topology/contact_spread", 0},
-                           {"topology/largest_fraction", 1},
-                           {"fabric/anisotropy", 0},
-                           {"voronoi/deviation", 0},
-                           {"voronoi/width", 0},
-                           {"neighbour_distances/spread", 0},
-                           {"minkowski/undilated/volume_fraction", solid}});
+    crystal.values.insert(crystal.values.end(), {{"pore_space/void_fraction", 1 - solid},
+                                                 {"topology/contact_spread", 0},
+                                                 {"topology/largest_fraction", 1},
+                                                 {"fabric/anisotropy", 0},
+                                                 {"voronoi/deviation", 0},
+                                                 {"voronoi/width", 0},
+                                                 {"neighbour_distances/spread", 0},
+                                                 {"minkowski/undilated/volume_fraction", solid}});
     const MeasureResult found = run_measures(MeasureInput(crystal.packing, {{"contact-tolerance", 0.01}}));
     for (const auto& [name, value] : crystal.values) {
         EXPECT_NEAR(test::scalar(found, name), value, 1e-7) << name;
