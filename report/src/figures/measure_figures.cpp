@@ -55,7 +55,8 @@ CurveFigure bond_angles() {
             .y = measured("bond_angles/density"),
             .x_axis = axis("angle between two contacts"),
             .y_axis = density(),
-            .caption = "Distribution of the angles between the contacts of a particle. Independent directions would have half the sine.",
+            .caption =
+                "Distribution of the angles between the contacts of a particle. Independent directions would have half the sine.",
             .y_error = measured("bond_angles/density_stderr")};
 }
 
@@ -72,8 +73,9 @@ CurveFigure bond_order() {
             .y = measured("bond_order/q6_density"),
             .x_axis = axis("{/:Italic q}_6, {/:Italic q}_4", "q6, q4"),
             .y_axis = density(),
-            .caption = "Distribution of the bond-orientational order q6 over the particles, facets of the Voronoi cells weighted by "
-                       "area; dashed: q4.",
+            .caption =
+                "Distribution of the bond-orientational order q6 over the particles, facets of the Voronoi cells weighted by "
+                "area; dashed: q4.",
             .other = measured("bond_order/q4_density"),
             .other_name = "q4"};
 }
@@ -89,12 +91,13 @@ CurveFigure voronoi() {
 }
 
 CurveFigure density_fluctuations() {
-    return {.x = measured("density_fluctuations/edge"),
-            .y = measured("density_fluctuations/deviation"),
-            .x_axis = {.name = "edge of the window", .plain = "edge of the window", .logarithmic = true},
-            .y_axis = {.name = "relative deviation of the solid volume", .plain = "relative deviation", .logarithmic = true},
-            .caption = "Standard deviation over mean of the solid volume in cubic windows, against their edge.",
-            .y_error = measured("density_fluctuations/deviation_stderr")};
+    return {
+        .x = measured("density_fluctuations/edge"),
+        .y = measured("density_fluctuations/deviation"),
+        .x_axis = {.name = "edge of the window", .plain = "edge of the window", .logarithmic = true},
+        .y_axis = {.name = "deviation of the solid volume", .plain = "relative deviation of the solid volume", .logarithmic = true},
+        .caption = "Standard deviation over mean of the solid volume in cubic windows, against their edge.",
+        .y_error = measured("density_fluctuations/deviation_stderr")};
 }
 
 /// A functional of the union of the growing spheres.
@@ -103,7 +106,7 @@ CurveFigure minkowski(const std::string& name, const std::string& y_axis) {
             .y = measured("minkowski/" + name),
             .x_axis = axis("dilation of the spheres"),
             .y_axis = axis(y_axis),
-            .caption = "Union of the spheres as all radii grow by the same length: " + y_axis + ", exact."};
+            .caption = "Union of the spheres as all radii grow by the same length: " + y_axis + " over volume, exact."};
 }
 
 CurveFigure chord_lengths(const std::string& phase, const std::string& where) {
@@ -147,16 +150,22 @@ std::vector<Figure> measure_figures() {
         {.name = "rings", .meaning = "sizes of the rings of contacts", .draw = histogram(rings())},
         {.name = "local-redundancy", .meaning = "distribution of the local redundancy", .draw = curve(local_redundancy())},
         {.name = "voronoi", .meaning = "distribution of the Voronoi volumes with the gamma law", .draw = curve(voronoi())},
-        {.name = "density-fluctuations", .meaning = "deviation of the solid volume against the window", .draw = curve(density_fluctuations())},
-        {.name = "void-chords", .meaning = "lengths of the chords in the void", .draw = curve(chord_lengths("void", "in the void"))},
-        {.name = "solid-chords", .meaning = "lengths of the chords in the spheres", .draw = curve(chord_lengths("solid", "in the spheres"))},
-        {.name = "surface", .meaning = "surface of the growing spheres", .draw = curve(minkowski("surface", "surface over volume"))},
+        {.name = "density-fluctuations",
+         .meaning = "deviation of the solid volume against the window",
+         .draw = curve(density_fluctuations())},
+        {.name = "void-chords",
+         .meaning = "lengths of the chords in the void",
+         .draw = curve(chord_lengths("void", "in the void"))},
+        {.name = "solid-chords",
+         .meaning = "lengths of the chords in the spheres",
+         .draw = curve(chord_lengths("solid", "in the spheres"))},
+        {.name = "surface", .meaning = "surface of the growing spheres", .draw = curve(minkowski("surface", "surface"))},
         {.name = "mean-curvature",
          .meaning = "integrated mean curvature of the growing spheres",
-         .draw = curve(minkowski("mean_curvature", "mean curvature over volume"))},
+         .draw = curve(minkowski("mean_curvature", "mean curvature"))},
         {.name = "euler-characteristic",
          .meaning = "Euler characteristic of the growing spheres",
-         .draw = curve(minkowski("euler_characteristic", "Euler characteristic over volume"))}};
+         .draw = curve(minkowski("euler_characteristic", "Euler characteristic"))}};
 }
 
 }  // namespace coagula::report
