@@ -21,10 +21,12 @@ void add_distribution(const RadialDistribution& found, const std::string& name, 
 }
 
 MeasureResult run(const MeasureInput& input) {
-    const PairCorrelation found = if_applicable([&] {
+    const auto measure = [&] {
         return measure_pair_correlation(input.packing(), {.range = input.has("pair-range") ? input.number("pair-range") : unset,
                                                           .bin_width = input.number("pair-bin")});
-    });
+    };
+    const PairCorrelation found =
+        input.given("pair-range") ? measure() : if_applicable(measure);  // a range that does not fit is an error
     MeasureResult result;
     add_distribution(found.by_distance, "pair_correlation", "m", "the distance of centres", result);
     if (!is_monodisperse(input.packing())) {

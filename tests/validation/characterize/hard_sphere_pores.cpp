@@ -54,20 +54,15 @@ TEST(HardSphereFluid, HasThePoresOfTorquatoLuAndRubinstein) {
         void_chord.add(chords.voids.mean);
         solid_chord.add(chords.solid.mean);
     }
+    // The theory is an approximation: it lies up to 0.003 above the fluid's curve.
     for (std::size_t step = 0; step < curve.size(); ++step) {
         const double expected = std::exp(-exponent(0.5, 0.5 + static_cast<double>(step) / 40));
-        EXPECT_NEAR(curve[step].mean(), expected, 4 * curve[step].error() + 0.004) << step;
+        EXPECT_NEAR(curve[step].mean(), expected, 4 * curve[step].error() + 0.003) << step;
     }
-    EXPECT_NEAR(mean.mean() / mean_beyond(0.5), 1, 0.01);
-    EXPECT_NEAR(nearest.mean() / (1 + mean_beyond(1)), 1, 0.005);
+    EXPECT_NEAR(mean.mean() / mean_beyond(0.5), 1, 0.006);
+    EXPECT_NEAR(nearest.mean() / (1 + mean_beyond(1)), 1, 0.001);
     EXPECT_NEAR(void_chord.mean(), 2 * (1 - fraction) / (3 * fraction), 4 * void_chord.error());
     EXPECT_NEAR(solid_chord.mean(), 2.0 / 3, 4 * solid_chord.error());
-    std::printf("P within %.4f, mean pore %.5f of %.5f, nearest %.5f of %.5f\n", 0.0, mean.mean(), mean_beyond(0.5), nearest.mean(),
-                1 + mean_beyond(1));
-    for (std::size_t step = 0; step < curve.size(); ++step) {
-        std::printf("%zu %.5f +- %.5f, %.5f\n", step, curve[step].mean(), curve[step].error(),
-                    std::exp(-exponent(0.5, 0.5 + static_cast<double>(step) / 40)));
-    }
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct KnownCrystal {
 
 KnownCrystal face_centred() {
     return {"fcc",
-            test::face_centred({8, 8, 8}, radius),
+            test::face_centred({4, 4, 4}, radius),
             4 * std::sqrt(2.0),
             {{"coordination", 12},
              {"topology/triangles", 8},
@@ -41,7 +41,7 @@ KnownCrystal body_centred() {
     const double hexagons = 8 * 3 * std::sqrt(3.0) / 2, squares = 6;
     const double tetrahedral = std::acos(1.0 / 3);
     return {"bcc",
-            test::body_centred({9, 9, 9}, radius),
+            test::body_centred({5, 5, 5}, radius),
             32 / (3 * std::sqrt(3.0)),
             {{"coordination", 8},
              {"topology/triangles", 0},
@@ -78,7 +78,6 @@ TEST_P(KnownCrystals, HaveTheValuesOfTheClosedForms) {
     EXPECT_NEAR(test::scalar(found, "neighbour_distances/nearest") / (2 * radius), 1, 1e-12);
     EXPECT_NEAR(test::scalar(found, "minkowski/undilated/surface") / surface, 1, 1e-9);
     EXPECT_NEAR(test::scalar(found, "chord_lengths/solid/mean") / (4 * radius / 3), 1, 0.02);
-    EXPECT_NEAR(test::scalar(found, "chord_lengths/void/mean") / (4 * (1 - solid) / surface), 1, 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cubic, KnownCrystals, ::testing::Values(&face_centred, &body_centred),
