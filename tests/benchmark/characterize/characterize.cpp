@@ -5,15 +5,16 @@
 //     bench_characterize structure.csv EDGE TILES   spheres of radius 0.25 um, centres x,y,z [m] after a header line, in a periodic
 //                                                   cube [m], repeated TILES times along each axis and shaken by 1 % of the radius
 #include <coagula/characterize/measure.hpp>
+#include <coagula/common/checks.hpp>
 #include <coagula/common/random.hpp>
 
 #include <omp.h>
 #include <sys/resource.h>
+#include <time.h>
 #ifdef COAGULA_VOROPP
 #include <voro++/voro++.hh>
 #endif
 
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -106,40 +107,57 @@ Packing tiled_packing(const std::string& path, double edge, int tiles) {
     return make_packing(centres, tiles * edge);
 }
 
+/// Seconds of wall clock and of the processor.
+struct Seconds {
+    double wall = 0;
+    double processor = 0;
+};
+
 class Stopwatch {
 public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const std::chrono::duration<double> seconds = now - start_;
+    Seconds lap() {
+        const Seconds now = read();
+        const Seconds passed{now.wall - start_.wall, now.processor - start_.processor};
         start_ = now;
-        return seconds.count();
+        return passed;
     }
 
 private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    static double seconds_of(clockid_t clock) {
+        timespec time{};
+        clock_gettime(clock, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+    static Seconds read() { return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_PROCESS_CPUTIME_ID)}; }
+
+    Seconds start_ = read();
 };
+
+void print(const std::string& what, const Seconds& seconds, const std::string& remark = "") {
+    std::printf("%-22s %8.3f %10.3f   %s\n", what.c_str(), seconds.wall, seconds.processor, remark.c_str());
+}
 
 /// Every measure that is made by default, one after the other; what several share counts for the first of them.
 void time_measures(const Packing& packing) {
     const characterize::MeasureInput input(packing);
     Stopwatch stopwatch;
-    double all = 0;
+    Seconds all;
     for (const characterize::Measure& measure : characterize::measures()) {
         if (measure.by_default) {
             measure.run(input);
-            const double seconds = stopwatch.lap();
-            all += seconds;
-            std::printf("%-22s %8.3f s\n", measure.name.c_str(), seconds);
+            const Seconds seconds = stopwatch.lap();
+            all.wall += seconds.wall;
+            all.processor += seconds.processor;
+            print(measure.name, seconds);
         }
     }
-    std::printf("%-22s %8.3f s\n", "all of these", all);
+    print("all of these", all);
 }
 
 void time_curve(const Packing& packing) {
     Stopwatch stopwatch;
-    const auto pores = characterize::measure_pores(packing);
-    std::printf("pore curve, 200 radii  %8.3f s   mean %.6f r0, largest %.4f r0\n", stopwatch.lap(),
-                pores.mean / mean_radius(packing), pores.max / mean_radius(packing));
+    const double mean = characterize::measure_pores(packing).mean;
+    print("pore curve, 200 radii", stopwatch.lap(), "mean " + to_text(mean / mean_radius(packing)) + " r0");
 }
 
 #ifdef COAGULA_VOROPP
@@ -175,20 +193,22 @@ void time_voronoi_volumes(const Packing& packing) {
     omp_set_num_threads(1);
     Stopwatch stopwatch;
     const Eigen::VectorXd volumes = characterize::measure_voronoi_cells(packing).volumes;
-    const double seconds = stopwatch.lap();
-    std::printf("Voronoi volumes        %8.3f s   on one core\n", seconds);
+    const Seconds seconds = stopwatch.lap();
+    print("Voronoi volumes", seconds, "one core");
 #ifdef COAGULA_VOROPP
     const Eigen::VectorXd other =
         is_monodisperse(packing) ? volumes_by_voropp<voro::container>(packing) : volumes_by_voropp<voro::container_poly>(packing);
-    const double other_seconds = stopwatch.lap();
-    std::printf("the same by voro++     %8.3f s   %.2f times as long; largest difference %.1e of the mean volume\n", other_seconds,
-                other_seconds / seconds, (volumes - other).cwiseAbs().maxCoeff() / volumes.mean());
+    const Seconds other_seconds = stopwatch.lap();
+    print("the same by voro++", other_seconds,
+          to_text(std::round(100 * other_seconds.processor / seconds.processor) / 100) + " times as long; largest difference " +
+              to_text((volumes - other).cwiseAbs().maxCoeff() / volumes.mean()) + " of the mean");
 #endif
     omp_set_num_threads(threads);
 }
 
 void measure(const Packing& packing) {
     std::printf("N = %td, volume fraction %.4f, %d threads\n", packing.size(), volume_fraction(packing), omp_get_max_threads());
+    std::printf("%-22s %8s %10s\n", "", "wall, s", "processor, s");
     constexpr Index most_for_all = 100000;
     if (packing.size() <= most_for_all) {
         time_measures(packing);
