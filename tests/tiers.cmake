@@ -38,6 +38,7 @@ set(coagula_slow_tests
   "HardSphereFluid[.].*"
   "NetworkFailure[.](SnappingParts|RampPast).*"
   "PoreSizes[.]DoNotDependOnTheNumberOfThreads"
+  "RandomPoints[.].*"
   "Relax[.]IsEqualBit.*"
   "Rheometer[.]HasTheComplexModulus.*"
   "SampledAgainstExact[.].*"

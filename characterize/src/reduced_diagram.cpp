@@ -43,9 +43,10 @@ ReducedDiagram reduced_diagram(const Packing& packing) {
 }
 
 void require_inner(const ReducedDiagram& reduced) {
+    const std::string sentence = "the packing is open and has " + std::to_string(reduced.packing.size()) + " particles";
+    require(reduced.packing.size() < 4 || !reduced.diagram.hull.empty(), sentence + " in one plane: it fills no space");
     require_applicable(!reduced.diagram.edges.empty(),
-                       "the packing is open and has " + std::to_string(reduced.packing.size()) +
-                           " particles, but none lies so far inside that its Voronoi cell is certain: a larger sample is needed");
+                       sentence + ", but none lies so far inside that its Voronoi cell is certain: a larger sample is needed");
 }
 
 }  // namespace coagula::characterize

@@ -65,6 +65,16 @@ void add_noise_shifts(const Arguments& arguments, const Packing& packing, const 
                                                     static_cast<std::uint64_t>(arguments.count("seed")), progress));
 }
 
+/// What the work finds wrong about a packing, with the name of its file.
+template <class Work>
+auto naming(const std::string& file, Work&& work) {
+    try {
+        return work();
+    } catch (const std::invalid_argument& reason) {
+        throw InputError(file + ": " + reason.what());
+    }
+}
+
 void run(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
@@ -72,7 +82,7 @@ void run(const Arguments& arguments) {
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
 
-    Findings found = characterize_packing(arguments, packing, progress);
+    Findings found = naming(arguments.input(), [&] { return characterize_packing(arguments, packing, progress); });
     progress.update("writing", 1.0);
     io::add_results(arguments.input(), target, {found.group}, std::nullopt, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));

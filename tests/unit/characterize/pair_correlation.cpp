@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <complex>
+#include <memory>
 #include <numbers>
 
 namespace coagula::characterize {
@@ -80,6 +81,27 @@ TEST(PairCorrelation, OfAnIdealGasIsOneWithinItsErrors) {
     EXPECT_NEAR(misfit(open.by_distance, 5), 1, 0.6);
     EXPECT_LT((open.by_distance.g.tail(10).array() - 1).abs().maxCoeff(), 0.05);
     EXPECT_NEAR(open.number_density / (6000 / 1320.0), 1, 0.03);
+}
+
+TEST(PairCorrelation, OfAnOpenPackingIsTheSameWhateverTheMemoryLooksLike) {
+    Packing packing = test::random_spheres(800, {8, 9, 10}, 0.3, 0.5, 12);
+    packing.cell = Cell::open({0, 0, 0}, packing.cell.lengths());
+    const PairCorrelation first = measure_pair_correlation(packing);
+    std::vector<std::unique_ptr<char[]>> blocks;  // so that the triangulations lie elsewhere
+    for (int k = 0; k < 12; ++k) {
+        for (int block = 0; block < 100; ++block) {
+            blocks.push_back(std::make_unique<char[]>(static_cast<std::size_t>(1000 * (k + 1) + 37 * block)));
+        }
+        for (std::size_t block = static_cast<std::size_t>(k); block < blocks.size(); block += 3) {
+            blocks[block].reset();
+        }
+        const PairCorrelation again = measure_pair_correlation(packing);
+        EXPECT_EQ(again.by_distance.g, first.by_distance.g);
+        EXPECT_EQ(again.by_distance.g_stderr, first.by_distance.g_stderr);
+        EXPECT_EQ(again.contact_peak, first.contact_peak);
+        EXPECT_EQ(again.contact_peak_stderr, first.contact_peak_stderr);
+        EXPECT_EQ(again.number_density, first.number_density);
+    }
 }
 
 TEST(PairCorrelation, RefusesMoreThanHalfTheBox) {
