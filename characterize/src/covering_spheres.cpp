@@ -92,7 +92,7 @@ public:
         const Eigen::Matrix3Xd centres =
             count > 0 ? Eigen::Matrix3Xd(Eigen::Map<const Eigen::Matrix3Xd>(near.front().data(), 3, count)) : Eigen::Matrix3Xd(3, 0);
         covered.radius =
-            largest_touching_sphere(centres, Eigen::VectorXd::Constant(count, radius), largest_, known, options_.tolerance);
+            largest_touching_sphere(centres, Eigen::VectorXd::Constant(count, radius), largest_, known);
         return covered;
     }
 

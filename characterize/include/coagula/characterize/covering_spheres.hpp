@@ -15,7 +15,6 @@ namespace coagula::characterize {
 struct CoveringOptions {
     Index points = 20000;      ///< random points in the box, of which those in the void count
     Index radii = 100;         ///< of the curve
-    double tolerance = 1e-5;   ///< relative, of the radius at a point
     std::uint64_t seed = 1;
 };
 
@@ -35,7 +34,7 @@ struct CoveringSpheres {
 
 /// Spheres that have a point x on their surface and do not enter particle i have 1 / R >= (2 r_i + 2 q_i w) / (q_i^2 - r_i^2), q_i
 /// being the way from x to the particle and w the direction from x to the centre of the sphere: 1 / R is the largest of functions that
-/// are linear in w, and its minimum over the unit sphere is found by branch and bound. The largest sphere that has x inside is that of
+/// are linear in w, and its minimum over the unit sphere is exact, by branch and bound. The largest sphere that has x inside is that of
 /// a vertex of the Voronoi diagram. Equal spheres. In an open packing points count that lie two largest pores and a radius inside the
 /// convex hull, and spheres no larger than the largest certain pore. Throws std::invalid_argument for unequal spheres and if no point
 /// counts.
@@ -45,7 +44,6 @@ CoveringSpheres measure_covering_spheres(const Packing& packing, const CoveringO
 /// above that is left to branch and bound.
 /// @param centres of particles seen from the point, 3 x P [m]: all with a surface nearer than 2 largest. @param radii P [m].
 /// @param least radius that is known already [m]; returned if none is larger.
-double largest_touching_sphere(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii, double largest, double least,
-                               double tolerance = 1e-5);
+double largest_touching_sphere(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii, double largest, double least);
 
 }  // namespace coagula::characterize
