@@ -33,8 +33,9 @@ double pore_radius(double power, double radius) {
 
 /// Whether the way along an edge is narrower at its foot than at its ends. A flat tetrahedron has its end at the foot.
 bool has_throat(const EdgeGeometry& geometry) {
-    const auto beyond = [&](std::size_t which) { return geometry.height[which] > 0 || geometry.is_flat(which); };
-    return beyond(0) && beyond(1) && (geometry.height[0] > 0 || geometry.height[1] > 0);
+    constexpr double rounding = 1e-9;  // of the middle of an octahedron, which is foot and end of the edges there
+    const auto beyond = [&](std::size_t which) { return geometry.height[which] > rounding; };
+    return (beyond(0) || geometry.is_flat(0)) && (beyond(1) || geometry.is_flat(1)) && (beyond(0) || beyond(1));
 }
 
 class Sums {

@@ -19,7 +19,8 @@ struct DelaunayPores {
 };
 
 /// Equal spheres; of an open packing the tetrahedra and triangles of the inner particles. A triangle has a throat if the way through it
-/// is narrower there than on either side. In a perfect lattice a throat between more than three particles may count several times.
+/// is narrower there than on either side. In a perfect lattice five or more
+/// particles on a sphere can be cut into tetrahedra in several ways, and a throat between four particles counts several times.
 /// Throws std::invalid_argument for unequal spheres, whose tetrahedra are not those of the touching spheres.
 DelaunayPores measure_delaunay_pores(const Packing& packing, Index radii = 100);
 
