@@ -42,6 +42,11 @@ ReducedDiagram reduced_diagram(const Packing& packing) {
     return reduced;
 }
 
+PowerDiagram grown_diagram(const Packing& packing, const PowerDiagram& original, double growth, double margin) {
+    const Eigen::VectorXd radii = packing.radii.array() + growth;
+    return packing.cell.is_periodic() ? periodic_diagram(packing, radii, margin) : open_diagram(packing, radii, original.counted);
+}
+
 void require_inner(const ReducedDiagram& reduced) {
     const std::string sentence = "the packing is open and has " + std::to_string(reduced.packing.size()) + " particles";
     require(reduced.packing.size() < 4 || !reduced.diagram.hull.empty(), sentence + " in one plane: it fills no space");
