@@ -6,6 +6,7 @@ set(coagula_slow_tests
   "AgeingAfterShear[.]IsFound.*"
   "BondStrength[.].*"
   "BreakingBonds[.].*"
+  "ActivatedRupture[.].*"
   "ContactNonlinearity[.].*"
   "Diagnosis[.](NamesTheStrengthOfTheBonds|FollowsTheScaleOfTheModuli)"
   "HiddenEffects[.](ASampleThatLiesApart|ErrorsOf|FalseParticles|ShearStiffness).*"
