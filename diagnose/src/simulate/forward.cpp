@@ -68,8 +68,8 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
       observations_(observations),
       simulator_(simulator),
       runs_(run_times(experiment)),
-      history_(experiment),
-      bond_strains_(bond_strains(Settings{})) {
+      history_(experiment) {
+    bond_strains_ = bond_strains(Settings{});
     check_structure_series(experiment_, observations_);
     if (experiment_.material.kind == MaterialKind::smooth) {
         smooth_.emplace(observations_, experiment_.material.ages);

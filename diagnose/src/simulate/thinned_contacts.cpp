@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,19 @@ constexpr LinearAxis missing_axis{0, 0.4, 21};
 constexpr double least_response = 1e-3;
 /// Of all structures and random orders together: what one order takes from a small structure is chance.
 constexpr double enough_particles = 2000;
+
+/// 0 where the network is too close to losing its stiffness for the solver.
+double modulus_of(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model, const Progress& progress) {
+    mechanics::LinearOptions options;
+    options.bond_tangents = mechanics::bond_tangents(packing, bonds, model);
+    try {
+        return mechanics::solve_linear(packing, bonds, options, progress).mean_shear_modulus();
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::runtime_error&) {
+        return 0;
+    }
+}
 
 }  // namespace
 
@@ -61,10 +75,7 @@ double Simulator::thinned_modulus(std::size_t structure, const Settings& setting
     const auto orders = static_cast<std::uint64_t>(std::max(1.0, std::round(enough_particles / all_particles)));
     double sum = 0;
     for (std::uint64_t order = 0; order < orders; ++order) {
-        const ContactNetwork bonds = thinned(whole, missing, order);
-        mechanics::LinearOptions options;
-        options.bond_tangents = mechanics::bond_tangents(packing, bonds, contact_model_of(part, radius_));
-        sum += mechanics::solve_linear(packing, bonds, options, progress_).mean_shear_modulus();
+        sum += modulus_of(packing, thinned(whole, missing, order), contact_model_of(part, radius_), progress_);
     }
     const double modulus = sum / static_cast<double>(orders);
     cache_.insert_or_assign(key, std::vector<double>{modulus});
@@ -93,7 +104,8 @@ const std::vector<double>& Simulator::thinned_curve(std::size_t group) {
 
 double Simulator::thinned_response(double missing, std::size_t group) {
     const std::vector<double>& curve = thinned_curve(group);
-    const double response = interpolate_nodes(missing_axis, missing, [&](int node) { return curve[static_cast<std::size_t>(node)]; });
+    const double response =
+        interpolate_nodes(missing_axis, missing, [&](int node) { return curve[static_cast<std::size_t>(node)]; });
     return std::clamp(response, least_response, 1.0);
 }
 

@@ -98,8 +98,8 @@ TEST(ActivatedRupture, NeedsSweepsOfStrainAtTwoFrequencies) {
     EXPECT_TRUE(cause.applies(under_cone({one, sweep(30, strains, {1.0, 1.0}, 0, 1)})));
 }
 
-/// The force, over kT / x, that half of the bonds survive when it is reached in a quarter of an oscillation: those that are left open
-/// at a rate that grows exponentially with the force on them (Bell 1978).
+/// The force, over kT / x, that half of the bonds survive when it is reached in a quarter of an oscillation: those that are left
+/// open at a rate that grows exponentially with the force on them (Bell 1978).
 double median_rupture_force(double rate_at_rest, double frequency) {
     double low = 0.1;
     double high = 100;

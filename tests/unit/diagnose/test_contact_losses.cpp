@@ -41,22 +41,22 @@ std::vector<Complex> moduli_of(const Packing& packing, const ContactModel& model
     return moduli;
 }
 
-/// Springs of particles of 40 N/m, two in series, and beside them what takes time.
+/// Springs of particles of 0.04 N/m, two in series, and beside them what takes time. A stiffer gel brakes more than bearings do.
 ContactModel springs() {
-    return {.normal_stiffness = 40, .shear_stiffness = 4};
+    return {.normal_stiffness = 0.04, .shear_stiffness = 0.004};
 }
 
 ContactModel with_dashpots(double time) {
     ContactModel model = springs();
-    model.normal_viscosity = 20 * time;
-    model.shear_viscosity = 2 * time;
+    model.normal_viscosity = 0.02 * time;
+    model.shear_viscosity = 0.002 * time;
     return model;
 }
 
 ContactModel with_relaxation(double share, double time) {
     ContactModel model = springs();
-    model.normal_maxwell_stiffness = 20 * share;
-    model.shear_maxwell_stiffness = 2 * share;
+    model.normal_maxwell_stiffness = 0.02 * share;
+    model.shear_maxwell_stiffness = 0.002 * share;
     model.normal_maxwell_time = model.shear_maxwell_time = time;
     return model;
 }

@@ -76,7 +76,7 @@ TEST(MissingContacts, CurveAgreesWithTheSolver) {
     EXPECT_EQ(simulator().thinned_response(0), 1);
     for (const double missing : {0.01, 0.03, 0.05, 0.07, 0.09}) {
         const double curve = simulator().thinned_response(missing);
-        EXPECT_NEAR(curve, simulator().exact_thinned_response({}, missing), 0.02) << missing;
+        EXPECT_NEAR(curve, simulator().exact_thinned_response({}, missing), 0.04) << missing;
         EXPECT_LT(curve, before);
         before = curve;
     }
@@ -86,7 +86,7 @@ TEST(MissingContacts, CurveAgreesWithTheSolver) {
     EXPECT_GT(simulator().exact_thinned_response(bending, 0.09), 1.2 * simulator().thinned_response(0.09));
 }
 
-const std::vector<double> coordinations{5.4, 5.0, 4.7, 4.4};
+const std::vector<double> coordinations{5.4, 5.2, 5.0, 4.7, 4.4};
 
 /// Two structures for each coordination.
 struct Known {
@@ -133,7 +133,8 @@ Measurement series(double missing, std::uint64_t seed) {
         }
         modulus.values.push_back(sum * (1 + 0.03 * drawn_normal(seed, row)));
     }
-    const double stated = 0.06 * *std::max_element(modulus.values.begin(), modulus.values.end());  // rows are three small structures
+    const double stated =
+        0.06 * *std::max_element(modulus.values.begin(), modulus.values.end());  // rows are three small structures
     modulus.standard_errors.assign(modulus.values.size(), stated);
     Measurement made;
     made.kind = MeasurementKind::structure_series;
