@@ -86,7 +86,7 @@ TEST(MissingContacts, CurveAgreesWithTheSolver) {
     EXPECT_GT(simulator().exact_thinned_response(bending, 0.09), 1.2 * simulator().thinned_response(0.09));
 }
 
-const std::vector<double> coordinations{5.4, 5.2, 5.0, 4.7, 4.4};
+const std::vector<double> coordinations{5.4, 5.0, 4.7, 4.4, 4.15};
 
 /// Two structures for each coordination.
 struct Known {

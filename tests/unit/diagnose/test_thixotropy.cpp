@@ -193,6 +193,7 @@ TEST(Thixotropy, IsNamedWhereItComesBackAtRest) {
     const Diagnosis up = diagnose(experiment, simulator(), options);
     EXPECT_TRUE(up.detected);
     EXPECT_EQ(up.verdict, Verdict::tied);
+    for (const Cause& c : up.causes) { if (c.posterior > 0.01) { std::cerr << c.name << " " << c.posterior << " " << c.log_evidence << "\n"; for (auto& p : c.parameters) std::cerr << "   " << p.name << " " << p.value << " " << p.low << " " << p.high << " " << p.at_end_of_range << "\n"; } }
     EXPECT_TRUE(in_set(up, "thixotropy"));
     ASSERT_FALSE(up.proposals.empty());
 }
