@@ -138,7 +138,7 @@ std::vector<double> drawn_moduli(const std::vector<double>& strain_of_second, co
 
 /// Up in strain, a rest, small strains while it recovers, and the same sweep again.
 std::vector<Measurement> rest_and_repeat(double error, std::uint64_t seed) {
-    const std::vector<double> up = logarithmic_steps(small, 6e-4, 10);
+    const std::vector<double> up = logarithmic_steps(small, 4e-4, 10);
     std::vector<Measurement> runs{run_of(up, 20, 0), run_of(std::vector<double>(8, small), 60, 1, MeasurementKind::time_sweep),
                                   run_of(up, 20, 2)};
     std::vector<double> strain_of_second;
@@ -176,7 +176,7 @@ TEST(Thixotropy, IsNamedWhereItComesBackAtRest) {
     Experiment experiment;
     experiment.sample.particle_radius = 0.25e-6;
     experiment.instrument = {.geometry = Geometry::cone_plate, .plate_radius = 0.0125, .cone_angle = 0.03};
-    experiment.measurements = rest_and_repeat(0.02, 3);
+    experiment.measurements = rest_and_repeat(0.04, 3);
     DiagnosisOptions options;
     options.bootstrap = 399;
     const Diagnosis found = diagnose(experiment, simulator(), options);
@@ -193,8 +193,7 @@ TEST(Thixotropy, IsNamedWhereItComesBackAtRest) {
     const Diagnosis up = diagnose(experiment, simulator(), options);
     EXPECT_TRUE(up.detected);
     EXPECT_EQ(up.verdict, Verdict::tied);
-    for (const Cause& c : up.causes) { if (c.posterior > 0.01) { std::cerr << c.name << " " << c.posterior << " " << c.log_evidence << "\n"; for (auto& p : c.parameters) std::cerr << "   " << p.name << " " << p.value << " " << p.low << " " << p.high << " " << p.at_end_of_range << "\n"; } }
-    EXPECT_TRUE(in_set(up, "thixotropy"));
+    EXPECT_TRUE(in_set(up, "thixotropy")) << up.credible_set.front();
     ASSERT_FALSE(up.proposals.empty());
 }
 
