@@ -11,7 +11,7 @@ Mechanism contact_relaxation() {
                 "the storage modulus rises by a step around one frequency, and the loss modulus has its maximum there; well below, "
                 "it looks like 'contact-dashpot' and 'solvent-drag', over a decade or less like 'contact-loss', from which higher "
                 "and lower frequencies separate it",
-            .parameters = {{"relaxing_over_spring", "1", 0.03, 10, true}, {"contact_relaxation_time", "s", 1e-3, 1e3, true}},
+            .parameters = {{"relaxing_over_spring", "1", 3e-3, 10, true}, {"contact_relaxation_time", "s", 1e-3, 1e3, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) {
                 settings.relaxing_ratio = values[0];
                 settings.relaxation_time = values[1];

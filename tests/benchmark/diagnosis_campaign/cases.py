@@ -58,7 +58,7 @@ def effects(generator, session):
     setting = (float(numpy.exp(generator.uniform(numpy.log(0.5), numpy.log(500)))), begin)
     opening = (0.3 * (power - 1.5), 0.3 * fracture[0])  # exponent and loss; a draw more would change all other rows
     relaxation = round(logarithmic(0.015, 0.5)((exponent - 0.015) / 0.085), 4)
-    within = {"contact-dashpot": logarithmic(1e-6, 1e-2), "contact-relaxation": logarithmic(0.03, 5.0), "thixotropy": logarithmic(0.1, 1e3),
+    within = {"contact-dashpot": logarithmic(1e-6, 1e-2), "contact-relaxation": logarithmic(0.004, 5.0), "thixotropy": logarithmic(0.1, 1e3),
               "contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
               "tool-inertia": logarithmic(1e-8, 0.9e-4), "overfill": logarithmic(1e-5, 1e-3), "skin": logarithmic(1e-7, 1.0),
               "cooling": logarithmic(1e-3, 0.3), "softening": logarithmic(1.0, 1e-4),
