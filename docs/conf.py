@@ -16,10 +16,11 @@ extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napole
 root_doc = "docs/index"
 smartquotes = False
 highlight_language = "none"
+suppress_warnings = ["misc.highlighting_failure"]  # what a program prints need not be a language
 
 html_theme = "furo"
 html_title = f"coagula {version}"
-html_static_path = ["docs/static"]
+html_static_path = ["static"]
 html_css_files = ["manual.css"]
 html_show_sphinx = False
 html_copy_source = False
