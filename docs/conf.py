@@ -20,9 +20,10 @@ suppress_warnings = ["misc.highlighting_failure"]  # what a program prints need 
 
 html_theme = "furo"
 html_title = f"coagula {version}"
-html_static_path = ["static"]
+html_static_path = ["static", "/usr/share/fonts/truetype/dejavu/DejaVuMathTeXGyre.ttf"]  # fonts-dejavu-extra
 html_css_files = ["manual.css"]
 html_show_sphinx = False
+html_show_copyright = False
 html_copy_source = False
 html_last_updated_fmt = None
 
