@@ -90,8 +90,8 @@ std::string program_markdown(const std::vector<Verb>& verbs) {
 }
 
 std::string verb_markdown(const Verb& verb) {
-    std::string text = "# coagula " + verb.name + "\n\n" + escaped(capitalised(verb.summary)) + ".\n\n```text\ncoagula " + verb.name +
-                       (verb.input.empty() ? "" : " " + verb.input) + " [options]\n```\n\n";
+    std::string text = "# coagula " + verb.name + "\n\n" + escaped(capitalised(verb.summary)) + ".\n\n```text\ncoagula " +
+                       verb.name + (verb.input.empty() ? "" : " " + verb.input) + " [options]\n```\n\n";
     text += notes_of(verb) + "| option | value | default | meaning |\n|---|---|---|---|\n";
     for (const Option& option : all_options(verb)) {
         text += option.name == "input" ? "" : row(option);
