@@ -222,7 +222,7 @@ void ExperimentReader::read_measurements() {
 const diagnose::Quantity& known_quantity(TomlKeys& keys, const std::string& key, const std::string& name) {
     const diagnose::Quantity* quantity = diagnose::find_quantity(name);
     if (quantity == nullptr) {
-        keys.fail(key, "'" + name + "' is no quantity (see docs/experiment-file.md)");
+        keys.fail(key, "'" + name + "' is no quantity (see docs/reference/experiment-file.md)");
     }
     return *quantity;
 }

@@ -4,7 +4,7 @@ namespace coagula::generators {
 
 namespace {
 
-/// As long as 15 mV take to a coordination of 5.4 (docs/brownian.md), in R^2/D; their barrier is 6 kT high.
+/// As long as 15 mV take to a coordination of 5.4 (docs/explanation/brownian.md), in R^2/D; their barrier is 6 kT high.
 constexpr double longest_coagulation = 4;
 constexpr double highest_barrier = 8;     // kT
 constexpr double sample_interval = 5e-4;  // R^2/D, as of a run that ends by its coordination alone

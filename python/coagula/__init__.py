@@ -1,14 +1,16 @@
 """Random sphere packings and coagulated particle gels: generate, characterize, shear, diagnose.
 
-    import coagula
-    made = coagula.generate_vem(particles=500, volume_fraction=0.4, radius="0.25um")
-    pores = coagula.characterize(made)
-    response = coagula.shear(made, normal_stiffness="100N/m")
-    print(pores.doh.a, response.storage_modulus.mean)
-    coagula.write("packing.h5", made, pores, response)
-
 All quantities are numbers in SI units, or texts with a unit: 2.5e-7 or "0.25um". Options have the names that they have in the program,
 with underscores; results have the names that they have in its files and JSON objects.
+
+Examples
+--------
+>>> import coagula
+>>> made = coagula.generate_vem(particles=500, volume_fraction=0.4, radius="0.25um")
+>>> pores = coagula.characterize(made)
+>>> response = coagula.shear(made, normal_stiffness="100N/m")
+>>> print(pores.doh.a, response.storage_modulus.mean)
+>>> coagula.write("packing.h5", made, pores, response)
 """
 
 import os as _os

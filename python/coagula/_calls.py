@@ -54,7 +54,7 @@ def generate_vem(*, radii=None, progress=None, threads=None, **options):
 def generate_brownian(*, radii=None, start=None, progress=None, threads=None, **options):
     """Returns the packing and the run: .packing, .bonds, .frames, .series.time, .series.coordination ...
 
-    docs/brownian.md has forces, contacts, steps and limits.
+    docs/explanation/brownian.md has forces, contacts, steps and limits.
     """
     call = call_text("generate_brownian", [], {**options, "radii": radii, "start": start})
     first = None if start is None else packing_of(start)
@@ -90,7 +90,7 @@ def _model_file(model):
 
 @documented("shear", first=[_PACKING], replaced=["model"], returns="Stage", extra=[
     ("model", "str | dict[str, float | str] | None", None,
-     "The contact in full and the solvent: a TOML file, or a dictionary of its parameters (docs/contact-model.md).")])
+     "The contact in full and the solvent: a TOML file, or a dictionary of its parameters (docs/reference/contact-model.md).")])
 def shear(packing, *, model=None, progress=None, threads=None, **options):
     """Returns the response: .storage_modulus.mean, .elastic_tensor, .per_particle.nonaffine_displacement_xy ...
 
@@ -131,7 +131,7 @@ def fit_power_law(a, modulus, standard_error=None, *, progress=None, threads=Non
 
 
 @documented("diagnose", returns="Result", replaced=["new", "check", "power", "catalogue", "data_sets", "diagnoses", "output"],
-            first=[("experiment", "str | PathLike[str]", REQUIRED, "The experiment file (docs/experiment-file.md).")],
+            first=[("experiment", "str | PathLike[str]", REQUIRED, "The experiment file (docs/reference/experiment-file.md).")],
             extra=[("output", "str | PathLike[str] | None", None,
                     "Folder for report.html, diagnosis.json, diagnosis.h5 and the simulations; nothing is written when None.")])
 def diagnose(experiment, *, output=None, progress=None, threads=None, **options):

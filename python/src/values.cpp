@@ -84,25 +84,28 @@ std::array<double, 3> numbers_of(const Eigen::Vector3d& vector) {
 }
 
 void define_packing(py::module_& module) {
-    py::class_<Packing, std::shared_ptr<Packing>>(module, "Packing",
-                                                  "Spheres in a box: Packing(positions, radii, box=None, wrap=False).\n\n"
-                                                  "positions: array (N, 3) [m]. radii: one number, or one for each [m]. box: edge "
-                                                  "lengths of a periodic box with a corner at the\n"
-                                                  "origin [m], one or three; None: no periodicity, a sample with a free surface. "
-                                                  "wrap: bring particles outside the periodic box\n"
-                                                  "back in; otherwise they are an error. The numbers are copied once; the arrays "
-                                                  "of the packing are read-only views of the copy.")
+    py::class_<Packing, std::shared_ptr<Packing>>(
+        module, "Packing",
+        "Spheres in a box. The numbers are copied once; the arrays of the packing are read-only views of "
+        "the copy.\n\n"
+        "Parameters\n----------\n"
+        "positions : ArrayLike\n    Centres [m], array (N, 3).\n"
+        "radii : ArrayLike | str\n    One radius, or one for each particle [m].\n"
+        "box : ArrayLike | str | None\n    Edge lengths of a periodic box with a corner at the "
+        "origin [m], one or three; None: a sample with a free surface.\n"
+        "wrap : bool\n    Bring particles outside the periodic box back in; otherwise they are "
+        "an error.")
         .def(py::init(&make_packing), py::arg("positions"), py::arg("radii"), py::arg("box") = py::none(), py::arg("wrap") = false)
         .def_property_readonly(
             "positions", [](const py::object& self) { return rows_of(self.cast<const Packing&>().positions, self); },
-            "Centres [m], array (N, 3): a read-only view of the packing's own numbers.")
+            "Centres [m], array (N, 3), a read-only view of the packing's own numbers.")
         .def_property_readonly(
             "radii",
             [](const py::object& self) {
                 const auto& radii = self.cast<const Packing&>().radii;
                 return view(radii.data(), {radii.size()}, self);
             },
-            "Radii [m], array (N,): a read-only view of the packing's own numbers.")
+            "Radii [m], array (N,), a read-only view of the packing's own numbers.")
         .def_property_readonly(
             "box", [](const Packing& packing) -> Eigen::Vector3d { return packing.cell.lengths(); },
             "Edge lengths of the box [m], array (3,).")
@@ -141,7 +144,7 @@ void define_bonds(py::module_& module) {
         module, "Bonds", "Pairs of particles that are bonded or in contact, each once, sorted.")
         .def_property_readonly(
             "ends", [](const py::object& self) { return rows_of(self.cast<const ContactNetwork&>().ends, self); },
-            "Indices of the two particles, from 0, array (M, 2): a read-only view.")
+            "Indices of the two particles, from 0, array (M, 2), a read-only view.")
         .def_property_readonly(
             "branch", [](const py::object& self) { return rows_of(self.cast<const ContactNetwork&>().branch, self); },
             "Centre of the second particle minus that of the first, through the periodic boundary [m], array (M, 3): a read-only "

@@ -125,5 +125,22 @@ class ManualPages(ProgramTest):
             self.assertEqual(found, [], page)
 
 
+class Markdown(ProgramTest):
+    """The same pages for the manual, whose build refuses what it cannot read."""
+
+    def test_every_option_of_every_verb(self):
+        self.succeed("man", "--format", "markdown", "-o", "pages")
+        overview = (self.folder / "pages/coagula.md").read_text()
+        for verb in [*VERBS, "generate brownian"]:
+            name = f"coagula-{verb.replace(' ', '-')}"
+            self.assertIn(f"({name}.md)", overview)
+            page = (self.folder / f"pages/{name}.md").read_text()
+            rows = re.findall(r"^\| (?:`-\w`, )?`(--[a-z0-9-]+)", page, re.MULTILINE)
+            self.assertEqual(rows, options_of(self.succeed(*verb.split(), "--help")))
+            for line in page.splitlines():
+                if line.startswith("|"):
+                    self.assertEqual(len(re.findall(r"(?<!\\)\|", line)), 5, line)
+
+
 if __name__ == "__main__":
     unittest.main()

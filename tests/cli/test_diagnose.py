@@ -277,11 +277,11 @@ class BadInput(ProgramTest):
 
 
 class CementPaste(ProgramTest):
-    """The example of docs/experiment-file.md on the exports themselves."""
+    """The example of docs/how-to/measured-data.md on the exports themselves."""
 
     def setUp(self):
         super().setUp()
-        document = Path(__file__).parents[2] / "docs" / "experiment-file.md"
+        document = Path(__file__).parents[2] / "docs/how-to/measured-data.md"
         example = document.read_text().split("```toml\n")[1].split("```")[0]
         for path in CEMENT.glob("*.csv"):
             (self.folder / path.name).symlink_to(path.resolve())

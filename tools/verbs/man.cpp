@@ -1,5 +1,6 @@
-// coagula man: the manual pages.
+// coagula man: the manual pages, and the same for the manual in Markdown.
 #include "cli/manual_page.hpp"
+#include "cli/markdown_page.hpp"
 #include "cli/output_file.hpp"
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
@@ -15,10 +16,22 @@ namespace coagula::tools {
 
 namespace {
 
+bool is_markdown(const Arguments& arguments) {
+    return arguments.text("format") == "markdown";
+}
+
+std::string page_of_program(const Arguments& arguments) {
+    return is_markdown(arguments) ? program_markdown(all_verbs()) : program_page(all_verbs(), version_text());
+}
+
+std::string page_of_verb(const Arguments& arguments, const Verb& verb) {
+    return is_markdown(arguments) ? verb_markdown(verb) : verb_page(verb, version_text());
+}
+
 /// The page of the verb that the words name; that of the program without words.
-std::string page_of(const std::vector<std::string>& words) {
+std::string page_of(const Arguments& arguments, const std::vector<std::string>& words) {
     if (words.empty()) {
-        return program_page(all_verbs(), version_text());
+        return page_of_program(arguments);
     }
     std::string wanted;
     for (const std::string& word : words) {
@@ -27,7 +40,7 @@ std::string page_of(const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const Verb& verb : all_verbs()) {
         if (verb.name == wanted) {
-            return verb_page(verb, version_text());
+            return page_of_verb(arguments, verb);
         }
         names.push_back(verb.name);
     }
@@ -36,13 +49,14 @@ std::string page_of(const std::vector<std::string>& words) {
 
 void write_pages(const Arguments& arguments, const std::string& folder) {
     std::filesystem::create_directories(folder);
-    std::vector<std::pair<std::string, std::string>> pages = {{"coagula", program_page(all_verbs(), version_text())}};
+    std::vector<std::pair<std::string, std::string>> pages = {{"coagula", page_of_program(arguments)}};
     for (const Verb& verb : all_verbs()) {
-        pages.emplace_back(page_name(verb), verb_page(verb, version_text()));
+        pages.emplace_back(page_name(verb), page_of_verb(arguments, verb));
     }
+    const std::string ending = is_markdown(arguments) ? ".md" : ".1";
     Json files = Json::array();
     for (const auto& [name, page] : pages) {
-        files.push_back((std::filesystem::path(folder) / (name + ".1")).string());
+        files.push_back((std::filesystem::path(folder) / (name + ending)).string());
         check_output(files.back(), arguments.flag("force"));
     }
     for (std::size_t k = 0; k < pages.size(); ++k) {
@@ -60,7 +74,7 @@ void run(const Arguments& arguments) {
         write_pages(arguments, arguments.text("output"));
         return;
     }
-    const std::string page = page_of(words);
+    const std::string page = page_of(arguments, words);
     if (arguments.flag("json")) {
         report(arguments, {{"page", page}}, {});
         return;
@@ -77,7 +91,8 @@ Verb man_verb() {
     return {.name = "man",
             .summary = "print the manual page of the program or of a verb, for man(1)",
             .input = "VERB",
-            .options = {folder, flag("force", "replace existing pages")},
+            .options = {choice("format", {"man", "markdown"}, "a page for man(1), or one of the manual", "man"), folder,
+                        flag("force", "replace existing pages")},
             .run = run,
             .notes = {"To read a page: coagula man shear | man -l -"},
             .many_inputs = true,

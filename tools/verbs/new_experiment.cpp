@@ -166,8 +166,9 @@ public:
 
     std::string write(const std::vector<RecognisedFile>& files) {
         text_ += comment("Made from the exports below by coagula diagnose --new. coagula diagnose --check says what is in it.");
-        text_ +=
-            comment("Lines that begin with # are suggestions: remove the # of those that hold. All keys: docs/experiment-file.md.");
+        text_ += comment(
+            "Lines that begin with # are suggestions: remove the # of those that hold. All keys: "
+            "docs/reference/experiment-file.md.");
         text_ +=
             "\n[sample]\n# particle_radius = \"0.25 um\"    # these three are needed to simulate a network of particles\n"
             "# volume_fraction = 0.4\n# solvent_viscosity = \"1 mPa.s\"\n";

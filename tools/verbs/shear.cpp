@@ -272,7 +272,7 @@ Verb shear_verb() {
                     quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
                     text("frequency", "LIST", "response to harmonic strain at these frequencies instead, such as 1Hz,10Hz"),
                     text("frequency-sweep", "FROM:TO:N", "the same at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
-                    text("model", "FILE.toml", "the contact in full and the solvent (docs/contact-model.md)"),
+                    text("model", "FILE.toml", "the contact in full and the solvent (docs/reference/contact-model.md)"),
                     choice("relax", {"none", "minimise", "paper"},
                            "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero",
                            "none"),

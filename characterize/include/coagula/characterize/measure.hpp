@@ -64,7 +64,7 @@ void require_applicable(bool condition, const std::string& sentence);
 
 /// One line of the table of measures.
 struct Measure {
-    std::string name;     ///< as --only names it; its results are below /characterization/<name>
+    std::string name;     ///< as --only names it; its results are below /characterization/NAME
     std::string summary;  ///< one line: what is measured
     MeasureResult (*run)(const MeasureInput& input);
     std::vector<MeasureOption> options = {};  ///< that it reads

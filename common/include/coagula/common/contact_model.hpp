@@ -11,7 +11,7 @@ namespace coagula {
 
 /// What a contact is made of. Springs are given per particle, two in series make a contact (PFC3D convention, Schenker et al.
 /// 2012); every loss is one of the contact and acts beside the spring. What is unset is not there. Each parameter is described in
-/// contact_parameters() and docs/contact-model.md.
+/// contact_parameters() and docs/reference/contact-model.md.
 struct ContactModel {
     double normal_stiffness = 100;
     double shear_stiffness = 10;

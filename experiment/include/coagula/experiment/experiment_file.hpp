@@ -1,4 +1,4 @@
-// The experiment file: TOML that names a sample, an instrument and tables of measured data (docs/experiment-file.md).
+// The experiment file: TOML that names a sample, an instrument and tables of measured data (docs/reference/experiment-file.md).
 #pragma once
 
 #include <coagula/experiment/export_metadata.hpp>

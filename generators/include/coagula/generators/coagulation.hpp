@@ -1,5 +1,5 @@
 // Coagulation from a stabilised suspension: particles placed at random, brought to equilibrium behind a high barrier, then left to
-// the potential under which they coagulate (docs/brownian.md).
+// the potential under which they coagulate (docs/explanation/brownian.md).
 #pragma once
 
 #include <coagula/generators/brownian_dynamics.hpp>

@@ -1,4 +1,5 @@
-// What carries the load of a sheared network: fabric, contact forces, backbone, non-affinity. Definitions: docs/load-structure.md.
+// What carries the load of a sheared network: fabric, contact forces, backbone, non-affinity. Definitions:
+// docs/explanation/load-structure.md.
 #pragma once
 
 #include <coagula/common/fabric.hpp>

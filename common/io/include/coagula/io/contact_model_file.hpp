@@ -1,4 +1,4 @@
-// The contact model as a TOML file; docs/contact-model.md describes the keys.
+// The contact model as a TOML file; docs/reference/contact-model.md describes the keys.
 #pragma once
 
 #include <coagula/common/contact_model.hpp>

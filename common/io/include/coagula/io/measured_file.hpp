@@ -66,7 +66,7 @@ struct MeasuredFile {
 
 /// Reads a file whose format is recognised by its content: Anton Paar RheoCompass and RheoPlus, TA Instruments TRIOS as text (tabs,
 /// semicolons or commas; plain or for a LIMS) and as JSON, HAAKE RheoWin, CSV, and old Excel workbooks (.xls), each sheet of which
-/// is read as a CSV (docs/instrument-exports.md). Text may be UTF-8,
+/// is read as a CSV (docs/reference/instrument-exports.md). Text may be UTF-8,
 /// UTF-16 with a byte order mark, Shift-JIS, ISO-2022-JP or Windows-1252.
 ///
 /// A decimal comma is recognised for the file as a whole; thousands separators (1.234,5, 1 234,5, 1,234.5) are understood where

@@ -1,4 +1,4 @@
-// The HDF5 file of coagula: H5MD 1.1 structure, VTKHDF view, results with units, provenance. See docs/file-format.md.
+// The HDF5 file of coagula: H5MD 1.1 structure, VTKHDF view, results with units, provenance. See docs/reference/file.md.
 #pragma once
 
 #include <coagula/common/checks.hpp>
