@@ -99,51 +99,102 @@ void add_harmonics(const std::vector<Observation>& observations, std::vector<Mis
     }
 }
 
-/// The fit with this mechanism, too, over its prior: five places of the first parameter, three of the others.
-std::vector<Model> over_prior(const Fit& fit, const Mechanism& mechanism) {
-    std::vector<std::vector<double>> all{fit.values()};
-    for (std::size_t k = 0; k < mechanism.parameters.size(); ++k) {
-        const std::vector<double> places = k == 0 ? std::vector{0.1, 0.3, 0.5, 0.7, 0.9} : std::vector{0.2, 0.5, 0.8};
-        std::vector<std::vector<double>> more;
-        for (const std::vector<double>& values : all) {
-            for (const double place : places) {
-                more.push_back(values);
-                more.back().push_back(mechanism.parameters[k].at(place));
+/// Steps from a fit towards a mechanism, as unit vectors orthogonal to what the fitted quantities move.
+class StepsTowards {
+public:
+    StepsTowards(const Inference& inference, const Fit& fit, const Mechanism& mechanism, const Eigen::MatrixXd& basis)
+        : inference_(inference), fit_(fit), mechanism_(mechanism), basis_(basis), hypothesis_(fit.hypothesis) {
+        hypothesis_.push_back(&mechanism);
+        here_ = inference.errors().whiten(inference.forward().predict(fit.model));
+    }
+
+    /// Over the prior: three places of every parameter but the first, of which there are at least five; more between two whose
+    /// steps have little in common, as those to a step in time at another moment.
+    std::vector<Eigen::VectorXd> all() {
+        std::vector<std::vector<double>> others{{}};
+        for (std::size_t k = 1; k < mechanism_.parameters.size(); ++k) {
+            std::vector<std::vector<double>> more;
+            for (const std::vector<double>& values : others) {
+                for (const double place : {0.2, 0.5, 0.8}) {
+                    more.push_back(values);
+                    more.back().push_back(mechanism_.parameters[k].at(place));
+                }
+            }
+            others = std::move(more);
+        }
+        for (const std::vector<double>& values : others) {
+            add_along_first(values);
+        }
+        return std::move(steps_);
+    }
+
+private:
+    /// None where nothing shows.
+    Eigen::VectorXd step_to(double place, const std::vector<double>& others) const {
+        std::vector<double> values = fit_.values();
+        if (!mechanism_.parameters.empty()) {
+            values.push_back(mechanism_.parameters.front().at(place));
+        }
+        values.insert(values.end(), others.begin(), others.end());
+        const Model model(hypothesis_, values, fit_.model.settings.normal_stiffness);
+        Eigen::VectorXd step = Eigen::VectorXd::Zero(basis_.rows());
+        step.head(here_.size()) = inference_.errors().whiten(inference_.forward().predict(model)) - here_;
+        const double length = step.norm();
+        step -= basis_ * (basis_.transpose() * step);
+        constexpr double visible = 1e-6;  // part of the step that the fitted quantities cannot make
+        return step.norm() > visible * length && length > 0 ? Eigen::VectorXd(step.normalized()) : Eigen::VectorXd();
+    }
+
+    void add_along_first(const std::vector<double>& others) {
+        double before = 0;
+        Eigen::VectorXd last;
+        for (const double place : {0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98}) {
+            Eigen::VectorXd step = step_to(place, others);
+            if (last.size() > 0 && step.size() > 0) {
+                add_between(before, last, place, step, others, 0);
+            }
+            before = place;
+            last = step;
+            if (step.size() > 0) {
+                steps_.push_back(std::move(step));
             }
         }
-        all = std::move(more);
     }
-    Hypothesis hypothesis = fit.hypothesis;
-    hypothesis.push_back(&mechanism);
-    std::vector<Model> models;
-    models.reserve(all.size());
-    for (const std::vector<double>& values : all) {
-        models.emplace_back(hypothesis, values, fit.model.settings.normal_stiffness);
+
+    void add_between(double low, const Eigen::VectorXd& at_low, double high, const Eigen::VectorXd& at_high,
+                     const std::vector<double>& others, int depth) {
+        constexpr double alike = 0.7;
+        constexpr int deepest = 5;
+        if (depth == deepest || at_low.dot(at_high) > alike) {
+            return;
+        }
+        const double middle = 0.5 * (low + high);
+        const Eigen::VectorXd step = step_to(middle, others);
+        if (step.size() > 0) {
+            add_between(low, at_low, middle, step, others, depth + 1);
+            add_between(middle, step, high, at_high, others, depth + 1);
+            steps_.push_back(step);
+        }
     }
-    return models;
-}
+
+    const Inference& inference_;
+    const Fit& fit_;
+    const Mechanism& mechanism_;
+    const Eigen::MatrixXd& basis_;
+    Hypothesis hypothesis_;
+    Eigen::VectorXd here_;
+    std::vector<Eigen::VectorXd> steps_;
+};
 
 /// A step towards every one of these mechanisms that the fit does not have.
 void add_causes(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows, const Eigen::MatrixXd& basis,
                 std::vector<MisfitStatistic>& all) {
-    const ErrorModel& errors = inference.errors();
-    const Eigen::VectorXd here = errors.whiten(inference.forward().predict(fit.model));
     for (const Mechanism* mechanism : causes) {
         if (std::find(fit.hypothesis.begin(), fit.hypothesis.end(), mechanism) != fit.hypothesis.end()) {
             continue;
         }
         MisfitStatistic one{.observable = "all", .cause = mechanism->name};
-        std::vector<Eigen::VectorXd> directions;
-        for (const Model& model : over_prior(fit, *mechanism)) {
-            Eigen::VectorXd step = Eigen::VectorXd::Zero(rows);
-            step.head(here.size()) = errors.whiten(inference.forward().predict(model)) - here;
-            const double length = step.norm();
-            step -= basis * (basis.transpose() * step);
-            constexpr double visible = 1e-6;  // part of the step that the fitted quantities cannot make
-            if (step.norm() > visible * length && length > 0) {
-                directions.push_back(step.normalized());
-            }
-        }
+        const std::vector<Eigen::VectorXd> directions = StepsTowards(inference, fit, *mechanism, basis).all();
         if (!directions.empty()) {
             one.directions.resize(rows, static_cast<Index>(directions.size()));
             for (std::size_t k = 0; k < directions.size(); ++k) {

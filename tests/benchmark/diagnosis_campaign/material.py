@@ -44,13 +44,14 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, jobs, breaking, series):
-        """Everything that is not drawn: moduli of structures, breaking and series if asked for; and those structures that the diagnosis may know."""
+    def prepare(self, jobs, breaking, series, contacts):
+        """Everything that is not drawn: moduli of structures, with breaking, series and other contacts if asked for; and those structures that the
+        diagnosis may know."""
         coordinations = COORDINATIONS if series else ()
-        contacts = [("", 0.0)] + [(cause, value) for cause, values in CONTACTS.items() for value in values]
-        tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in (contacts if series else contacts[:1])]
+        kinds = [("", 0.0)] + [(cause, value) for cause, values in CONTACTS.items() for value in values if contacts]
+        tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in kinds]
         tasks += [("modulus", number, *contact, coordination) for coordination in coordinations
-                  for number in range(SERIES_STRUCTURES) for contact in contacts]
+                  for number in range(SERIES_STRUCTURES) for contact in kinds]
         if breaking:
             tasks += [("modulus", number) for number in range(STRUCTURES, BREAKING)]
             tasks += [("breaking", number, load) for number in range(BREAKING) for load in LOADS]
