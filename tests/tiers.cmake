@@ -54,6 +54,8 @@ set(coagula_slow_tests
   "cli[.]calibrate[.]Calibrate[.]methods_agree"
   "cli[.]determinism[.].*"
   "cli[.]rheometer[.]Rheometer[.]a_killed_run.*"
+  # the fuzz targets, which a test builds first
+  "fuzz[.].*"
   # the pages in a browser
   "web[.].*"
   # damaged files, kills, installation, every option; other programs; the examples of README.md

@@ -106,6 +106,17 @@ class Gsd(ProgramTest):
                 self.fail_with(2, "import", "bad.gsd", "--length-unit", "1um", "-o", "a.h5", says="bad.gsd")
 
 
+class Endings(ProgramTest):
+    def test_the_ending_of_the_output_names_the_format(self):
+        self.copy_of_packing("a.h5")
+        for name, form in (("b.xyz", "extxyz"), ("b.lammpstrj", "dump"), ("b.lmp", "lammps"), ("b.vtp", "vtk"), ("b.gsd", "gsd")):
+            self.assertEqual(self.succeed_json("export", "a.h5", "-o", name)["format"], form)
+        self.assertEqual(self.succeed_json("export", "a.h5", "--format", "csv", "-o", "c.xyz")["format"], "csv")
+        self.fail_with(2, "export", "a.h5", "-o", "b.foo", says=["b.foo", ".vtp"])
+        self.fail_with(2, "export", "a.h5", says=["--format", "--output"])
+        self.fail_with(2, "characterize", "b.xyz", says=["b.xyz", "not an HDF5 file", "coagula import"])
+
+
 class Vtk(ProgramTest):
     def test_as_vtk_reads_it(self):
         self.copy_of_packing("a.h5")

@@ -20,7 +20,7 @@ namespace {
 
 struct Format {
     std::string name;
-    std::string ending;
+    std::vector<std::string> endings;  ///< the first is given to a file without a name of its own
     void (*write)(const std::string& path, const io::Structure& structure, bool overwrite);
     bool many_frames = true;
 };
@@ -30,12 +30,12 @@ void write_as(const std::string& path, const io::Structure& structure, bool over
     io::write_text(path, format, structure.packing, structure.bonds, overwrite, structure.earlier, structure.time);
 }
 
-const std::array formats = {Format{"extxyz", ".extxyz", write_as<io::TextFormat::extended_xyz>},
-                            Format{"lammps", ".data", write_as<io::TextFormat::lammps_data>, false},
-                            Format{"dump", ".dump", write_as<io::TextFormat::lammps_dump>},
-                            Format{"csv", ".csv", write_as<io::TextFormat::csv>},
-                            Format{"gsd", ".gsd", io::write_gsd},
-                            Format{"vtk", ".vtp", io::write_vtk, false}};
+const std::array formats = {Format{"extxyz", {".extxyz", ".xyz"}, write_as<io::TextFormat::extended_xyz>},
+                            Format{"lammps", {".data", ".lmp", ".lammps"}, write_as<io::TextFormat::lammps_data>, false},
+                            Format{"dump", {".dump", ".lammpstrj"}, write_as<io::TextFormat::lammps_dump>},
+                            Format{"csv", {".csv"}, write_as<io::TextFormat::csv>},
+                            Format{"gsd", {".gsd"}, io::write_gsd},
+                            Format{"vtk", {".vtp"}, io::write_vtk, false}};
 
 std::vector<std::string> format_names(bool with_frames_only) {
     std::vector<std::string> names;
@@ -47,15 +47,38 @@ std::vector<std::string> format_names(bool with_frames_only) {
     return names;
 }
 
+const Format& format_of(const std::string& path) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    std::vector<std::string> known;
+    for (const Format& format : formats) {
+        if (std::find(format.endings.begin(), format.endings.end(), ending) != format.endings.end()) {
+            return format;
+        }
+        known.insert(known.end(), format.endings.begin(), format.endings.end());
+    }
+    throw InputError(path + " has no ending that names a format: " + list_of(known));
+}
+
+/// By its name, or by the ending of the file to write.
+const Format& chosen_format(const Arguments& arguments) {
+    const std::string name = arguments.text("format", "");
+    if (!name.empty()) {
+        return *std::find_if(formats.begin(), formats.end(), [&](const Format& entry) { return entry.name == name; });
+    }
+    if (!arguments.has("output")) {
+        throw InputError("the format is missing: give --format, or --output with an ending that names it");
+    }
+    return format_of(arguments.text("output"));
+}
+
 void run(const Arguments& arguments) {
-    const Format& format =
-        *std::find_if(formats.begin(), formats.end(), [&](const Format& entry) { return entry.name == arguments.text("format"); });
+    const Format& format = chosen_format(arguments);
     const bool all_frames = arguments.flag("trajectory");
     if (all_frames && !format.many_frames) {
         throw InputError("--trajectory: the format " + format.name + " holds one frame; many go into " +
                          list_of(format_names(true)));
     }
-    const std::string beside = std::filesystem::path(arguments.input()).replace_extension(format.ending).string();
+    const std::string beside = std::filesystem::path(arguments.input()).replace_extension(format.endings.front()).string();
     const std::string output = arguments.text("output", beside);
     const io::Structure structure = all_frames ? io::read_trajectory(arguments.input()) : io::read_structure(arguments.input());
     check_output(output, arguments.flag("force"));
@@ -72,25 +95,20 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void export_structure(const std::string& path, const io::Structure& structure, bool overwrite) {
-    const std::string ending = std::filesystem::path(path).extension().string();
-    const auto* const format =
-        std::find_if(formats.begin(), formats.end(), [&](const Format& entry) { return entry.ending == ending; });
-    if (format != formats.end()) {
-        format->write(path, structure, overwrite);
-    } else {
-        io::write_text(path, io::format_from_name(path), structure.packing, structure.bonds, overwrite);
-    }
+    format_of(path).write(path, structure, overwrite);
 }
 
 Verb export_verb() {
-    return {.name = "export",
-            .summary = "write the coordinates as extended XYZ, LAMMPS data or dump, CSV, GSD or VTK",
-            .input = "FILE.h5",
-            .options = {required(choice("format", format_names(false), "vtk: PolyData with the bonds; lammps: data, with the bonds",
-                                        "")),
-                        flag("trajectory", "all frames of the file, oldest first, instead of the last one"),
-                        output("file to write; beside the input when not given"), flag("force", "replace an existing file")},
-            .run = run};
+    return {
+        .name = "export",
+        .summary = "write the coordinates as extended XYZ, LAMMPS data or dump, CSV, GSD or VTK",
+        .input = "FILE.h5",
+        .options = {choice("format", format_names(false),
+                           "by the ending of --output when not given; vtk: PolyData with the bonds; lammps: data, with the bonds",
+                           ""),
+                    flag("trajectory", "all frames of the file, oldest first, instead of the last one"),
+                    output("file to write; beside the input when not given"), flag("force", "replace an existing file")},
+        .run = run};
 }
 
 }  // namespace coagula::tools

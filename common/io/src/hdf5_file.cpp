@@ -56,7 +56,8 @@ std::string why_not_opened(const std::string& path) {
     }
     const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
     if (is_hdf5 == 0) {
-        return "is not an HDF5 file";
+        const bool named_so = std::filesystem::path(path).extension() == ".h5";
+        return named_so ? "is not an HDF5 file" : "is not an HDF5 file; coagula import makes one of coordinates in other formats";
     }
     return is_hdf5 > 0 ? "is truncated or damaged" : "cannot be read";
 }

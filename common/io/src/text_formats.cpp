@@ -136,7 +136,8 @@ TextFormat format_from_name(const std::string& path) {
     if (ending == ".dump" || ending == ".lammpstrj") {
         return TextFormat::lammps_dump;
     }
-    throw InputError(path + " has no ending that names a format: .csv; .xyz, .extxyz; .data, .lmp, .lammps; .dump, .lammpstrj");
+    throw InputError(path +
+                     " has no ending that names a format: .csv; .xyz, .extxyz; .data, .lmp, .lammps; .dump, .lammpstrj; .gsd");
 }
 
 Structure read_frames(const std::string& path, TextFormat format, const ImportOptions& options) {
