@@ -2,8 +2,8 @@
 #include <coagula/characterize/heterogeneity.hpp>
 
 #include "measure_options.hpp"
-#include "pore_errors.hpp"
 #include "optional_results.hpp"
+#include "pore_errors.hpp"
 
 namespace coagula::characterize {
 

@@ -1,7 +1,7 @@
 // Measure: the pore-size curve and its moments.
 #include "measure_options.hpp"
-#include "pore_errors.hpp"
 #include "optional_results.hpp"
+#include "pore_errors.hpp"
 
 namespace coagula::characterize {
 
