@@ -81,6 +81,7 @@ void locate(const PowerDiagram& diagram, DiagramVertex& vertex) {
 template <class Triangulated>
 void collect_vertices(Triangulated& triangulated, PowerDiagram& diagram) {
     diagram.vertices.clear();
+    diagram.vertices.reserve(triangulated.number_of_cells());
     diagram.hull.clear();
     if (triangulated.dimension() < 3) {
         return;
@@ -113,10 +114,12 @@ void collect_vertices(Triangulated& triangulated, PowerDiagram& diagram) {
     std::sort(diagram.hull.begin(), diagram.hull.end());
 }
 
-/// The edges by their first site, each once.
+/// The edges, each once. Cells come in the order in which they were made, whatever their addresses, so that sums over the edges are
+/// repeatable to the last bit; CGAL's own lists of facets compare addresses.
 template <class Triangulated>
 void collect_edges(const Triangulated& triangulated, PowerDiagram& diagram) {
     diagram.edges.clear();
+    diagram.edges.reserve(2 * diagram.vertices.size());  // four facets to a cell, each in two
     for (const auto& cell : triangulated.finite_cell_handles()) {
         for (int opposite = 0; opposite < 4; ++opposite) {
             const auto other = cell->neighbor(opposite);
@@ -137,30 +140,6 @@ void collect_edges(const Triangulated& triangulated, PowerDiagram& diagram) {
                 diagram.edges.push_back(edge);
             }
         }
-    }
-}
-
-/// A fixed order, which CGAL's is not, makes sums over the edges repeatable to the last bit. Sorting by the first site by counting
-/// leaves some ten edges each to be compared.
-void put_in_order(Index sites, std::vector<DiagramEdge>& edges) {
-    std::vector<std::size_t> start(static_cast<std::size_t>(sites) + 1, 0);
-    for (const DiagramEdge& edge : edges) {
-        ++start[static_cast<std::size_t>(edge.around[0]) + 1];
-    }
-    for (std::size_t site = 1; site < start.size(); ++site) {
-        start[site] += start[site - 1];
-    }
-    std::vector<DiagramEdge> sorted(edges.size());
-    std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    for (const DiagramEdge& edge : edges) {
-        sorted[next[static_cast<std::size_t>(edge.around[0])]++] = edge;
-    }
-    edges = std::move(sorted);
-#pragma omp parallel for schedule(static)
-    for (std::size_t site = 0; site < start.size() - 1; ++site) {
-        const auto place = [&](std::size_t k) { return edges.begin() + static_cast<std::ptrdiff_t>(start[k]); };
-        std::sort(place(site), place(site + 1),
-                  [](const DiagramEdge& one, const DiagramEdge& other) { return one.around < other.around; });
     }
 }
 
@@ -191,7 +170,6 @@ void Triangulation::find_vertices(PowerDiagram& diagram) {
 
 void Triangulation::find_edges(PowerDiagram& diagram) const {
     std::visit([&](const auto& triangulated) { collect_edges(triangulated, diagram); }, implementation_->triangulated);
-    put_in_order(diagram.positions.cols(), diagram.edges);
 }
 
 }  // namespace coagula::characterize

@@ -150,8 +150,9 @@ class VeryFewParticles(ProgramTest):
     def test_an_open_sample_without_inner_particles(self):
         self.write("few.csv", GOOD_CSV)
         self.succeed("import", "few.csv", "--radius", "0.5um", "--open", "-o", "out.h5")
-        for verb in ("characterize", "shear"):
-            self.fail_with(2, verb, "out.h5", says="open")
+        self.assertIn("left out: the packing is open", self.succeed("characterize", "out.h5"))
+        self.fail_with(2, "characterize", "out.h5", "--only", "doh", says=["out.h5", "open"])
+        self.fail_with(2, "shear", "out.h5", says="open")
 
 
 class Generation(ProgramTest):

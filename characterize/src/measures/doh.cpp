@@ -2,6 +2,7 @@
 #include <coagula/characterize/heterogeneity.hpp>
 
 #include "measure_options.hpp"
+#include "optional_results.hpp"
 #include "pore_errors.hpp"
 
 namespace coagula::characterize {
@@ -31,7 +32,7 @@ Eigen::VectorXd structure_errors(const PoreSizes& pores, double r0, bool has_mai
 }
 
 MeasureResult run(const MeasureInput& input) {
-    const PoreSizes& pores = input.pores();
+    const PoreSizes& pores = known_pores(input);
     const double r0 = input.r0();
     constexpr Index fewest = 6;  // radii of the main part, so that the fit has something to average
     const bool has_main_part = (pores.exclusion_probability.array() >= main_part).count() >= fewest;

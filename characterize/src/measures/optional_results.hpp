@@ -32,4 +32,9 @@ auto if_applicable(Calculate&& calculate) {
     }
 }
 
+/// The pore-size curve of a packing that has one.
+inline const PoreSizes& known_pores(const MeasureInput& input) {
+    return *if_applicable([&] { return &input.pores(); });
+}
+
 }  // namespace coagula::characterize

@@ -1,5 +1,6 @@
 // Measure: the pore-size curve and its moments.
 #include "measure_options.hpp"
+#include "optional_results.hpp"
 #include "pore_errors.hpp"
 
 namespace coagula::characterize {
@@ -51,7 +52,7 @@ void add_space(const PoreSizes& pores, MeasureResult& result) {
 }
 
 MeasureResult run(const MeasureInput& input) {
-    const PoreSizes& pores = input.pores();
+    const PoreSizes& pores = known_pores(input);
     const double r0 = input.r0();
     MeasureResult result;
     add_sizes(pores, r0, result);

@@ -1,5 +1,6 @@
 // Measure: the exact pore-size curve held against random points.
 #include "measure_options.hpp"
+#include "optional_results.hpp"
 
 namespace coagula::characterize {
 
@@ -10,7 +11,7 @@ namespace {
 MeasureResult run(const MeasureInput& input) {
     require(input.has("samples"), "the sampled check needs the number of points, samples");
     input.progress().update("sampling", 0.0);
-    const SampledCheck check = compare_with_samples(input.packing(), input.pores(), input.count("samples"), input.seed());
+    const SampledCheck check = compare_with_samples(input.packing(), known_pores(input), input.count("samples"), input.seed());
     MeasureResult result;
     result.add("sampled_check/largest_z", check.largest_z, "1",
                "largest |sampled - exact| exclusion probability over its standard error");

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <complex>
-#include <memory>
 #include <numbers>
 
 namespace coagula::characterize {
@@ -87,14 +86,9 @@ TEST(PairCorrelation, OfAnOpenPackingIsTheSameWhateverTheMemoryLooksLike) {
     Packing packing = test::random_spheres(800, {8, 9, 10}, 0.3, 0.5, 12);
     packing.cell = Cell::open({0, 0, 0}, packing.cell.lengths());
     const PairCorrelation first = measure_pair_correlation(packing);
-    std::vector<std::unique_ptr<char[]>> blocks;  // so that the triangulations lie elsewhere
+    test::ScatteredMemory memory;
     for (int k = 0; k < 12; ++k) {
-        for (int block = 0; block < 100; ++block) {
-            blocks.push_back(std::make_unique<char[]>(static_cast<std::size_t>(1000 * (k + 1) + 37 * block)));
-        }
-        for (std::size_t block = static_cast<std::size_t>(k); block < blocks.size(); block += 3) {
-            blocks[block].reset();
-        }
+        memory.scatter();
         const PairCorrelation again = measure_pair_correlation(packing);
         EXPECT_EQ(again.by_distance.g, first.by_distance.g);
         EXPECT_EQ(again.by_distance.g_stderr, first.by_distance.g_stderr);

@@ -146,6 +146,25 @@ TEST(PoreSizes, DoNotDependOnTheNumberOfThreads) {
     omp_set_num_threads(threads);
 }
 
+TEST(PoreSizes, AreTheSameWhateverTheMemoryLooksLike) {
+    const Packing equal = test::random_spheres(300, {6, 7, 8}, 0.4, 0.4, 9);
+    const Packing unequal = test::random_spheres(100, {5, 4, 5}, 0.2, 0.6, 9);
+    Packing open = equal;
+    open.cell = Cell::open({0, 0, 0}, equal.cell.lengths());
+    for (const Packing& packing : {equal, unequal, open, test::face_centred({3, 3, 3}, 0.5)}) {
+        const PoreSizes first = measure_pores(packing, {.radii = 20});
+        test::ScatteredMemory memory;
+        for (int k = 0; k < 5; ++k) {
+            memory.scatter();
+            const PoreSizes again = measure_pores(packing, {.radii = 20});
+            EXPECT_EQ(again.exclusion_probability, first.exclusion_probability);
+            EXPECT_EQ(again.mean, first.mean);
+            EXPECT_EQ(again.max, first.max);
+            EXPECT_EQ(again.volume, first.volume);
+        }
+    }
+}
+
 TEST(PoreSizes, RefuseBadInput) {
     const Packing good = test::simple_cubic({2, 2, 2}, 1);
     EXPECT_THROW(measure_pores(Packing{}), std::invalid_argument);

@@ -7,6 +7,7 @@
 #include "support/reference_data.hpp"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace coagula::characterize::test {
@@ -55,6 +56,24 @@ inline Packing random_spheres(Index particles, const Eigen::Vector3d& lengths, d
     }
     return packing;
 }
+
+/// Holds pieces of memory with gaps between, so that what is allocated next lies elsewhere: results must not depend on addresses.
+class ScatteredMemory {
+public:
+    void scatter() {
+        ++times_;
+        for (std::size_t piece = 0; piece < 100; ++piece) {
+            pieces_.push_back(std::make_unique<char[]>(1000 * times_ + 37 * piece));
+        }
+        for (std::size_t piece = times_; piece < pieces_.size(); piece += 3) {
+            pieces_[piece].reset();
+        }
+    }
+
+private:
+    std::size_t times_ = 0;
+    std::vector<std::unique_ptr<char[]>> pieces_;
+};
 
 using coagula::testing::read_columns;
 using coagula::testing::reference_structure;
