@@ -279,8 +279,6 @@ void extrapolate(double range, StructureFactor& result) {
     }
 }
 
-}  // namespace
-
 /// Half the range of the shells around the largest that differ from it by less than two standard errors; a shell at least.
 double peak_width(const StructureFactor& found, Index largest) {
     const auto is_as_large = [&](Index shell) {
@@ -297,6 +295,8 @@ double peak_width(const StructureFactor& found, Index largest) {
     const double spacing = found.wave_number[1] - found.wave_number[0];
     return std::max(0.5 * (found.wave_number[last] - found.wave_number[first]), spacing / std::sqrt(12.0));
 }
+
+}  // namespace
 
 StructureFactor measure_structure_factor(const Packing& packing, const StructureFactorOptions& options) {
     check(packing);
