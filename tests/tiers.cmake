@@ -69,6 +69,7 @@ set(coagula_slow_tests
 )
 set(coagula_rates_tests
   "DiagnosisRates[.].*"
+  "UncertaintyRates[.].*"
   "Noise[.]IntervalsCover.*"
   "PowerLaw[.]IntervalsCover.*"
   "ErrorShape[.]FindsCorrelationByChance.*"

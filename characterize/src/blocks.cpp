@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace coagula::characterize {
 
@@ -71,6 +72,25 @@ Eigen::MatrixXd sum_by_block(const Blocks& blocks, const Eigen::MatrixXd& values
         }
     }
     return sums;
+}
+
+double extreme_error(const Eigen::VectorXd& extremes) {
+    constexpr Index fewest = 4;
+    if (extremes.size() < fewest) {
+        return unset;
+    }
+    return std::sqrt((extremes.array() - extremes.mean()).square().sum() / static_cast<double>(extremes.size() - 1));
+}
+
+Eigen::VectorXd largest_by_block(const Blocks& blocks, const Eigen::VectorXd& values) {
+    Eigen::VectorXd largest = Eigen::VectorXd::Constant(blocks.count, -std::numeric_limits<double>::infinity());
+    for (Index i = 0; i < values.size(); ++i) {
+        if (blocks.of_particle[i] >= 0) {
+            double& found = largest[blocks.of_particle[i]];
+            found = std::max(found, values[i]);
+        }
+    }
+    return largest;
 }
 
 Eigen::VectorXd block_errors(const Eigen::MatrixXd& sums, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& estimate,

@@ -136,21 +136,26 @@ ChordDistribution distribution_of(const std::array<const std::vector<double>*, 3
     ChordDistribution result;
     double longest = 0;
     BlockSums all(groups);
+    Eigen::Vector3d square_errors;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         BlockSums own(groups);
+        BlockSums squares(groups);
         for (std::size_t k = 0; k < lengths[axis]->size(); ++k) {
             const double length = (*lengths[axis])[k];
             own.add((*groups_of[axis])[k], length);
+            squares.add((*groups_of[axis])[k], length * length);
             all.add((*groups_of[axis])[k], length);
             longest = std::max(longest, length);
         }
         result.mean_by_axis[static_cast<Index>(axis)] = own.weight() > 0 ? own.mean() : unset;
         result.stderr_by_axis[static_cast<Index>(axis)] = own.mean_stderr();
+        square_errors[static_cast<Index>(axis)] = squares.mean_stderr();
     }
     result.chords = static_cast<Index>(all.weight());
     require(result.chords > 0, "no line through the packing meets both spheres and voids: there are no chords to measure");
     result.mean = all.mean();
     result.mean_stderr = result.stderr_by_axis.mean();  // the axes see the same structure: their errors are not independent
+    result.second_moment_stderr = square_errors.mean();
     result.second_moment = 0;
     const double width = longest / static_cast<double>(bins);
     result.length = Eigen::VectorXd::LinSpaced(bins, width / 2, longest - width / 2);

@@ -76,6 +76,26 @@ BondAngles measure_bond_angles(const Packing& packing, const BondAngleOptions& o
     return result;
 }
 
+namespace {
+
+/// @param first distance to the nearest particle, of each averaged particle.
+void add_errors_of_nearest(const Eigen::VectorXd& first, const AveragedParticles& averaged, NeighbourDistances& result) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(3, averaged.blocks);
+    Eigen::VectorXd smallest = Eigen::VectorXd::Constant(averaged.blocks, std::numeric_limits<double>::infinity());
+    for (Index k = 0; k < first.size(); ++k) {
+        const int block = averaged.block[static_cast<std::size_t>(k)];
+        sums.col(block) += Eigen::Vector3d(1, first[k], first[k] * first[k]);
+        smallest[block] = std::min(smallest[block], first[k]);
+    }
+    result.smallest_stderr = extreme_error(smallest);
+    result.spread_stderr = block_errors(sums, [](const Eigen::VectorXd& sum) {
+        const double mean = sum[1] / sum[0];
+        return Eigen::VectorXd::Constant(1, std::sqrt(std::max(0.0, sum[2] / sum[0] - mean * mean)));
+    })[0];
+}
+
+}  // namespace
+
 NeighbourDistances measure_neighbour_distances(const Packing& packing, const NeighbourDistanceOptions& options) {
     check(packing);
     require(options.neighbours >= 1 && options.neighbours <= 100 && options.bins >= 1,
@@ -116,6 +136,7 @@ NeighbourDistances measure_neighbour_distances(const Packing& packing, const Nei
     }
     result.smallest = first.minCoeff();
     result.spread = std::sqrt((first.array() - first.mean()).square().mean());
+    add_errors_of_nearest(first, averaged, result);
     result.mean_gap = gaps.mean();
     result.mean_gap_stderr = gaps.mean_stderr();
     return result;

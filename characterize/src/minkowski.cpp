@@ -237,6 +237,19 @@ void add_standard_errors(const std::vector<Sums>& blocks, double unit, Minkowski
     result.euler_characteristic_stderr = error[euler] / (unit * unit * unit);
 }
 
+/// Standard error of the dilation at which the Euler characteristic passes zero.
+double percolation_error(const std::vector<Sums>& blocks, const Eigen::VectorXd& dilation) {
+    const Index steps = dilation.size();
+    Eigen::MatrixXd sums(steps + 2, std::ssize(blocks));
+    for (Index k = 0; k < sums.cols(); ++k) {
+        const Sums& block = blocks[static_cast<std::size_t>(k)];
+        sums.col(k) << block.col(euler), block(0, particles), block(0, cells);
+    }
+    return block_errors(
+        sums, [&](const Eigen::VectorXd& sum) { return Eigen::VectorXd::Constant(1, zero_of(sum.head(steps), dilation)); },
+        [steps](const Eigen::VectorXd& sum) { return sum[steps] / sum[steps + 1]; })[0];
+}
+
 }  // namespace
 
 Minkowski measure_minkowski(const Packing& packing, const MinkowskiOptions& options, const Progress& progress) {
@@ -268,6 +281,7 @@ Minkowski measure_minkowski(const Packing& packing, const MinkowskiOptions& opti
     result.inner_particles = base.inner_count();
     result.volume = volume[0] * unit * unit * unit;
     result.percolation_dilation = zero_of(result.euler_characteristic, result.dilation);
+    result.percolation_dilation_stderr = unit * percolation_error(blocks, dilation);
     add_standard_errors(blocks, unit, result);
     progress.update(stage, 1);
     return result;

@@ -279,6 +279,23 @@ void extrapolate(double range, StructureFactor& result) {
     }
 }
 
+/// Half the range of the shells around the largest that differ from it by less than two standard errors; a shell at least.
+double peak_width(const StructureFactor& found, Index largest) {
+    const auto is_as_large = [&](Index shell) {
+        return found.direct[largest] - found.direct[shell] < 2 * std::hypot(found.direct_stderr[largest], found.direct_stderr[shell]);
+    };
+    Index first = largest;
+    Index last = largest;
+    while (first > 0 && is_as_large(first - 1)) {
+        --first;
+    }
+    while (last + 1 < found.direct.size() && is_as_large(last + 1)) {
+        ++last;
+    }
+    const double spacing = found.wave_number[1] - found.wave_number[0];
+    return std::max(0.5 * (found.wave_number[last] - found.wave_number[first]), spacing / std::sqrt(12.0));
+}
+
 }  // namespace
 
 StructureFactor measure_structure_factor(const Packing& packing, const StructureFactorOptions& options) {
@@ -304,6 +321,8 @@ StructureFactor measure_structure_factor(const Packing& packing, const Structure
     result.peak = result.direct.maxCoeff(&largest);
     result.wave_number /= diameter;
     result.peak_wave_number = result.wave_number[largest];
+    result.peak_stderr = result.direct_stderr[largest];
+    result.peak_wave_number_stderr = peak_width(result, largest);
     return result;
 }
 

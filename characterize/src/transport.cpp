@@ -59,6 +59,16 @@ DirectionalValue directional(const Eigen::Array3d& fine, const Eigen::Array3d& c
     return value;
 }
 
+/// Standard errors from the axes. @param lengths Johnson's Lambda along each axis [m].
+void add_errors(const Eigen::Array3d& lengths, Transport& result) {
+    const double factor = result.formation_factor.mean;
+    const Eigen::Array3d permeabilities = lengths.square() / (8 * result.formation_factor.by_axis.array());
+    const auto error = [](const Eigen::Array3d& values) { return std::sqrt((values - values.mean()).square().sum() / 6); };
+    result.pore_length_stderr = error(lengths);
+    result.permeability_stderr = error(permeabilities);
+    result.diffusive_tortuosity_stderr = result.diffusive_tortuosity * result.formation_factor.axis_stderr / factor;
+}
+
 VoxelGrid finest_grid(const Packing& packing, const TransportOptions& options) {
     const double edge = std::max(1 / options.voxels_per_radius, std::cbrt(packing.cell.volume() / options.most_voxels));
     const VoxelGrid grid = make_grid(packing, edge);
@@ -97,8 +107,11 @@ Transport measure_transport(const Packing& packing, const TransportOptions& opti
     result.diffusive_tortuosity = result.formation_factor.mean * result.void_fraction;
     result.pore_length = unit * -2 * found.conductivity.mean() / found.slope.mean();
     result.permeability = result.pore_length * result.pore_length / (8 * result.formation_factor.mean);
+    add_errors(unit * -2 * found.conductivity / found.slope, result);
     const double surface = space.surface[0] / unit;
     result.permeability_kozeny_carman = std::pow(result.void_fraction, 3) / (5 * surface * surface);
+    result.permeability_kozeny_carman_stderr =
+        2 * result.permeability_kozeny_carman * space.surface_stderr / space.surface[0];
     result.voxels = fine.count;
     result.voxels_per_radius = 1 / fine.edge.maxCoeff();
     return result;

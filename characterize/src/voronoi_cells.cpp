@@ -96,20 +96,6 @@ bool keeps(const PowerDiagram& diagram, const FacePart& part) {
     return step[0] != 0 ? step[0] > 0 : (step[1] != 0 ? step[1] > 0 : step[2] > 0);
 }
 
-/// k of largest likelihood of a gamma law with mean 1: log k - digamma(k) = -mean(log x), by Newton's method for log k.
-double gamma_shape(double minus_mean_log) {
-    double k = 0.5 / minus_mean_log;
-    for (int step = 0; step < 50; ++step) {
-        const double value = std::log(k) - boost::math::digamma(k) - minus_mean_log;
-        const double change = value / (1 - k * boost::math::trigamma(k));
-        k *= std::exp(std::clamp(-change, -1.0, 1.0));
-        if (std::abs(change) < 1e-13) {
-            break;
-        }
-    }
-    return k;
-}
-
 double kolmogorov_distance(Eigen::VectorXd x, double shape) {
     std::sort(x.begin(), x.end());
     double distance = 0;
@@ -177,6 +163,23 @@ VoronoiFaces measure_voronoi_faces(const ReducedDiagram& reduced) {
 VoronoiFaces measure_voronoi_faces(const Packing& packing) {
     check(packing);
     return measure_voronoi_faces(reduced_diagram(packing));
+}
+
+// log k - digamma(k) = -mean(log x), by Newton's method for log k.
+double gamma_shape(double minus_mean_log) {
+    if (!(minus_mean_log > 0)) {
+        return unset;
+    }
+    double k = 0.5 / minus_mean_log;
+    for (int step = 0; step < 50; ++step) {
+        const double value = std::log(k) - boost::math::digamma(k) - minus_mean_log;
+        const double change = value / (1 - k * boost::math::trigamma(k));
+        k *= std::exp(std::clamp(-change, -1.0, 1.0));
+        if (std::abs(change) < 1e-13) {
+            break;
+        }
+    }
+    return k;
 }
 
 VoronoiDistribution fit_voronoi_volumes(const Eigen::VectorXd& volumes, double radius) {

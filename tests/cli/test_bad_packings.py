@@ -72,8 +72,8 @@ class Packings(ProgramTest):
         """Particles see their own images; what needs room says so."""
         self.packing([(0.2, 0.2, 0.2), (1.2, 1.2, 1.2)], "--box", "1.8um")
         text = self.measure_all()
-        self.assertIn("shorter than eight mean radii", text)
-        self.refuse("density_fluctuations", ["shorter than eight mean radii"])
+        self.assertIn("too small for density fluctuations", text)
+        self.refuse("density_fluctuations", ["too small for density fluctuations"])
         self.refuse_range("3um", "half the shortest length")
         self.packing([(0.6, 0.6, 0.6 + 1.1 * k) for k in range(10)], "--box", "1.2um,1.2um,12um")
         self.measure_all()

@@ -28,6 +28,10 @@ Json to_json(const ComparedMeasure& measure, const Files& files) {
             {"more_heterogeneous", file_or_null(measure.more_heterogeneous(), files)}};
 }
 
+std::string one_decimal(double value) {
+    return with_unit(std::round(10 * value) / 10, "1");
+}
+
 std::string readable(const std::string& name) {
     std::string words = name;
     for (char& letter : words) {
@@ -52,7 +56,7 @@ std::string row(const ComparedMeasure& measure, const Files& files) {
     const bool known = std::isfinite(measure.difference_error());
     return with_error(measure.value[0], measure.error[0]) + ", " + with_error(measure.value[1], measure.error[1]) + ": " +
            (which   ? files.at(*which) + " is more heterogeneous, by " +
-                        with_unit(std::abs(measure.difference()) / measure.difference_error(), "standard errors")
+                        one_decimal(std::abs(measure.difference()) / measure.difference_error()) + " standard errors"
             : known ? "less than two standard errors apart"
                     : "no standard error, as a structure is too small for sub-volumes");
 }
@@ -74,7 +78,7 @@ const char* name_of(Agreement agreement) {
 }  // namespace
 
 std::string verdict(const HeterogeneityComparison& comparison, const Files& files) {
-    const auto count = std::to_string(comparison.measures.size());
+    const std::string count = comparison.measures.size() == 3 ? "three" : std::to_string(comparison.measures.size());
     switch (comparison.agreement()) {
         case Agreement::all:
             return files.at(*comparison.more_heterogeneous()) + " is more heterogeneous by all " + count + " measures";

@@ -2,6 +2,7 @@
 #include <coagula/characterize/bond_order.hpp>
 
 #include "distribution.hpp"
+#include "inner_sums.hpp"
 #include "optional_results.hpp"
 
 namespace coagula::characterize {
@@ -10,14 +11,27 @@ Measure bond_order_measure();
 
 namespace {
 
+/// Standard error of the standard deviation of a value per particle; NaN for those that do not count.
+double spread_error(const MeasureInput& input, const Eigen::VectorXd& values) {
+    Eigen::MatrixXd moments(3, values.size());
+    for (Index i = 0; i < values.size(); ++i) {
+        const double value = values[i];
+        moments.col(i) = std::isfinite(value) ? Eigen::Vector3d(1, value, value * value) : Eigen::Vector3d::Zero();
+    }
+    return errors_of_means(input, moments, [](const Eigen::VectorXd& sum) {
+        const double mean = sum[1] / sum[0];
+        return Eigen::VectorXd::Constant(1, std::sqrt(std::max(0.0, sum[2] / sum[0] - mean * mean)));
+    })[0];
+}
+
 MeasureResult run(const MeasureInput& input) {
     const BondOrder found =
         if_applicable([&] { return measure_bond_order(input.packing(), input.voronoi_faces(), input.inner()); });
     MeasureResult result;
     result.add("bond_order/q4", found.q4_mean, "1", "mean q4 of the Voronoi cells, facets weighted by area", found.q4_mean_stderr);
     result.add("bond_order/q6", found.q6_mean, "1", "mean q6 of the Voronoi cells, facets weighted by area", found.q6_mean_stderr);
-    result.add("bond_order/q4_spread", found.q4_spread, "1", "standard deviation of q4");
-    result.add("bond_order/q6_spread", found.q6_spread, "1", "standard deviation of q6");
+    result.add("bond_order/q4_spread", found.q4_spread, "1", "standard deviation of q4", spread_error(input, found.q4));
+    result.add("bond_order/q6_spread", found.q6_spread, "1", "standard deviation of q6", spread_error(input, found.q6));
     result.add("bond_order/facets", found.facets, "1", "mean number of facets of a Voronoi cell", found.facets_stderr);
     constexpr Index bins = 50;
     result.add_vector("bond_order/value", middles_of_bins(0, 1, bins), "1", "middles of the bins of q4 and q6");

@@ -15,7 +15,7 @@ void add_phase(const ChordDistribution& found, const std::string& phase, Measure
     result.add_vector(name + "/length", found.length, "m", "middle of the bins of the length" + of);
     result.add_vector(name + "/density", found.density, "m-1", "probability density of the length" + of);
     result.add(name + "/mean", found.mean, "m", "mean length" + of, found.mean_stderr);
-    result.add(name + "/second_moment", found.second_moment, "m2", "mean square of the length" + of);
+    result.add(name + "/second_moment", found.second_moment, "m2", "mean square of the length" + of, found.second_moment_stderr);
     add_known(result, name + "/mean_by_axis", Eigen::VectorXd(found.mean_by_axis), "m", "mean length" + of + " along x, y, z");
     add_known(result, name + "/mean_by_axis_stderr", Eigen::VectorXd(found.stderr_by_axis), "m", "standard errors of mean_by_axis");
     result.add_count(name + "/chords", found.chords, "number" + of);

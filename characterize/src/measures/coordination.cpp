@@ -1,4 +1,5 @@
 // Measure: coordination number and rattlers.
+#include "inner_sums.hpp"
 #include "measure_options.hpp"
 
 namespace coagula::characterize {
@@ -7,17 +8,19 @@ Measure coordination_measure();
 
 namespace {
 
-/// Standard errors of the mean number of contacts and of the fraction of particles with fewer than three; structures of the same
-/// kind have the same number density.
-Eigen::VectorXd mean_errors(const MeasureInput& input, const Eigen::VectorXi& counts) {
-    Eigen::MatrixXd values(4, counts.size());
-    values.row(0) = counts.cast<double>();
-    values.row(1) = (counts.array() < 3).cast<double>();
-    values.row(2).setOnes();
-    values.row(3) = input.voronoi_cells().volumes;
-    return block_errors(
-        sum_by_block(input.blocks(), values), [](const Eigen::VectorXd& sum) { return Eigen::VectorXd(sum.head(2) / sum[2]); },
-        [](const Eigen::VectorXd& sum) { return sum[2] / sum[3]; });
+/// Standard errors of the mean number of contacts, of the fraction of particles with fewer than three, of the fraction of rattlers and
+/// of the mean number of contacts among the others.
+Eigen::VectorXd mean_errors(const MeasureInput& input, const Coordination& coordination) {
+    const Eigen::VectorXi left = prune_rattlers(coordination.contacts);
+    Eigen::MatrixXd values(5, left.size());
+    values.row(0).setOnes();
+    values.row(1) = coordination.counts.cast<double>();
+    values.row(2) = (coordination.counts.array() < 3).cast<double>();
+    values.row(3) = (left.array() < 0).cast<double>();
+    values.row(4) = left.cwiseMax(0).cast<double>();
+    return errors_of_means(input, values, [](const Eigen::VectorXd& sum) {
+        return Eigen::VectorXd{{sum[1] / sum[0], sum[2] / sum[0], sum[3] / sum[0], sum[4] / std::max(1.0, sum[0] - sum[3])}};
+    });
 }
 
 void add_means(const Coordination& coordination, double tolerance, const Eigen::VectorXd& error, MeasureResult& result) {
@@ -30,13 +33,14 @@ void add_means(const Coordination& coordination, double tolerance, const Eigen::
         result.add_count("inner_particles", coordination.inner_particles,
                          "particles that no neighbour beyond the free surface could touch: the means are over these");
         result.add("coordination_all", coordination.mean_all, "1",
-                   "mean number of contacts of a particle, those at the free surface included");
+                   "mean number of contacts of a particle, those at the free surface included", error[0]);
     }
     result.add("contact_tolerance", tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are in contact");
     result.add("coordination_without_rattlers", coordination.mean_without_rattlers, "1",
-               "contacts among the other particles, per particle");
+               "contacts among the other particles, per particle", error[3]);
     result.add("rattler_fraction", coordination.rattler_fraction, "1",
-               "fraction of particles left with fewer than two contacts when such particles are removed again and again");
+               "fraction of particles left with fewer than two contacts when such particles are removed again and again",
+               error[2]);
     result.add("below_three_fraction", coordination.below_three_fraction, "1",
                "fraction of the particles with fewer than three contacts", error[1]);
 }
@@ -45,7 +49,7 @@ MeasureResult run(const MeasureInput& input) {
     const Coordination& coordination = input.coordination();
     const double tolerance = input.number("contact-tolerance");
     MeasureResult result;
-    add_means(coordination, tolerance, mean_errors(input, coordination.counts), result);
+    add_means(coordination, tolerance, mean_errors(input, coordination), result);
     result.add_count("contacts", coordination.contacts.size(), "number of contacts");
     result.add_counts("coordination_histogram", coordination.histogram, "number of particles with 0, 1, 2 ... contacts");
     result.add_field("coordination", coordination.counts.cast<double>().transpose(), "1", "number of contacts of the particle");

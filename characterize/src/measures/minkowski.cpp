@@ -27,7 +27,7 @@ MeasureResult run(const MeasureInput& input) {
     result.add("minkowski/undilated/euler_characteristic", found.euler_characteristic[0], "m-3", "at dilation 0",
                found.euler_characteristic_stderr);
     add_known(result, "minkowski/percolation_dilation", found.percolation_dilation, "m",
-              "dilation at which the Euler characteristic first passes zero");
+              "dilation at which the Euler characteristic first passes zero", found.percolation_dilation_stderr);
     result.add_line("surface of the spheres", with_unit(found.surface[0] * input.r0(), "1/r0"));
     return result;
 }

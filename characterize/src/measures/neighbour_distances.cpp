@@ -19,8 +19,8 @@ MeasureResult run(const MeasureInput& input) {
     result.add_vector("neighbour_distances/distance", found.distance, "m", "middle of the bins of the nearest distance");
     result.add_vector("neighbour_distances/density", found.density, "m-1", "H(r): probability density of the nearest distance");
     result.add("neighbour_distances/nearest", found.mean[0], "m", "mean distance to the nearest centre", found.mean_stderr[0]);
-    result.add("neighbour_distances/smallest", found.smallest, "m", "smallest distance of two centres");
-    result.add("neighbour_distances/spread", found.spread, "m", "standard deviation of the nearest distance");
+    result.add("neighbour_distances/smallest", found.smallest, "m", "smallest distance of two centres", found.smallest_stderr);
+    result.add("neighbour_distances/spread", found.spread, "m", "standard deviation of the nearest distance", found.spread_stderr);
     result.add("neighbour_distances/mean_gap", found.mean_gap, "m",
                "mean distance of surfaces to the nearest particle; negative: overlap", found.mean_gap_stderr);
     result.add_line("nearest neighbour", "at " + with_unit(found.mean[0] / (2 * input.r0()), "diameters") + " on average");

@@ -20,6 +20,15 @@ void add_distribution(const RadialDistribution& found, const std::string& name, 
     result.add_vector(name + "/neighbours", found.neighbours, "1", "mean number of particles nearer than the upper edge");
 }
 
+/// Standard error of the number density [m-3], from the Voronoi cells of the inner particles; of a periodic packing it is a fact.
+double density_error(const MeasureInput& input) {
+    const Eigen::VectorXd& volumes = input.voronoi_cells().volumes;
+    Eigen::MatrixXd values(2, volumes.size());
+    values << Eigen::RowVectorXd::Ones(volumes.size()), volumes.transpose();
+    const auto density = [](const Eigen::VectorXd& sum) { return Eigen::VectorXd::Constant(1, sum[0] / sum[1]); };
+    return input.packing().cell.is_periodic() ? 0.0 : block_errors(sum_by_block(input.blocks(), values), density)[0];
+}
+
 MeasureResult run(const MeasureInput& input) {
     const auto measure = [&] {
         return measure_pair_correlation(input.packing(), {.range = input.has("pair-range") ? input.number("pair-range") : unset,
@@ -36,7 +45,7 @@ MeasureResult run(const MeasureInput& input) {
               "mean number of neighbours in the bin of the contacts", found.contact_peak_stderr);
     add_known(result, "pair_correlation/contact_value", found.contact_value, "1",
               "g at r_i + r_j, extrapolated from outside the bin of the contacts", found.contact_value_stderr);
-    result.add("pair_correlation/number_density", found.number_density, "m-3", "particles per volume");
+    result.add("pair_correlation/number_density", found.number_density, "m-3", "particles per volume", density_error(input));
     result.add_count("pair_correlation/centres", found.centres, "particles around which neighbours were counted");
     if (std::isfinite(found.contact_peak)) {
         result.add_line("contact peak of g(r)", with_unit(found.contact_peak, "1") + " neighbours");

@@ -21,4 +21,19 @@ inline Eigen::VectorXd pore_errors(const PoreSizes& pores, const std::function<E
     return block_errors(sums, curve, [radii](const Eigen::VectorXd& sum) { return sum[0] / sum[radii]; });
 }
 
+/// Standard error of the radius of the largest pore [m], from the largest radius with a void in each sub-volume.
+inline double largest_pore_error(const PoreSizes& pores) {
+    constexpr double rounding = 1e-12;
+    const Index blocks = pores.void_by_block.cols();
+    Eigen::VectorXd largest = Eigen::VectorXd::Zero(blocks);
+    for (Index block = 0; block < blocks; ++block) {
+        for (Index k = 0; k < pores.radius.size(); ++k) {
+            if (pores.void_by_block(k, block) > rounding * pores.volume_by_block(k, block)) {
+                largest[block] = pores.radius[k];
+            }
+        }
+    }
+    return extreme_error(largest);
+}
+
 }  // namespace coagula::characterize

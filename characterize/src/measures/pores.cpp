@@ -27,19 +27,29 @@ Eigen::VectorXd size_errors(const PoreSizes& pores) {
 
 void add_sizes(const PoreSizes& pores, double r0, MeasureResult& result) {
     const Eigen::VectorXd error = size_errors(pores);
+    const double largest_error = largest_pore_error(pores);
     result.add("pore_size/mean", pores.mean / r0, "1", "mean pore radius over r0", error[0] / r0);
     result.add("pore_size/second_moment", pores.second_moment / (r0 * r0), "1", "mean square of the pore radius over r0^2",
                error[1] / (r0 * r0));
     result.add("pore_size/median", pores.median / r0, "1", "median pore radius over r0", error[2] / r0);
-    result.add("pore_size/max", pores.max / r0, "1", "radius of the largest pore over r0");
-    result.add("pore_size/mean_m", pores.mean, "m", "mean pore radius");
-    result.add("pore_size/second_moment_m2", pores.second_moment, "m2", "mean square of the pore radius");
-    result.add("pore_size/median_m", pores.median, "m", "median pore radius");
-    result.add("pore_size/max_m", pores.max, "m", "radius of the largest pore");
+    result.add("pore_size/max", pores.max / r0, "1", "radius of the largest pore over r0", largest_error / r0);
+    result.add("pore_size/mean_m", pores.mean, "m", "mean pore radius", error[0]);
+    result.add("pore_size/second_moment_m2", pores.second_moment, "m2", "mean square of the pore radius", error[1]);
+    result.add("pore_size/median_m", pores.median, "m", "median pore radius", error[2]);
+    result.add("pore_size/max_m", pores.max, "m", "radius of the largest pore", largest_error);
 }
 
-void add_space(const PoreSizes& pores, MeasureResult& result) {
-    result.add("pore_space/void_fraction", pores.void_fraction, "1", "void volume over the volume measured");
+/// Standard error of the void fraction; of a periodic packing it is a fact.
+double void_fraction_error(const PoreSizes& pores, const Cell& cell) {
+    Eigen::MatrixXd sums(2, pores.void_by_block.cols());
+    sums << pores.void_by_block.row(0), pores.volume_by_block.row(0);
+    const auto fraction = [](const Eigen::VectorXd& sum) { return Eigen::VectorXd::Constant(1, sum[0] / sum[1]); };
+    return cell.is_periodic() ? 0.0 : block_errors(sums, fraction)[0];
+}
+
+void add_space(const PoreSizes& pores, const Cell& cell, MeasureResult& result) {
+    result.add("pore_space/void_fraction", pores.void_fraction, "1", "void volume over the volume measured",
+               void_fraction_error(pores, cell));
     result.add("pore_space/volume", pores.volume, "m3",
                "volume measured: the periodic box, or the inner Voronoi cells of an open packing");
     result.add_count("pore_space/inner_particles", pores.inner_particles, "particles whose Voronoi cells were measured");
@@ -56,7 +66,7 @@ MeasureResult run(const MeasureInput& input) {
     const double r0 = input.r0();
     MeasureResult result;
     add_sizes(pores, r0, result);
-    add_space(pores, result);
+    add_space(pores, input.packing().cell, result);
     result.add_vector("pore_curve/radius", pores.radius, "m", "radius r");
     result.add_vector("pore_curve/exclusion_probability", pores.exclusion_probability, "1",
                       "P(r_P > r): probability that a point of the void space is farther than r from every surface");

@@ -24,8 +24,9 @@ MeasureResult run(const MeasureInput& input) {
     result.add_counts("structure_factor/vectors", found.vectors, "number of wave vectors used in each shell");
     add_known(result, "structure_factor/at_zero", found.at_zero, "1", "S(0), extrapolated by S(0) + b q^2 + c q^4",
               found.at_zero_stderr);
-    result.add("structure_factor/peak", found.peak, "1", "largest S(q)");
-    result.add("structure_factor/peak_wave_number", found.peak_wave_number, "m-1", "q of the largest S(q)");
+    result.add("structure_factor/peak", found.peak, "1", "largest S(q)", found.peak_stderr);
+    result.add("structure_factor/peak_wave_number", found.peak_wave_number, "m-1", "q of the largest S(q)",
+               found.peak_wave_number_stderr);
     result.add_line("structure factor",
                     "largest " + with_unit(found.peak, "1") +
                         " at q = " + with_unit(2 * input.r0() * found.peak_wave_number, "/ diameter") +

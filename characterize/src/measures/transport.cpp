@@ -24,10 +24,12 @@ MeasureResult run(const MeasureInput& input) {
     MeasureResult result;
     add_value(found.formation_factor, "formation_factor", "conductivity of the liquid over that of the packing", result);
     add_value(found.tortuosity, "tortuosity", "geodesic tortuosity: shortest path through the pores over its period", result);
-    result.add("transport/diffusive_tortuosity", found.diffusive_tortuosity, "1", "formation factor times void fraction");
-    result.add("transport/pore_length", found.pore_length, "m", "Johnson's Lambda = 2 / (d ln F / d r)");
-    result.add("transport/permeability", found.permeability, "m2", "estimate Lambda^2 / (8 F)");
-    result.add("transport/permeability_kozeny_carman", found.permeability_kozeny_carman, "m2", "estimate phi^3 / (5 s^2)");
+    result.add("transport/diffusive_tortuosity", found.diffusive_tortuosity, "1", "formation factor times void fraction",
+               found.diffusive_tortuosity_stderr);
+    result.add("transport/pore_length", found.pore_length, "m", "Johnson's Lambda = 2 / (d ln F / d r)", found.pore_length_stderr);
+    result.add("transport/permeability", found.permeability, "m2", "estimate Lambda^2 / (8 F)", found.permeability_stderr);
+    result.add("transport/permeability_kozeny_carman", found.permeability_kozeny_carman, "m2", "estimate phi^3 / (5 s^2)",
+               found.permeability_kozeny_carman_stderr);
     result.add("transport/voxels_per_radius", found.voxels_per_radius, "1",
                "mean radius over the edge of a voxel of the finer grid");
     result.add_line("formation factor", with_error(found.formation_factor.mean, found.formation_factor.grid_error));

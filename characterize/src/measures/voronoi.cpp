@@ -22,19 +22,30 @@ Eigen::VectorXd certain_volumes(const VoronoiCells& cells) {
     return Eigen::Map<const Eigen::VectorXd>(volumes.data(), std::ssize(volumes));
 }
 
-/// Standard errors of mean [m^3], relative standard deviation, and width.
+/// Standard errors of relative standard deviation, width and shape.
 Eigen::VectorXd moment_errors(const MeasureInput& input, double smallest) {
     const Eigen::VectorXd& volumes = input.voronoi_cells().volumes;
-    Eigen::MatrixXd values(3, volumes.size());
-    values << Eigen::RowVectorXd::Ones(volumes.size()), volumes.transpose(), volumes.array().square().matrix().transpose();
+    Eigen::MatrixXd values(4, volumes.size());
+    values << Eigen::RowVectorXd::Ones(volumes.size()), volumes.transpose(), volumes.array().square().matrix().transpose(),
+        volumes.unaryExpr([&](double volume) { return std::log(std::max(volume / smallest - 1, 1e-300)); }).transpose();
     return block_errors(
         sum_by_block(input.blocks(), values),
         [smallest](const Eigen::VectorXd& sum) {
             const double mean = sum[1] / sum[0];
             const double deviation = std::sqrt(std::max(0.0, sum[2] / sum[0] - mean * mean));
-            return Eigen::VectorXd{{deviation / mean, deviation / (mean - smallest)}};
+            const double minus_mean_log = std::log(mean / smallest - 1) - sum[3] / sum[0];
+            return Eigen::VectorXd{{deviation / mean, deviation / (mean - smallest), gamma_shape(minus_mean_log)}};
         },
         [](const Eigen::VectorXd& sum) { return sum[0] / sum[1]; });
+}
+
+/// Standard error of the mean volume [m^3]; of a periodic packing it is a fact.
+double mean_error(const MeasureInput& input) {
+    const Eigen::VectorXd& volumes = input.voronoi_cells().volumes;
+    Eigen::MatrixXd values(2, volumes.size());
+    values << Eigen::RowVectorXd::Ones(volumes.size()), volumes.transpose();
+    const auto mean = [](const Eigen::VectorXd& sum) { return Eigen::VectorXd::Constant(1, sum[1] / sum[0]); };
+    return input.packing().cell.is_periodic() ? 0.0 : block_errors(sum_by_block(input.blocks(), values), mean)[0];
 }
 
 /// The density of x = free volume over its mean, measured and fitted.
@@ -58,7 +69,7 @@ void add_free_volumes(const Eigen::VectorXd& volumes, const VoronoiDistribution&
                error[1]);
     result.add_line("width of the Voronoi volumes", with_error(found.width, error[1]) + "   (free volume over its mean)");
     if (std::isfinite(found.shape)) {
-        result.add("voronoi/shape", found.shape, "1", "k of the gamma law fitted to x by largest likelihood");
+        result.add("voronoi/shape", found.shape, "1", "k of the gamma law fitted to x by largest likelihood", error[2]);
         result.add("voronoi/distance", found.distance, "1", "largest difference between the distribution of x and the gamma law");
         result.add_line("gamma law of the free volumes",
                         "k = " + with_unit(found.shape, "1") + ", largest difference " + with_unit(found.distance, "1"));
@@ -75,7 +86,7 @@ MeasureResult run(const MeasureInput& input) {
     const bool equal = is_monodisperse(input.packing());
     const Eigen::VectorXd error = moment_errors(input, smallest_voronoi_volume * r0 * r0 * r0);
     MeasureResult result;
-    result.add("voronoi/mean", found.mean, "m3", "mean volume of the Voronoi (power) cells");
+    result.add("voronoi/mean", found.mean, "m3", "mean volume of the Voronoi (power) cells", mean_error(input));
     result.add("voronoi/deviation", found.deviation / found.mean, "1", "standard deviation of the volumes over their mean",
                error[0]);
     result.add_count("voronoi/cells", found.cells, "number of cells");

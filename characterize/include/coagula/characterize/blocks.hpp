@@ -35,4 +35,12 @@ Eigen::MatrixXd sum_by_block(const Blocks& blocks, const Eigen::MatrixXd& values
 Eigen::VectorXd block_errors(const Eigen::MatrixXd& sums, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& estimate,
                              const std::function<double(const Eigen::VectorXd&)>& held_fixed = {});
 
+/// Standard error of the largest (or smallest) value in a structure: the standard deviation of the largest (smallest) values of the
+/// blocks. Larger structures have larger extremes, but where tails are exponential their scatter is the same (Gumbel).
+/// @param extremes of the blocks. @returns NaN with fewer than four.
+double extreme_error(const Eigen::VectorXd& extremes);
+
+/// The largest value in each block. @param values N, one for each particle.
+Eigen::VectorXd largest_by_block(const Blocks& blocks, const Eigen::VectorXd& values);
+
 }  // namespace coagula::characterize

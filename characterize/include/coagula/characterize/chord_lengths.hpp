@@ -21,6 +21,7 @@ struct ChordDistribution {
     double mean = unset;           ///< [m]; 4 phi / s for isotropic structures (s: surface per volume of the box)
     double mean_stderr = unset;    ///< from groups of neighbouring lines, a tenth of the box across
     double second_moment = unset;  ///< mean of the square [m^2]
+    double second_moment_stderr = unset;
     Eigen::Vector3d mean_by_axis;  ///< along x, y, z [m]: differences are anisotropy
     Eigen::Vector3d stderr_by_axis;
     Index chords = 0;

@@ -61,7 +61,9 @@ struct NeighbourDistances {
     Eigen::VectorXd distance;     ///< middle of each bin [m]
     Eigen::VectorXd density;      ///< H(r), probability density of the nearest distance [1/m]
     double smallest = unset;      ///< [m]
-    double spread = unset;        ///< standard deviation of the nearest distance [m]
+    double smallest_stderr = unset;
+    double spread = unset;  ///< standard deviation of the nearest distance [m]
+    double spread_stderr = unset;
     double mean_gap = unset;      ///< mean distance of surfaces to the particle nearest by surface; negative for overlaps [m]
     double mean_gap_stderr = unset;
 };

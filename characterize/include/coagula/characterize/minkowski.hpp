@@ -29,6 +29,7 @@ struct Minkowski {
     double percolation_dilation = unset;   ///< where the Euler characteristic first passes zero, by linear interpolation [m]: near
                                            ///< it spheres that grow begin to span the sample (Mecke and Wagner, J. Stat. Phys. 64
                                            ///< (1991) 843). 0 if it is not positive at first
+    double percolation_dilation_stderr = unset;
     double surface_stderr = unset;         ///< of the undilated functionals: from blocks of space (blocks.hpp)
     double mean_curvature_stderr = unset;
     double euler_characteristic_stderr = unset;

@@ -34,7 +34,9 @@ struct StructureFactor {
                              ///< not fit are left out from above, without the
     double at_zero_stderr = unset;    ///< of the least squares; NaN if fewer than four shells are in range
     double peak = unset;              ///< largest S of the direct sum
+    double peak_stderr = unset;       ///< of the shell
     double peak_wave_number = unset;  ///< where [1/m]
+    double peak_wave_number_stderr = unset;  ///< half the range of the shells that are as large within two standard errors
 };
 
 StructureFactor measure_structure_factor(const Packing& packing, const StructureFactorOptions& options = {});

@@ -39,6 +39,9 @@ struct VoronoiDistribution {
     double distance = unset;   ///< largest difference between the distribution and the fitted one (Kolmogorov)
     Index cells = 0;
 };
+/// k of largest likelihood of a gamma law with mean 1, from minus the mean of log x.
+double gamma_shape(double minus_mean_log);
+
 /// @param volumes of the cells [m^3]. @param radius of the spheres [m].
 VoronoiDistribution fit_voronoi_volumes(const Eigen::VectorXd& volumes, double radius);
 
