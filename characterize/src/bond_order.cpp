@@ -1,5 +1,6 @@
 #include <coagula/characterize/bond_order.hpp>
 #include <coagula/characterize/inner_particles.hpp>
+#include <coagula/characterize/measure.hpp>
 
 #include "averaged_particles.hpp"
 
@@ -87,8 +88,9 @@ BondOrder measure_bond_order(const Packing& packing, const VoronoiFaces& faces, 
         q6_squares.add(block, order.q6 * order.q6);
         count.add(block, order.facets);
     }
-    require(count.weight() > 0, "the packing is open and has " + std::to_string(packing.size()) +
-                                    " particles, but none lies so far inside that its Voronoi cell is certain");
+    require_applicable(count.weight() > 0,
+                       "the packing is open and has " + std::to_string(packing.size()) +
+                           " particles, but none lies so far inside that its Voronoi cell is certain: a larger sample is needed");
     result.q4_mean = q4.mean();
     result.q4_mean_stderr = q4.mean_stderr();
     result.q6_mean = q6.mean();

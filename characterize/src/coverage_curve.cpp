@@ -15,22 +15,20 @@ namespace {
 
 constexpr const char* stage = "pore sizes";
 
-/// The same cells, for spheres whose radii have grown by `growth`.
-PowerDiagram grown_diagram(const Packing& packing, const PowerDiagram& original, double growth, double margin) {
-    const Eigen::VectorXd radii = packing.radii.array() + growth;
-    return packing.cell.is_periodic() ? periodic_diagram(packing, radii, margin) : open_diagram(packing, radii, original.counted);
-}
-
 double require_void(double largest_power) {
     require(largest_power > 0, "the spheres cover all space: there are no pores to measure");
     return largest_power;
 }
 
-CoverageCurve cover_equal(const PowerDiagram& diagram, Index intervals, const Blocks& blocks, const Progress& progress) {
+double largest_equal_pore(const PowerDiagram& diagram) {
     const double radius = diagram.radii[0];
     const double power = require_void(largest_vertex_power(diagram));
-    const double largest = power / (std::sqrt(radius * radius + power) + radius);  // of (radius + largest)^2 - radius^2 = power
-    const RadialGrid grid{radius, largest / static_cast<double>(intervals), intervals + 1};
+    return power / (std::sqrt(radius * radius + power) + radius);  // of (radius + largest)^2 - radius^2 = power
+}
+
+CoverageCurve cover_equal(const PowerDiagram& diagram, Index intervals, const Blocks& blocks, const Progress& progress) {
+    const double largest = largest_equal_pore(diagram);
+    const RadialGrid grid{diagram.radii[0], largest / static_cast<double>(intervals), intervals + 1};
     return {largest, cover_equal_spheres(diagram, grid, blocks, progress)};
 }
 
@@ -56,7 +54,7 @@ double closing_growth(const PowerDiagram& diagram, const std::array<int, 4>& sit
 
 /// Growth at which the largest vertex power vanishes: the last pore is closed. Each diagram names the vertex that is closed last,
 /// and where it closes the next diagram is made: a few are enough.
-double largest_pore(const Packing& packing, const PowerDiagram& original, double& margin) {
+double largest_unequal_pore(const Packing& packing, const PowerDiagram& original, double& margin) {
     constexpr double converged = 1e-11;
     constexpr int most_diagrams = 60;
     DiagramVertex vertex = largest_vertex(original);
@@ -126,7 +124,7 @@ CoverageCurve cover_unequal(const Packing& packing, const PowerDiagram& original
     constexpr double gain = 4;  // error of every second node over that of all nodes; 16 for a smooth curve
     double margin = original.margin;
     CoverageCurve curve;
-    curve.largest = largest_pore(packing, original, margin);
+    curve.largest = largest_unequal_pore(packing, original, margin);
     const Eigen::VectorXd wanted = Eigen::VectorXd::LinSpaced(intervals + 1, 0, curve.largest);
     Index nodes = 16;
     Coverage coverage;
@@ -155,6 +153,12 @@ CoverageCurve cover_unequal(const Packing& packing, const PowerDiagram& original
 }
 
 }  // namespace
+
+double largest_pore(const ReducedDiagram& reduced) {
+    double margin = reduced.diagram.margin;
+    return is_monodisperse(reduced.packing) ? largest_equal_pore(reduced.diagram)
+                                            : largest_unequal_pore(reduced.packing, reduced.diagram, margin);
+}
 
 CoverageCurve cover_curve(const ReducedDiagram& reduced, Index intervals, double tolerance, const Blocks& blocks,
                           const Progress& progress) {

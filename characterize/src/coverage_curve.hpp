@@ -13,6 +13,9 @@ struct CoverageCurve {
     double error = 0;  ///< estimate of the largest error of P by interpolation; 0: every radius was computed
 };
 
+/// Radius of the largest pore alone.
+double largest_pore(const ReducedDiagram& reduced);
+
 /// Throws std::invalid_argument when the spheres cover all space.
 /// @param tolerance of P by interpolation, for unequal spheres; 0: no interpolation.
 CoverageCurve cover_curve(const ReducedDiagram& reduced, Index intervals, double tolerance, const Blocks& blocks,

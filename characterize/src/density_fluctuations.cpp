@@ -190,7 +190,7 @@ Windows sum_all_windows(const Packing& packing, const std::vector<bool>& inner, 
 
 }  // namespace
 
-DensityFluctuations measure_density_fluctuations(const Packing& packing, const std::vector<bool>& inner) {
+DensityFluctuations measure_density_fluctuations(const Packing& packing, const std::vector<bool>& inner, double largest) {
     check(packing);
     const double r0 = mean_radius(packing);
     const double spacing = std::cbrt(make_grid(packing.cell, r0).spacing.prod());
@@ -205,13 +205,13 @@ DensityFluctuations measure_density_fluctuations(const Packing& packing, const s
     const double box = packing.cell.is_periodic() ? packing.cell.volume() : std::numeric_limits<double>::infinity();
     const Eigen::ArrayXd share = found.edge.array().cube() / box;
     const bool covers =
-        found.edge[0] <= smallest_window * r0 * (1 + 1e-9) && found.edge[count - 1] >= largest_window * r0 * (1 - 1e-9);
+        found.edge[0] <= smallest_window * r0 * (1 + 1e-9) && found.edge[count - 1] >= largest * r0 * (1 - 1e-9);
     const auto estimate = [&](const Eigen::VectorXd& sum) {
         Eigen::VectorXd values(count + 1);
         for (Index k = 0; k < count; ++k) {
             values[k] = relative_deviation(sum.segment<3>(3 * k), share[k]);
         }
-        values[count] = integrate_powers(found.edge.array() / r0, values.head(count).array(), smallest_window, largest_window);
+        values[count] = integrate_powers(found.edge.array() / r0, values.head(count).array(), smallest_window, largest);
         return values;
     };
     const Eigen::VectorXd values = estimate(windows.sums.rowwise().sum());

@@ -137,9 +137,17 @@ std::vector<std::vector<int>> edges_by_block(const PowerDiagram& diagram, const 
     return lists;
 }
 
+/// How many times longer than usual an edge takes.
+std::size_t effort(const RadialGrid& radii) {
+    constexpr Index usual = 1000;
+    return static_cast<std::size_t>(std::max<Index>(1, radii.count / usual));
+}
+
 /// Fixed tasks, summed in order: the result does not depend on the number of threads, and rounding errors stay small.
-std::vector<Task> make_tasks(const std::vector<std::vector<int>>& lists) {
-    constexpr std::size_t edges_per_task = 8192;
+std::vector<Task> make_tasks(const std::vector<std::vector<int>>& lists, const RadialGrid& radii) {
+    constexpr std::size_t least_edges = 64;
+    constexpr std::size_t most_edges = 8192;
+    const std::size_t edges_per_task = std::max(least_edges, most_edges / effort(radii));
     std::vector<Task> tasks;
     for (std::size_t block = 0; block < lists.size(); ++block) {
         const std::size_t parts = (lists[block].size() + edges_per_task - 1) / edges_per_task;
@@ -170,9 +178,9 @@ RadialSums run_task(const PowerDiagram& diagram, const Blocks& blocks, const Rad
 Coverage cover_equal_spheres(const PowerDiagram& diagram, const RadialGrid& ball_radii, const Blocks& blocks,
                              const Progress& progress) {
     const std::vector<std::vector<int>> edges = edges_by_block(diagram, blocks);
-    const std::vector<Task> tasks = make_tasks(edges);
+    const std::vector<Task> tasks = make_tasks(edges, ball_radii);
     std::vector<RadialSums> total(static_cast<std::size_t>(blocks.count), RadialSums(ball_radii));
-    constexpr std::size_t tasks_at_once = 64;
+    const std::size_t tasks_at_once = std::max<std::size_t>(4, 64 / effort(ball_radii));  // whoever interrupts waits for no more
     for (std::size_t first = 0; first < tasks.size(); first += tasks_at_once) {
         const std::size_t end = std::min(first + tasks_at_once, tasks.size());
         std::vector<RadialSums> partial(end - first, RadialSums(ball_radii));

@@ -4,8 +4,7 @@
 #include <coagula/common/checks.hpp>
 
 #include "power_diagram.hpp"
-
-#include <Eigen/LU>
+#include "touching_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,42 +21,16 @@ constexpr double well_conditioned = 1e-6;
 /// Relative gap below which spheres touch rather than overlap.
 constexpr double touching = 1e-9;
 
-struct Pore {
-    Eigen::Vector3d centre;
-    double radius;
-};
+using Pore = Ball<3>;
 
-/// The sphere that touches four spheres from outside (the problem of Apollonius): |x - p_k| = r_k + rho. The differences to the
-/// first of the four equations are linear, x = u - rho v, and leave a quadratic equation for rho.
-std::optional<Pore> touching_sphere(const PowerDiagram& diagram, const std::array<int, 4>& sites) {
-    const Eigen::Vector3d origin = diagram.positions.col(sites[0]);
-    const double r0 = diagram.radii[sites[0]];
-    Eigen::Matrix3d differences;
-    Eigen::Vector3d constant;
-    Eigen::Vector3d slope;
-    for (Index k = 0; k < 3; ++k) {
-        const int site = sites[static_cast<std::size_t>(k) + 1];
-        const Eigen::Vector3d difference = diagram.positions.col(site) - origin;
-        const double radius = diagram.radii[site];
-        differences.row(k) = difference;
-        constant[k] = 0.5 * (difference.squaredNorm() - (radius - r0) * (radius + r0));
-        slope[k] = radius - r0;
+std::optional<Pore> pore_between(const PowerDiagram& diagram, const std::array<int, 4>& sites) {
+    Eigen::Matrix<double, 3, 4> centres;
+    Eigen::Vector4d radii;
+    for (int k = 0; k < 4; ++k) {
+        centres.col(k) = diagram.positions.col(sites[static_cast<std::size_t>(k)]);
+        radii[k] = diagram.radii[sites[static_cast<std::size_t>(k)]];
     }
-    const Eigen::PartialPivLU<Eigen::Matrix3d> factors(differences);
-    const Eigen::Vector3d u = factors.solve(constant);
-    const Eigen::Vector3d v = factors.solve(slope);
-    const double a = 1 - v.squaredNorm();
-    const double half = u.dot(v) + r0;
-    const double c = r0 * r0 - u.squaredNorm();
-    const double discriminant = half * half - a * c;
-    if (!(discriminant >= 0)) {
-        return std::nullopt;
-    }
-    const double rho = -c / (half + std::sqrt(discriminant));  // the root that stays finite when the radii are equal and a = 1
-    if (!(rho > 0) || !std::isfinite(rho)) {
-        return std::nullopt;
-    }
-    return Pore{origin + u - rho * v, rho};
+    return touching_sphere<3>(centres, radii);
 }
 
 /// One candidate for every well-conditioned vertex of the diagram; each vertex is met several times.
@@ -70,7 +43,7 @@ std::vector<Pore> candidates(const Packing& packing, const PowerDiagram& diagram
         for (std::size_t which = 0; which < 2; ++which) {
             const std::array<int, 4> sites{edge.around[0], edge.around[1], edge.around[2], edge.apex[which]};
             if (geometry.relative_volume[which] > well_conditioned && std::all_of(sites.begin(), sites.end(), certain)) {
-                if (const auto pore = touching_sphere(diagram, sites)) {
+                if (const auto pore = pore_between(diagram, sites)) {
                     const Eigen::Vector3d centre = pore->centre + packing.cell.origin();
                     found.push_back({periodic ? packing.cell.wrap(centre) : centre, pore->radius});
                 }

@@ -104,6 +104,16 @@ void MeasureResult::append(const MeasureResult& other) {
     lines.insert(lines.end(), other.lines.begin(), other.lines.end());
 }
 
+double MeasureResult::value(const std::string& name) const {
+    for (const Dataset& dataset : datasets) {
+        const auto* numbers = std::get_if<std::vector<double>>(&dataset.values);
+        if (numbers != nullptr && dataset.shape.empty() && dataset.path == path_of(name)) {
+            return numbers->front();
+        }
+    }
+    return unset;
+}
+
 void require_applicable(bool condition, const std::string& sentence) {
     if (!condition) {
         throw NotApplicable(sentence);

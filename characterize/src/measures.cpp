@@ -8,6 +8,9 @@ Measure doh_measure();
 Measure pores_measure();
 Measure voronoi_measure();
 Measure density_fluctuations_measure();
+Measure gelb_gubbins_measure();
+Measure delaunay_pores_measure();
+Measure free_spheres_measure();
 Measure overlap_measure();
 Measure fabric_measure();
 Measure rigidity_central_measure();
@@ -32,6 +35,9 @@ const std::vector<Measure>& measures() {
         pores_measure(),
         voronoi_measure(),
         density_fluctuations_measure(),
+        gelb_gubbins_measure(),
+        delaunay_pores_measure(),
+        free_spheres_measure(),
         overlap_measure(),
         topology_measure(),
         rings_measure(),

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -15,6 +16,15 @@ namespace coagula::characterize {
 struct DiagramEdge {
     std::array<int, 3> around;  ///< the sites whose cells share the edge
     std::array<int, 2> apex;    ///< fourth site of the tetrahedra, on the side of the normal (1-0) x (2-0) and on the other
+    std::array<int, 2> end;     ///< its ends on these sides, as places in PowerDiagram::vertices
+};
+
+/// A vertex of the diagram: the point with the same power for four sites, dual to their tetrahedron.
+struct DiagramVertex {
+    std::array<int, 4> sites{};                       ///< ascending
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< undefined if flat
+    double power = 0;                                 ///< with respect to the sites
+    double relative_volume = 0;  ///< 6 x volume of the tetrahedron / longest edge^3; 0 if so flat that the vertex is undefined
 };
 
 struct PowerDiagram {
@@ -22,9 +32,16 @@ struct PowerDiagram {
     Eigen::VectorXd radii;                 ///< of the sites; power of a point = squared distance to the site - radius^2
     std::vector<int> particle;             ///< of the sites
     std::vector<char> counted;             ///< 1 for the sites whose cells are to be measured
+    std::vector<DiagramVertex> vertices;   ///< of the counted cells
     std::vector<DiagramEdge> edges;        ///< bounded edges with a counted site among the three around
     std::vector<std::array<int, 3>> hull;  ///< triangles of the convex hull, normals outward
     double margin = 0;                     ///< width of the layer of periodic images
+
+    /// Whether one of these sites is counted.
+    template <std::size_t count>
+    bool counts_any(const std::array<int, count>& sites) const {
+        return std::any_of(sites.begin(), sites.end(), [this](int site) { return counted[static_cast<std::size_t>(site)] != 0; });
+    }
 };
 
 /// The triangle between two sites around an edge and the foot of the edge, seen from either site.
@@ -54,11 +71,6 @@ EdgeGeometry measure_edge(const PowerDiagram& diagram, const DiagramEdge& edge);
 /// Largest power of the vertices of the counted cells: in monodisperse packings, (distance to the nearest sites)^2 - radius^2.
 double largest_vertex_power(const PowerDiagram& diagram);
 
-/// A vertex of the diagram: the point with the same power for four sites.
-struct DiagramVertex {
-    std::array<int, 4> sites{};
-    double power = 0;
-};
 /// The vertex of largest power of the counted cells.
 DiagramVertex largest_vertex(const PowerDiagram& diagram);
 

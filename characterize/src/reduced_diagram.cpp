@@ -1,5 +1,7 @@
 #include "reduced_diagram.hpp"
 
+#include <coagula/characterize/measure.hpp>
+
 #include <coagula/common/checks.hpp>
 
 #include <algorithm>
@@ -40,10 +42,16 @@ ReducedDiagram reduced_diagram(const Packing& packing) {
     return reduced;
 }
 
+PowerDiagram grown_diagram(const Packing& packing, const PowerDiagram& original, double growth, double margin) {
+    const Eigen::VectorXd radii = packing.radii.array() + growth;
+    return packing.cell.is_periodic() ? periodic_diagram(packing, radii, margin) : open_diagram(packing, radii, original.counted);
+}
+
 void require_inner(const ReducedDiagram& reduced) {
-    require(!reduced.diagram.edges.empty(), "the packing is open and has " + std::to_string(reduced.packing.size()) +
-                                                " particles, but none lies so far inside that its Voronoi cell is certain: pores "
-                                                "cannot be measured");
+    const std::string sentence = "the packing is open and has " + std::to_string(reduced.packing.size()) + " particles";
+    require(reduced.packing.size() < 4 || !reduced.diagram.hull.empty(), sentence + " in one plane: it fills no space");
+    require_applicable(!reduced.diagram.edges.empty(),
+                       sentence + ", but none lies so far inside that its Voronoi cell is certain: a larger sample is needed");
 }
 
 }  // namespace coagula::characterize

@@ -21,7 +21,10 @@ struct ReducedDiagram {
 /// Of a packing that passed check(). No particle may be inner: the diagram has no edges then.
 ReducedDiagram reduced_diagram(const Packing& packing);
 
-/// Throws std::invalid_argument when no particle is inner.
+/// The same cells, for spheres whose radii have grown by `growth`.
+PowerDiagram grown_diagram(const Packing& packing, const PowerDiagram& original, double growth, double margin);
+
+/// Throws NotApplicable when no particle is inner.
 void require_inner(const ReducedDiagram& reduced);
 
 }  // namespace coagula::characterize

@@ -13,11 +13,6 @@ namespace coagula::characterize {
 
 namespace {
 
-struct HalfSpace {
-    Eigen::Vector3d normal;  ///< unit vector outward
-    double offset;           ///< of the plane along it
-};
-
 std::vector<HalfSpace> half_spaces(const Packing& packing, const PowerDiagram& diagram) {
     std::vector<HalfSpace> planes;
     for (const auto& corner : diagram.hull) {
@@ -29,14 +24,6 @@ std::vector<HalfSpace> half_spaces(const Packing& packing, const PowerDiagram& d
         }
     }
     return planes;
-}
-
-double depth_of(const Eigen::Vector3d& point, const std::vector<HalfSpace>& planes) {
-    double depth = std::numeric_limits<double>::infinity();
-    for (const HalfSpace& plane : planes) {
-        depth = std::min(depth, plane.offset - plane.normal.dot(point));
-    }
-    return depth;
 }
 
 double hull_volume(const Packing& packing, const PowerDiagram& diagram, const Eigen::Vector3d& centre) {
@@ -59,16 +46,16 @@ SampleWindow open_window(const Packing& packing) {
     const Packing points{packing.cell, packing.positions, equal};
     const PowerDiagram diagram = open_diagram(points, equal, std::vector<char>(particles, 1));
     require(!diagram.hull.empty(), sentence + " in one plane: it fills no space");
-    const std::vector<HalfSpace> planes = half_spaces(packing, diagram);
     SampleWindow window;
+    window.planes = half_spaces(packing, diagram);
     window.centre = packing.positions.rowwise().mean();
-    window.ball_radius = depth_of(window.centre, planes);
+    window.ball_radius = window.depth_at(window.centre);
     window.volume = hull_volume(packing, diagram, window.centre);
     require(window.volume > 0 && window.ball_radius > 0, sentence + " in one plane: it fills no space");
     window.depth.resize(packing.size());
 #pragma omp parallel for schedule(static)
     for (Index i = 0; i < packing.size(); ++i) {
-        window.depth[i] = std::max(0.0, depth_of(packing.positions.col(i), planes));
+        window.depth[i] = std::max(0.0, window.depth_at(packing.positions.col(i)));
     }
     std::set<int> corners;
     for (const auto& corner : diagram.hull) {
@@ -81,6 +68,14 @@ SampleWindow open_window(const Packing& packing) {
 }
 
 }  // namespace
+
+double SampleWindow::depth_at(const Eigen::Vector3d& point) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const HalfSpace& plane : planes) {
+        least = std::min(least, plane.offset - plane.normal.dot(point));
+    }
+    return least;
+}
 
 SampleWindow sample_window(const Packing& packing) {
     if (!packing.cell.is_periodic()) {

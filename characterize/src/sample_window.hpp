@@ -3,7 +3,14 @@
 
 #include <coagula/common/packing.hpp>
 
+#include <vector>
+
 namespace coagula::characterize {
+
+struct HalfSpace {
+    Eigen::Vector3d normal;  ///< unit vector outward
+    double offset = 0;       ///< of the plane along it
+};
 
 struct SampleWindow {
     Eigen::VectorXd depth;  ///< N: distance of each centre from the surface of the window [m]; infinite if periodic
@@ -13,6 +20,10 @@ struct SampleWindow {
     double volume = 0;        ///< of the window [m^3]
     Eigen::Vector3d centre;   ///< of the largest known ball in the window; of the box, if periodic
     double ball_radius = 0;   ///< of that ball [m]; infinite if periodic
+    std::vector<HalfSpace> planes = {};  ///< of which the window is the intersection; none if periodic
+
+    /// Distance of a point from the surface of the window [m]; negative outside, infinite if periodic.
+    double depth_at(const Eigen::Vector3d& point) const;
 };
 
 /// Throws std::invalid_argument if an open packing has fewer than five particles or lies in a plane.

@@ -2,6 +2,7 @@
 
 #include "shared_measurements.hpp"
 
+#include <Eigen/Geometry>
 #include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/special_functions/trigamma.hpp>
@@ -15,20 +16,43 @@ namespace {
 
 constexpr std::size_t chunks = 64;  // fixed, so that sums do not depend on the number of threads
 
+/// 6 x the volumes on either side of the face between two sites that an edge of the face adds: pyramids over the triangle from the
+/// point of the face on the line of the sites to the ends of the edge.
+std::array<double, 2> pyramids(const PowerDiagram& diagram, int first, int second, const Eigen::Vector3d& begin,
+                               const Eigen::Vector3d& end) {
+    const Eigen::Vector3d line = diagram.positions.col(second) - diagram.positions.col(first);
+    const double difference = (diagram.radii[first] - diagram.radii[second]) * (diagram.radii[first] + diagram.radii[second]);
+    const double share = 0.5 * (1 + difference / line.squaredNorm());
+    const Eigen::Vector3d middle = diagram.positions.col(first) + share * line;
+    const double product = line.dot((begin - middle).cross(end - middle));
+    return {share * product, (1 - share) * product};
+}
+
+/// The same for an edge with an end that is flat, whose place is not known.
+std::array<double, 2> pyramids(const EdgeGeometry& geometry, std::size_t side) {
+    const EdgeSide& view = geometry.sides[side];
+    const double product = view.foot_distance * (geometry.height[0] + geometry.height[1]);
+    return {view.first_distance * product, view.second_distance * product};
+}
+
 /// Volumes of the counted cells from some of the edges.
 void add_volumes(const PowerDiagram& diagram, std::size_t begin, std::size_t end, Eigen::VectorXd& volumes) {
     for (std::size_t k = begin; k < end; ++k) {
         const DiagramEdge& edge = diagram.edges[k];
-        const EdgeGeometry geometry = measure_edge(diagram, edge);
-        const double height = (geometry.height[0] + geometry.height[1]) / 6;
-        for (const EdgeSide& side : geometry.sides) {
-            const int first = edge.around[static_cast<std::size_t>(side.first)];
-            const int second = edge.around[static_cast<std::size_t>(side.second)];
+        const DiagramVertex& top = diagram.vertices[static_cast<std::size_t>(edge.end[0])];
+        const DiagramVertex& bottom = diagram.vertices[static_cast<std::size_t>(edge.end[1])];
+        const bool is_known = top.relative_volume > 0 && bottom.relative_volume > 0;
+        const EdgeGeometry geometry = is_known ? EdgeGeometry{} : measure_edge(diagram, edge);
+        for (std::size_t side = 0; side < 3; ++side) {
+            const int first = edge.around[side];
+            const int second = edge.around[(side + 1) % 3];
+            const std::array<double, 2> volume =
+                is_known ? pyramids(diagram, first, second, bottom.place, top.place) : pyramids(geometry, side);
             if (diagram.counted[static_cast<std::size_t>(first)] != 0) {
-                volumes[first] += side.first_distance * side.foot_distance * height;
+                volumes[first] += volume[0] / 6;
             }
             if (diagram.counted[static_cast<std::size_t>(second)] != 0) {
-                volumes[second] += side.second_distance * side.foot_distance * height;
+                volumes[second] += volume[1] / 6;
             }
         }
     }

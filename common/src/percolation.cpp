@@ -1,13 +1,13 @@
 #include <coagula/common/percolation.hpp>
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/image_sets.hpp>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -16,61 +16,6 @@ namespace coagula {
 namespace {
 
 using Image = Eigen::Vector3i;
-
-/// Disjoint sets of particles; each particle knows its image of the box relative to that of its root.
-class Sets {
-public:
-    explicit Sets(Index particles)
-        : parent_(static_cast<std::size_t>(particles)), size_(parent_.size(), 1), image_(parent_.size(), Image::Zero()) {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
-
-    struct Place {
-        std::size_t root;
-        Image image;
-    };
-
-    /// Path halving: every second particle on the way is tied to its grandparent.
-    Place find(std::size_t particle) {
-        Image image = Image::Zero();
-        while (parent_[particle] != particle) {
-            const std::size_t parent = parent_[particle];
-            image_[particle] += image_[parent];
-            parent_[particle] = parent_[parent];
-            image += image_[particle];
-            particle = parent_[particle];
-        }
-        return {particle, image};
-    }
-
-    /// Joins two particles, the second of which lies `image` boxes from where its coordinates say, seen from the first. Returns
-    /// how many boxes a walk around the loop that this closes has moved; zero when it closes none.
-    Image join(std::size_t first, std::size_t second, const Image& image) {
-        const Place a = find(first);
-        const Place b = find(second);
-        Image step = a.image + image - b.image;
-        if (a.root == b.root) {
-            return step;
-        }
-        if (size_[a.root] >= size_[b.root]) {
-            attach(b.root, a.root, step);
-        } else {
-            attach(a.root, b.root, -step);
-        }
-        return Image::Zero();
-    }
-
-private:
-    void attach(std::size_t child, std::size_t root, const Image& image) {
-        parent_[child] = root;
-        image_[child] = image;
-        size_[root] += size_[child];
-    }
-
-    std::vector<std::size_t> parent_;
-    std::vector<std::size_t> size_;
-    std::vector<Image> image_;
-};
 
 /// Boxes between the second particle of a bond as the branch vector reaches it and as its coordinates say.
 Image crossed_boxes(const Packing& packing, const ContactNetwork& bonds, Index bond) {
@@ -103,7 +48,7 @@ struct Loop {
 };
 
 /// Joins the ends of the bonds; returns the loops that reach around the box.
-std::vector<Loop> join_bonds(const Packing& packing, const ContactNetwork& bonds, const std::vector<bool>& selected, Sets& sets) {
+std::vector<Loop> join_bonds(const Packing& packing, const ContactNetwork& bonds, const std::vector<bool>& selected, ImageSets& sets) {
     std::vector<Loop> loops;
     for (Index bond = 0; bond < bonds.size(); ++bond) {
         if (selected.empty() || selected[static_cast<std::size_t>(bond)]) {
@@ -129,7 +74,7 @@ std::vector<Cluster> find_clusters(const Packing& packing, const ContactNetwork&
                                                    " particles, the packing has " + std::to_string(packing.size()));
     require(selected.empty() || selected.size() == static_cast<std::size_t>(bonds.size()),
             "the flags of the selected bonds must be one per bond");
-    Sets sets(packing.size());
+    ImageSets sets(packing.size());
     const std::vector<Loop> loops = join_bonds(packing, bonds, selected, sets);
     std::vector<Cluster> by_root(static_cast<std::size_t>(packing.size()));
     for (Index particle = packing.size(); particle-- > 0;) {
@@ -157,7 +102,7 @@ std::vector<Cluster> find_clusters(const Packing& packing, const ContactNetwork&
 
 Eigen::VectorXi cluster_of_particles(const ContactNetwork& bonds, const std::vector<Cluster>& clusters,
                                      const std::vector<bool>& selected) {
-    Sets sets(bonds.particles);
+    ImageSets sets(bonds.particles);
     for (Index bond = 0; bond < bonds.size(); ++bond) {
         if (selected.empty() || selected[static_cast<std::size_t>(bond)]) {
             sets.join(static_cast<std::size_t>(bonds.ends(0, bond)), static_cast<std::size_t>(bonds.ends(1, bond)), Image::Zero());

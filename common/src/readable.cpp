@@ -39,7 +39,11 @@ std::string with_error(double value, double error) {
     const bool has_error = std::isfinite(error) && error > 0;
     const int decimals = has_error ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12) : 5;
     std::array<char, 64> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.*f +- %.*f", decimals, value, decimals, error);
+    if (std::isfinite(error)) {
+        std::snprintf(buffer.data(), buffer.size(), "%.*f +- %.*f", decimals, value, decimals, error);
+    } else {
+        std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
+    }
     return buffer.data();
 }
 

@@ -1,13 +1,8 @@
 #include <coagula/mechanics/linear.hpp>
 
-#include "block_factor.hpp"
 #include "bond_tangents.hpp"
-#include "conjugate_gradients.hpp"
-#include "load_bearing.hpp"
-#include "schwarz.hpp"
-#include "stiffness.hpp"
+#include "linear_solution.hpp"
 
-#include <coagula/common/blas_threads.hpp>
 #include <coagula/common/contact_law.hpp>
 
 #include <algorithm>
@@ -21,11 +16,6 @@
 namespace coagula::mechanics {
 
 namespace {
-
-constexpr double floppy_threshold = 1e-6;   // pivots below this, in contact stiffnesses, have no stiffness
-constexpr int direct_blas_threads = 2;      // fixed: the bits of a factor depend on it
-constexpr int most_direct_iterations = 60;  // a good shift needs fewer than ten
-constexpr int most_schwarz_iterations = 2000;
 
 /// Voigt index of a pair of axes.
 int voigt(int a, int b) {
@@ -84,81 +74,13 @@ void check(const Packing& packing, const ContactNetwork& bonds, const LinearOpti
     require_positive(options.volume, "the volume of the particles that are not held", "m^3");
 }
 
-/// K, its loads and what solves it.
-struct Problem {
-    BlockMatrix full;
-    BlockMatrix upper;  ///< with the free spins stiffened, for the preconditioner
-    Loads loads;
-    Block affine;
-    Index spins = 0;
-};
-
-Problem build_problem(const LinearNetwork& network) {
-    Problem problem;
-    problem.upper = network.stiffness();
-    problem.full = both_triangles(problem.upper);
-    problem.spins = network.stiffen_spins(problem.upper);
-    problem.loads = network.loads();
-    problem.affine = network.affine_energy();
-    return problem;
-}
-
-/// Direct: conjugate gradients preconditioned by the factor of K + shift I. A larger shift where rounding errors win.
-Solution solve_directly(const Problem& problem, const EliminationOrder& order, const LinearOptions& options,
-                        const Progress& progress, LinearResponse& response) {
-    const BlasThreads threads(direct_blas_threads);
-    const StopRule rule{.residual = options.tolerance, .energy = 0, .most_iterations = most_direct_iterations};
-    for (double shift = options.shift; shift <= 1e-5; shift *= 100) {
-        progress.update("factorising", 0.1);
-        const CholeskyFactor factor(shifted(problem.upper, shift), order);
-        if (response.floppy_modes < 0) {
-            response.floppy_modes = problem.spins + factor.pivots_below(floppy_threshold);
-        }
-        Solution solution = conjugate_gradients(
-            problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { z = factor.solve(r); }, rule,
-            progress);
-        if (solution.converged) {
-            return solution;
-        }
-    }
-    throw std::runtime_error("the direct solver did not reach the residual " + to_text(options.tolerance) +
-                             "; the network is too close to losing its stiffness, or the tolerance is too small");
-}
-
-Solution solve_iteratively(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
-                           const Progress& progress) {
-    const BlasThreads threads(1);  // the boxes run in parallel, not the kernels
-    Eigen::Matrix3Xd fraction(3, static_cast<Index>(kept.particle.size()));
-    for (Index place = 0; place < fraction.cols(); ++place) {
-        const Eigen::Vector3d position = packing.cell.wrap(packing.positions.col(kept.particle[static_cast<std::size_t>(place)]));
-        fraction.col(place) = (position - packing.cell.origin()).cwiseQuotient(packing.cell.lengths());
-    }
-    const SchwarzPreconditioner schwarz(problem.upper, problem.full, fraction, packing.cell.lengths(), SchwarzOptions{}, progress);
-    const StopRule rule{
-        .residual = options.tolerance, .energy = options.modulus_tolerance, .most_iterations = most_schwarz_iterations};
-    Solution solution = conjugate_gradients(
-        problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { schwarz.solve(r, z); }, rule,
-        progress);
-    if (!solution.converged) {
-        throw std::runtime_error("the iterative solver did not converge in " + std::to_string(solution.iterations) +
-                                 " iterations; the network is too close to losing its stiffness");
-    }
-    return solution;
-}
-
-Solution solve(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
-               const Progress& progress, LinearResponse& response) {
-    const EliminationOrder order = elimination_order(problem.upper, Ordering::nested_dissection);
-    response.predicted_memory = order.predicted_memory();
-    const bool direct = options.solver == LinearSolver::direct ||
-                        (options.solver == LinearSolver::automatic && order.predicted_memory() <= options.memory_limit);
-    response.solver_used = direct ? LinearSolver::direct : LinearSolver::iterative;
-    Solution solution = direct ? solve_directly(problem, order, options, progress, response)
-                               : solve_iteratively(problem, packing, kept, options, progress);
-    response.iterations = solution.iterations;
-    response.residual = solution.residual;
-    response.modulus_error = direct ? 0.0 : solution.energy_error;
-    return solution;
+void note(const SolvedNetwork& solved, LinearResponse& response) {
+    response.solver_used = solved.solver;
+    response.predicted_memory = solved.predicted_memory;
+    response.floppy_modes = solved.floppy_modes;
+    response.iterations = solved.iterations;
+    response.residual = solved.residual;
+    response.modulus_error = solved.modulus_error;
 }
 
 /// Half of every bond belongs to each of its ends; held particles lie outside the measured volume.
@@ -238,9 +160,10 @@ LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds,
         response.floppy_modes = 0;
     } else {
         const LinearNetwork network(packing, bonds, kept, springs.tangents, springs.normal);
-        const Problem problem = build_problem(network);
         try {
-            motion = solve(problem, packing, kept, options, progress, response).motion;
+            SolvedNetwork solved = solve_network(network, packing, kept, options, progress);
+            note(solved, response);
+            motion = std::move(solved.motion);
         } catch (const std::runtime_error& error) {
             if (!springs.unstable) {
                 throw;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace coagula::mechanics {
@@ -30,11 +31,12 @@ void add_copy(MountedSample& mounted, const Packing& packing, Index particle, in
     }
 }
 
-/// The bonds among the copies, apart from those inside a plate.
-ContactNetwork repeated_bonds(const Packing& packing, const ContactNetwork& bonds, const Copies& copies, int reach, int normal) {
-    ContactNetwork repeated;
+/// Adds the bonds among the copies, apart from those inside a plate.
+void repeat_bonds(MountedSample& mounted, const Packing& packing, const ContactNetwork& bonds, const Copies& copies, int reach,
+                  int normal) {
+    ContactNetwork& repeated = mounted.bonds;
+    std::vector<Index>& which = mounted.bond_origin;
     std::vector<std::pair<Index, Index>> ends;
-    std::vector<Index> which;
     for (Index bond = 0; bond < bonds.size(); ++bond) {
         const int periods = periods_of(packing, bonds, bond, normal);
         for (int from = -reach; from <= reach; ++from) {
@@ -53,7 +55,7 @@ ContactNetwork repeated_bonds(const Packing& packing, const ContactNetwork& bond
             static_cast<std::int32_t>(ends[entry].second);
         repeated.branch.col(static_cast<Index>(entry)) = bonds.branch.col(which[entry]);
     }
-    return repeated;
+    repeated.particles = mounted.packing.size();
 }
 
 /// Whether the image `periods` away lies within `thickness` of the sample.
@@ -76,6 +78,8 @@ MountedSample mount(const Packing& packing, const ContactNetwork& bonds, const R
         for (Index particle = 0; particle < packing.size(); ++particle) {
             mounted.origin.push_back(particle);
         }
+        mounted.bond_origin.resize(static_cast<std::size_t>(bonds.size()));
+        std::iota(mounted.bond_origin.begin(), mounted.bond_origin.end(), Index{0});
         return mounted;
     }
     const double diameter = 2 * mean_radius(packing);
@@ -104,8 +108,7 @@ MountedSample mount(const Packing& packing, const ContactNetwork& bonds, const R
     for (const auto& [particle, periods] : wanted) {
         add_copy(mounted, packing, particle, periods, orientation.normal, copies);
     }
-    mounted.bonds = repeated_bonds(packing, bonds, copies, reach + 1, orientation.normal);
-    mounted.bonds.particles = mounted.packing.size();
+    repeat_bonds(mounted, packing, bonds, copies, reach + 1, orientation.normal);
     return mounted;
 }
 

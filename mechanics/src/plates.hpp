@@ -11,14 +11,15 @@ namespace coagula::mechanics {
 
 /// What is put into the rheometer.
 struct MountedSample {
-    Packing packing;            ///< the sample first, then the plates; periodic, with room between the plates' backs
-    ContactNetwork bonds;       ///< those inside the plates left out
-    std::vector<Index> origin;  ///< particle of the sample that each particle is or repeats
-    std::vector<Index> lower;   ///< particles of the fixed plate; empty without plates
-    std::vector<Index> upper;   ///< of the driven plate
-    double bottom = 0;          ///< the sample reaches from here ...
-    double height = 0;          ///< ... so far along the normal [m]
-    double area = 0;            ///< of a plate [m^2]
+    Packing packing;                 ///< the sample first, then the plates; periodic, with room between the plates' backs
+    ContactNetwork bonds;            ///< those inside the plates left out
+    std::vector<Index> origin;       ///< particle of the sample that each particle is or repeats
+    std::vector<Index> bond_origin;  ///< bond of the sample that each bond is or repeats
+    std::vector<Index> lower;        ///< particles of the fixed plate; empty without plates
+    std::vector<Index> upper;        ///< of the driven plate
+    double bottom = 0;               ///< the sample reaches from here ...
+    double height = 0;               ///< ... so far along the normal [m]
+    double area = 0;                 ///< of a plate [m^2]
 
     double volume() const { return area * height; }
     bool has_plates() const { return !lower.empty(); }

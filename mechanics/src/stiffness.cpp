@@ -106,18 +106,23 @@ Eigen::Matrix<double, 3, 6> affine_displacements(const Eigen::Vector3d& b) {
 
 LinearNetwork::LinearNetwork(const Packing& packing, const ContactNetwork& network, const LoadBearing& kept,
                              std::span<const ContactTangent> tangents, double reference)
-    : particles_(static_cast<Index>(kept.particle.size())) {
-    const double r0 = mean_radius(packing);
+    : particles_(static_cast<Index>(kept.particle.size())), length_(mean_radius(packing)), kept_bond_(kept.bond) {
     bonds_.reserve(kept.bond.size());
     for (const Index bond : kept.bond) {
         const Index first = network.ends(0, bond);
         const Index second = network.ends(1, bond);
-        const Eigen::Vector3d branch = network.branch.col(bond) / r0;
+        const Eigen::Vector3d branch = network.branch.col(bond) / length_;
         const double share = packing.radii[first] / (packing.radii[first] + packing.radii[second]);
         const double distance = branch.norm();
         bonds_.push_back({kept.number[static_cast<std::size_t>(first)], kept.number[static_cast<std::size_t>(second)],
                           branch / distance, branch, share * distance, (1 - share) * distance,
-                          reduced(tangents[static_cast<std::size_t>(bond)], reference, r0)});
+                          reduced(tangents[static_cast<std::size_t>(bond)], reference, length_)});
+    }
+}
+
+void LinearNetwork::strain(const Eigen::Matrix3Xd& strained) {
+    for (std::size_t k = 0; k < bonds_.size(); ++k) {
+        bonds_[k].branch = strained.col(kept_bond_[k]) / length_;
     }
 }
 

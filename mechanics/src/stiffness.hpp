@@ -28,7 +28,7 @@ struct LinearBond {
     Index first;  ///< numbered among the load-bearing particles; -1: held, follows the strain without rotating
     Index second;
     Eigen::Vector3d normal;  ///< unit vector from first to second
-    Eigen::Vector3d branch;  ///< in mean radii
+    Eigen::Vector3d branch;  ///< in mean radii; or what the strain acts on instead, see LinearNetwork::strain
     double first_arm;        ///< distance from the centre to the contact point, in mean radii
     double second_arm;
     ContactTangent tangent;  ///< reduced
@@ -69,6 +69,10 @@ public:
     LinearNetwork(const Packing& packing, const ContactNetwork& network, const LoadBearing& kept,
                   std::span<const ContactTangent> tangents, double reference);
 
+    /// Lets the strain act on `strained` (3 x bonds of the network given to the constructor [m]) instead of on the branch vectors:
+    /// where held particles do not follow it.
+    void strain(const Eigen::Matrix3Xd& strained);
+
     Index particles() const { return particles_; }
     const std::vector<LinearBond>& bonds() const { return bonds_; }
 
@@ -105,6 +109,8 @@ private:
     Block coupling(const LinearBond& bond) const;
 
     Index particles_ = 0;
+    double length_;  ///< the mean radius [m]
+    std::vector<Index> kept_bond_;
     std::vector<LinearBond> bonds_;
 };
 

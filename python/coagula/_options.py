@@ -1,5 +1,6 @@
 """Keyword arguments of Python as the words of a command line; signatures and documentation from the program's table of options."""
 
+import difflib
 import inspect
 import keyword
 import numbers
@@ -41,7 +42,8 @@ def words(verb, given, threads=None):
     result = []
     for name, value in given.items():
         if name not in known:
-            raise TypeError(f"{verb}() has no argument '{name}'")
+            near = difflib.get_close_matches(name, known, n=1)
+            raise TypeError(f"{verb}() has no argument '{name}'" + (f"; did you mean '{near[0]}'?" if near else ""))
         option = known[name]
         if value is None or value is False:
             continue

@@ -16,12 +16,37 @@ bool takes_prefix(const std::string& unit) {
     return unit == "m" || unit == "Pa" || unit == "N";
 }
 
-/// The power of 1000 that brings the largest value between 1 and 1000.
-int prefix_power(double largest) {
+/// n of a unit such as "m-2", a power of 1 over a unit; 0 of any other.
+int inverse_power(const std::string& unit) {
+    const std::size_t dash = unit.find('-');
+    const bool is_power =
+        dash != std::string::npos && dash > 0 && dash + 2 == unit.size() && unit[dash + 1] >= '1' && unit[dash + 1] <= '9';
+    return is_power ? unit[dash + 1] - '0' : 0;
+}
+
+/// The power of 1000 that brings the largest value between 1 and 1000; of the n-th power of a unit between 1 and 1000^n.
+int prefix_power(double largest, int n = 1) {
     if (!(largest > 0)) {
         return 0;
     }
-    return std::clamp(static_cast<int>(std::floor(std::log10(largest) / 3 + 1e-9)), -4, 3);
+    return std::clamp(static_cast<int>(std::floor(std::log10(largest) / (3 * n) + 1e-9)), -4, 3);
+}
+
+/// Scale and unit in which the largest value is easy to read.
+void choose_unit(double largest, SettledAxis& settled) {
+    static constexpr std::array prefixes = {"p", "n", "µ", "m", "", "k", "M", "G"};
+    const std::string& unit = settled.axis.unit;
+    if (const int n = inverse_power(unit); n > 0) {
+        const std::string base = unit.substr(0, unit.size() - 2);
+        const int power = takes_prefix(base) ? std::max(-3, prefix_power(largest, n)) : 0;
+        settled.scale = std::pow(1000.0, power * n);
+        settled.unit =
+            std::string("1/") + prefixes.at(static_cast<std::size_t>(4 - power)) + base + (n > 1 ? std::to_string(n) : "");
+    } else if (takes_prefix(unit)) {
+        const int power = prefix_power(largest);
+        settled.scale = std::pow(1000.0, power);
+        settled.unit = prefixes.at(static_cast<std::size_t>(power + 4)) + unit;
+    }
 }
 
 /// "m3" as "m^3" in gnuplot's markup.
@@ -101,12 +126,7 @@ SettledAxis settle(const ChartAxis& axis, const std::vector<double>& values) {
         low = axis.logarithmic ? 1 : 0;
         high = 10;
     }
-    if (takes_prefix(axis.unit)) {
-        static constexpr std::array prefixes = {"p", "n", "µ", "m", "", "k", "M", "G"};
-        const int power = prefix_power(std::max(std::abs(low), std::abs(high)));
-        settled.scale = std::pow(1000.0, power);
-        settled.unit = prefixes.at(static_cast<std::size_t>(power + 4)) + axis.unit;
-    }
+    choose_unit(std::max(std::abs(low), std::abs(high)), settled);
     settled.low = low / settled.scale;
     settled.high = high / settled.scale;
     widen(settled);

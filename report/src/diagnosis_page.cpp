@@ -170,7 +170,7 @@ std::string causes(const Diagnosis& found) {
                         std::string("<div class=\"") + (inside ? "inside" : "outside") +
                             "\"><div class=\"bar\"><span style=\"width:" +
                             replaced(printed(100 * std::max(cause.posterior, 0.002)), "−", "-") + "%\"></span></div></div>",
-                        "<span class=\"number\">" + percent(cause.posterior) + "</span>", escaped(cause.words)});
+                        "<span class=\"number\">" + escaped(probability_text(cause.posterior)) + "</span>", escaped(cause.words)});
     }
     html += html_table({"cause", "", "probability", "what it changes"}, rows, "bars");
     return html + (improbable == 0 ? std::string{} : paragraph(std::to_string(improbable) + " more below 0.1 % each.", "soft"));
@@ -223,7 +223,8 @@ std::string proposals(const Diagnosis& found) {
     }
     std::vector<std::vector<std::string>> rows;
     for (const diagnose::Proposal& proposal : found.proposals) {
-        rows.push_back({escaped(proposal.what), "<span class=\"number\">" + percent(proposal.resolution) + "</span>",
+        rows.push_back({escaped(proposal.what),
+                        "<span class=\"number\">" + escaped(probability_text(proposal.resolution)) + "</span>",
                         "<span class=\"number\">" + printed(proposal.information) + " bit</span>"});
     }
     return heading("What to measure next") +
@@ -259,9 +260,9 @@ std::string next_sentence(const diagnose::Proposal& proposal) {
 
 std::string gained(const diagnose::Gain& gain) {
     return gain.held_out == 0 ? std::string{}
-                              : " On rows that no model has seen its error is " + printed(100 * gain.rmse_extended) +
-                                    " % instead of " + printed(100 * gain.rmse_base) +
-                                    " %; the log predictive density changes by " + change_of_density(gain, print_number) + ".";
+                              : " On rows that no model has seen its error is " + percent(gain.rmse_extended) + " instead of " +
+                                    percent(gain.rmse_base) + "; the log predictive density changes by " +
+                                    change_of_density(gain, print_number) + ".";
 }
 
 }  // namespace
@@ -284,8 +285,8 @@ std::string verdict_sentence(const Diagnosis& found) {
         return fails + "; these data cannot tell whether the cause is " + joined(found.credible_set) + "." + next;
     }
     const Cause& cause = found.causes.front();
-    return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + printed(100 * cause.posterior) +
-           " %)." + (found.remainder.detected ? " It leaves something over: " + found.remainder.where + "." : std::string{}) +
+    return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + probability_text(cause.posterior) +
+           ")." + (found.remainder.detected ? " It leaves something over: " + found.remainder.where + "." : std::string{}) +
            gained(found.gain);
 }
 
@@ -311,7 +312,7 @@ std::string diagnosis_page(const DiagnosisRecord& record) {
     }
     Json data = {{"charts", charts.all()}, {"causes", Json::array()}};
     for (const Cause& cause : found.causes) {
-        data["causes"].push_back({{"name", "with " + cause.name}, {"probability", cause.posterior}});
+        data["causes"].push_back({{"name", "with " + cause.name}, {"probability", probability_text(cause.posterior)}});
     }
     return html_page((record.experiment.title.empty() ? "Diagnosis" : record.experiment.title) + " – coagula",
                      head + body + page_data(data) + page_script(diagnosis_script), "text");

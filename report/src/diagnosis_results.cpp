@@ -1,5 +1,7 @@
 #include <coagula/report/diagnosis_results.hpp>
 
+#include "html.hpp"
+
 #include <cmath>
 
 namespace coagula::report {
@@ -63,7 +65,7 @@ Json row_json(const diagnose::PredictedRow& row) {
 }
 
 std::string describe(const Cause& cause) {
-    std::string text = "probability " + with_unit(cause.posterior, "1");
+    std::string text = "probability " + probability_text(cause.posterior);
     for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
         text += "; " + parameter.name + " " + with_unit(parameter.value, parameter.unit) + " (" +
                 with_unit(parameter.low, parameter.unit) + " to " + with_unit(parameter.high, parameter.unit) + ")" +
@@ -208,7 +210,7 @@ Table table_of(const Diagnosis& diagnosis) {
     lines.emplace_back("gain on held-out data", describe(diagnosis.gain));
     if (!diagnosis.proposals.empty()) {
         const diagnose::Proposal& first = diagnosis.proposals.front();
-        lines.emplace_back("measure next", first.what + "   (decides with probability " + with_unit(first.resolution, "1") + ")");
+        lines.emplace_back("measure next", first.what + "   (decides with probability " + probability_text(first.resolution) + ")");
     }
     return lines;
 }

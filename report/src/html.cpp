@@ -102,10 +102,14 @@ std::string heading(const std::string& text) {
 }
 
 std::string percent(double part) {
-    if (part > 0.9995 && part < 1) {
-        return "&gt; 99.9 %";
+    return printed(100 * part) + " %";
+}
+
+std::string probability_text(double probability) {
+    if (probability >= 0.9995) {
+        return "> 99.9 %";
     }
-    return part > 0 && part < 0.001 ? "&lt; 0.1 %" : printed(100 * part) + " %";
+    return probability < 0.001 ? "< 0.1 %" : percent(probability);
 }
 
 std::string signed_percent(double part) {

@@ -19,8 +19,10 @@ std::string escaped(std::string_view text);
 /// "1.47 MPa", "3.2 × 10⁻⁵ m/Pa".
 std::string printed(double value, const std::string& unit = "1");
 
-/// Part of something in percent; what is nearly nothing or nearly all as a bound.
+/// Part of something in percent.
 std::string percent(double part);
+/// A probability in percent, as plain text. What is nearly certain or impossible is so within a model only: "> 99.9 %", "< 0.1 %".
+std::string probability_text(double probability);
 /// With a sign.
 std::string signed_percent(double part);
 

@@ -42,6 +42,7 @@ CALLS = {
     "import": ["import points.csv --radius 0.5um --box 8um -o made.h5", "import plain.csv --length-unit 1um --radius 0.5um --open -o made.h5"],
     "export": ["export packing.h5 --format csv -o made.csv"],
     "report": ["report packing.h5 -o made.html"],
+    "plot": ["plot packing.h5 --figure packing -o made.png"],
     "completion": ["completion bash"],
     "man": ["man shear"],
 }

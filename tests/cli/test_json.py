@@ -26,7 +26,7 @@ class Characterize(ProgramTest):
         self.assertGreater(found["coordination"], 4.5)
         self.assertLess(found["coordination"], 5.0)
         self.assertTrue(0 <= found["rattler_fraction"] < 0.2)
-        self.assertEqual(set(found["doh"]), {"a", "b", "a_stderr", "b_stderr", "rms_residual"})
+        self.assertEqual(set(found["doh"]), {"a", "b", "a_stderr", "b_stderr", "rms_residual", "a_main_part", "b_main_part"})
         self.assertTrue(0.38 < found["doh"]["a"] < 0.55)
         self.assertLess(found["doh"]["rms_residual"], 0.03)
         self.assertTrue(0 <= found["overlap"]["mean"] <= found["overlap"]["max"] < 0.02)

@@ -34,6 +34,20 @@ class FinneyBallBearings(ProgramTest):
         self.assertTrue(0 < near["storage_modulus"]["mean"] < far["storage_modulus"]["mean"] < far["affine_modulus"])
 
 
+class ConfocalImage(ProgramTest):
+    """200 particles of a gel, in voxels: an image so small that no particle is far inside."""
+
+    def test_what_needs_no_inner_particle_is_measured(self):
+        self.succeed("import", DATA / "silica_gel_confocal" / "peri_static.csv", "--length-unit", "0.127um,0.127um,0.12um,0.127um",
+                     "--open", "--frame", "first", "-o", "gel.h5")
+        found = self.succeed_json("characterize", "gel.h5", "--contact-tolerance", "0.1")
+        self.assertGreater(found["coordination"], 1)
+        self.assertNotIn("pore_size", found)
+        self.assertIn("none lies so far inside", self.succeed("characterize", "gel.h5"))
+        self.fail_with(2, "characterize", "gel.h5", "--only", "pores", says=["pores", "larger sample"])
+        self.fail_with(2, "shear", "gel.h5", says=["200 particles", "larger sample"])
+
+
 class ReferenceStructure(ProgramTest):
     """A gel of 8000 particles against values from another program."""
 
@@ -42,7 +56,7 @@ class ReferenceStructure(ProgramTest):
         expected = json.loads((DATA / "reference_structures" / "reference.json").read_text())[name]
         self.succeed("import", DATA / "reference_structures" / f"{name}.csv", "--radius", "0.25um", "--box",
                      str(expected["box_m"]), "-o", "b.h5")
-        found = self.succeed_json("characterize", "b.h5")
+        found = self.succeed_json("characterize", "b.h5", "--only", "coordination,doh")
         self.assertAlmostEqual(found["doh"]["a"], expected["doh_a"], delta=0.002)
         self.assertAlmostEqual(found["coordination"], expected["coordination_1pct"], delta=0.0005)
         moduli = self.succeed_json("shear", "b.h5")["storage_modulus"]

@@ -11,7 +11,10 @@ from xml.etree import ElementTree
 import support
 from support import VEM, ProgramTest
 
-FIGURES = ["pore-curve", "contacts", "bond-forces", "frequency", "amplitude", "stress-strain", "oscillations", "modulus-stiffness",
+MEASURES = ["pore-curve", "contacts", "pair-correlation", "structure-factor", "neighbour-distances", "bond-angles", "bond-order", "rings",
+            "local-redundancy", "voronoi", "density-fluctuations", "void-chords", "solid-chords", "surface", "mean-curvature",
+            "euler-characteristic"]
+FIGURES = [*MEASURES, "bond-forces", "frequency", "amplitude", "stress-strain", "oscillations", "modulus-stiffness",
            "modulus-heterogeneity", "critical-value", "heterogeneity-coordination", "modulus-volume-fraction", "packing", "rheometer",
            "overview"]
 
@@ -62,6 +65,15 @@ class Plot(ProgramTest):
         texts = self.texts_of("a.svg")
         self.assertIn("pore radius r / r0", texts)
         self.assertTrue(any(text.startswith("exact, a = ") for text in texts), texts)
+
+    def test_every_measure_has_its_figure(self):
+        path = self.copy_of_packing()
+        self.succeed("characterize", path, "--only", "all", "--most-voxels", "10000")
+        for figure in MEASURES:
+            found = self.succeed_json("plot", path, "--figure", figure, "-o", figure + ".svg", "--data", figure + ".csv")
+            self.assertGreaterEqual(found["series"][0]["points"], 5, figure)
+            texts = self.texts_of(figure + ".svg")
+            self.assertFalse(any("m-" in text for text in texts), texts)
 
     def test_size_and_units(self):
         path = self.measured()

@@ -48,6 +48,38 @@ class Rheometer(ProgramTest):
         self.assertEqual(len(found["sphere_storage_modulus"][0]), 5)
         self.assertAlmostEqual(found["plate_storage_modulus"][0] / found["storage_modulus"]["yz"], 1, delta=0.1)
 
+    def test_what_the_plates_do(self):
+        """The linear modulus of the same structure without plates, and by how much the plates stiffen it."""
+        words = ["--method", "dem", "--orientation", "yz,zx", "--oscillations", "1", "--bond-tolerance", "0.1", "--steps-per-oscillation",
+                 "6000", "--amplitude", "1e-5"]
+        found = self.succeed_json("shear", "packing.h5", "-o", "out.h5", *words)
+        linear = self.succeed_json("shear", "packing.h5", "--bond-tolerance", "0.1", "-o", "linear.h5")
+        plates = found["plates"]
+        for place, name in enumerate(("yz", "zx")):
+            self.assertAlmostEqual(plates["periodic_linear_modulus"][place] / linear["storage_modulus"][name], 1, delta=1e-6)
+            self.assertAlmostEqual(plates["linear_modulus"][place] / found["rest_modulus"][place], 1, delta=0.02)
+        self.assertGreater(plates["modulus_ratio"], 1.05)
+        self.assertAlmostEqual(plates["modulus_ratio"], sum(plates["linear_modulus"]) / sum(plates["periodic_linear_modulus"]), delta=1e-9)
+        periodic = self.shear("--orientation", "yz,zx")  # what the estimate is about, measured
+        self.assertAlmostEqual(plates["periodic_storage_modulus"] / periodic["storage_modulus"]["mean"], 1, delta=0.03)
+        self.assertNotIn("plates", periodic)
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assertNotIn("plates", file["mechanics/dem"])  # shear() above has written the file anew
+        table = self.succeed("shear", "packing.h5", "-o", "out.h5", "--force", *words)
+        self.assertIn(f"raise G' by {100 * (plates['modulus_ratio'] - 1):.3g}"[:15], table)
+        with h5py.File(self.folder / "out.h5") as file:
+            stored = file["mechanics/dem/plates/periodic_storage_modulus"]
+            self.assertEqual((stored[()], stored.attrs["unit"]), (plates["periodic_storage_modulus"], b"Pa"))
+
+    def test_plates_without_a_linear_modulus(self):
+        """Hertz's contacts, unstressed as found, have no stiffness at vanishing strain."""
+        model = self.write("hertz.toml", 'young_modulus = "70 GPa"\npoisson_ratio = 0.2\n')
+        call = ["shear", "packing.h5", "-o", "out.h5", "--method", "dem", "--orientation", "yz", "--oscillations", "1", "--bond-tolerance",
+                "0.1", "--steps-per-oscillation", "600", "--model", str(model)]
+        found = self.succeed_json(*call)
+        self.assertEqual((found["plates"]["modulus_ratio"], found["plates"]["periodic_storage_modulus"]), (None, None))
+        self.assertIn("no linear modulus", self.succeed(*call, "--force"))
+
     def test_a_killed_run_goes_on_to_the_same_bits(self):
         model = self.write("model.toml", 'friction = 0.2\nnormal_strength = "20 pN"\n')
         words = [*QUICK[:-1], "1500", "--oscillations", "6", "--orientation", "zx,xy", "--model", str(model)]

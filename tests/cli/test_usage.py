@@ -6,7 +6,8 @@ from pathlib import Path
 
 from support import ProgramTest, VEM
 
-VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "info", "import", "export", "completion", "man"]
+VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "plot", "report", "info", "import", "export", "completion",
+         "man"]
 
 
 class Help(ProgramTest):

@@ -26,7 +26,7 @@ class Sentences(ModuleTest):
             coagula.shear(made, model={"normal_stiffnes": 1})
 
     def test_unknown_names_and_types(self):
-        with self.assertRaisesRegex(TypeError, "generate_vem\\(\\) has no argument 'partcles'"):
+        with self.assertRaisesRegex(TypeError, "generate_vem\\(\\) has no argument 'partcles'; did you mean 'particles'"):
             coagula.generate_vem(partcles=3)
         with self.assertRaises(TypeError):
             coagula.shear("packing.h5")

@@ -25,6 +25,12 @@ void print(std::ostream& stream, const Json& json, const std::string& indent) {
     stream << '\n' << indent << '}';
 }
 
+/// Letters of a text in UTF-8.
+std::size_t letters_in(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }));
+}
+
 }  // namespace
 
 void flush_output() {
@@ -41,10 +47,10 @@ void report(const Arguments& arguments, const Json& json, const Table& table) {
     } else if (!arguments.flag("quiet")) {
         std::size_t width = 0;
         for (const auto& [label, text] : table) {
-            width = std::max(width, label.size());
+            width = std::max(width, letters_in(label));
         }
         for (const auto& [label, text] : table) {
-            std::cout << label << std::string(width + 3 - label.size(), ' ') << report::printable(text) << '\n';
+            std::cout << label << std::string(width + 3 - letters_in(label), ' ') << report::printable(text) << '\n';
         }
     }
     flush_output();

@@ -4,6 +4,7 @@
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
+#include "compare_structures.hpp"
 #include "stages.hpp"
 
 #include <coagula/characterize/measure.hpp>
@@ -65,14 +66,58 @@ void add_noise_shifts(const Arguments& arguments, const Packing& packing, const 
                                                     static_cast<std::uint64_t>(arguments.count("seed")), progress));
 }
 
+/// What the work finds wrong about a packing, with the name of its file.
+template <class Work>
+auto naming(const std::string& file, Work&& work) {
+    try {
+        return work();
+    } catch (const std::invalid_argument& reason) {
+        throw InputError(file + ": " + reason.what());
+    }
+}
+
+void check_comparison(const Arguments& arguments) {
+    if (arguments.inputs().size() != 2) {
+        throw InputError("--compare takes two files, but " + std::to_string(arguments.inputs().size()) +
+                         (arguments.inputs().size() == 1 ? " is given" : " are given"));
+    }
+    for (const char* name : {"only", "position-noise", "samples", "output", "force"}) {
+        if (arguments.has(name)) {
+            throw InputError(std::string("--") + name + " does not go with --compare, which takes the measures of heterogeneity "
+                             "only and writes no file");
+        }
+    }
+}
+
+/// Two structures side by side; nothing is written into their files.
+void compare(const Arguments& arguments) {
+    const Stopwatch clock;
+    check_comparison(arguments);
+    const Progress progress = make_progress(arguments.flag("quiet"));
+    const std::array<std::string, 2> files = {arguments.inputs()[0], arguments.inputs()[1]};
+    const std::array<Packing, 2> packings = {io::read_structure(files[0]).packing, io::read_structure(files[1]).packing};
+    const auto input = [&](const Packing& packing) {
+        return characterize::MeasureInput(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
+                                          progress);
+    };
+    const auto comparison = characterize::compare_heterogeneity(input(packings[0]), input(packings[1]), files);
+    Json json = to_json(comparison, files);
+    json["seconds"] = clock.seconds();
+    report(arguments, json, table_of(comparison, files));
+}
+
 void run(const Arguments& arguments) {
+    if (arguments.flag("compare")) {
+        compare(arguments);
+        return;
+    }
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     chosen_measures(arguments);
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
 
-    Findings found = characterize_packing(arguments, packing, progress);
+    Findings found = naming(arguments.input(), [&] { return characterize_packing(arguments, packing, progress); });
     progress.update("writing", 1.0);
     io::add_results(arguments.input(), target, {found.group}, std::nullopt, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));
@@ -101,6 +146,7 @@ std::vector<Option> all_options() {
     options.push_back(text("position-noise", "X|X,Y,Z",
                            "measure again with noise of this standard deviation added to the coordinates, and say what changes"));
     options.push_back(count("noise-replicas", "number of packings with noise", "4", within(2, 1000)));
+    options.push_back(flag("compare", "say which of two files is more heterogeneous, by three measures; nothing is written"));
     options.push_back(count("seed", "of random points", "1", at_least(0)));
     options.push_back(output("write to a new file; results are added to the input file when not given"));
     options.push_back(flag("force", "replace an existing output file"));
@@ -144,7 +190,8 @@ Verb characterize_verb() {
             .input = "FILE.h5",
             .options = all_options(),
             .run = run,
-            .notes = measure_notes()};
+            .notes = measure_notes(),
+            .many_beside = "compare"};
 }
 
 }  // namespace coagula::tools

@@ -84,8 +84,8 @@ void run_new(const Arguments& arguments) {
     io::write_file(path, text, arguments.flag("force"));
     report(arguments, json,
            {{"experiment", path},
-            {"measurements",
-             std::to_string(used) + " of " + std::to_string(all) + " tables; the file says why the others are not used"},
+            {"measurements", std::to_string(used) + " of " + std::to_string(all) + " tables" +
+                                 (used < all ? "; the file says why the others are not used" : "")},
             {"next", "coagula diagnose --check " + path}});
 }
 

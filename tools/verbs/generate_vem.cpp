@@ -121,7 +121,7 @@ Verb generate_vem_verb() {
                     particle_radius("mean radius of the particles; required, unless a table gives the radii"),
                     text("size-distribution", "NAME",
                          "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) "
-                         "or FILE.csv",
+                         "or FILE.csv (columns radius, fraction)",
                          "monodisperse"),
                     quantity("target-coordination", "1", "mean number of contacts at which the expansion stops", "4.69",
                              between(0, 6)),

@@ -1,7 +1,5 @@
 #include "network_keys.hpp"
 
-#include <coagula/mechanics/linear.hpp>
-
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
@@ -10,24 +8,29 @@ namespace coagula::tools {
 
 namespace {
 
-/// The linear response at the stiffness as found; with springs of 1 N/m instead where there is none, for the counts that do not
-/// depend on the stiffness.
-mechanics::LinearResponse linear_response(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model,
-                                          const Progress& progress) {
+/// The linear response at the stiffness as found; nothing where contacts have none, or where the network is unstable under its
+/// prestress.
+std::optional<mechanics::LinearResponse> response_as_found(const Packing& packing, const ContactNetwork& bonds,
+                                                           const ContactModel& model, const Progress& progress) {
     mechanics::LinearOptions options;
     options.bond_tangents = mechanics::bond_tangents(packing, bonds, model);
     const bool stiff = std::all_of(options.bond_tangents.begin(), options.bond_tangents.end(),
                                    [](const ContactTangent& tangent) { return tangent.normal > 0; });
-    if (stiff) {
-        try {
-            return mechanics::solve_linear(packing, bonds, options, progress);
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const std::runtime_error&) {
-            // Unstable under its prestress: the modulus and the modes have no meaning, the rest has.
-        }
+    if (!stiff) {
+        return std::nullopt;
     }
-    options.bond_tangents.clear();
+    try {
+        return mechanics::solve_linear(packing, bonds, options, progress);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::runtime_error&) {
+        return std::nullopt;
+    }
+}
+
+/// With springs of 1 N/m, for the counts that do not depend on the stiffness.
+mechanics::LinearResponse response_for_counts(const Packing& packing, const ContactNetwork& bonds, const Progress& progress) {
+    mechanics::LinearOptions options;
     options.normal_stiffness = 1;
     options.shear_stiffness = 1;
     mechanics::LinearResponse counted = mechanics::solve_linear(packing, bonds, options, progress);
@@ -38,14 +41,19 @@ mechanics::LinearResponse linear_response(const Packing& packing, const ContactN
 
 }  // namespace
 
-void append_network_keys(Results& results, const std::string& group, const Packing& packing, const ContactNetwork& bonds,
-                         const ContactModel& model, const Progress& progress) {
-    const mechanics::LinearResponse linear = linear_response(packing, bonds, model, progress);
+std::optional<mechanics::LinearResponse> append_network_keys(Results& results, const std::string& group, const Packing& packing,
+                                                             const ContactNetwork& bonds, const ContactModel& model,
+                                                             const Progress& progress) {
+    std::optional<mechanics::LinearResponse> found = response_as_found(packing, bonds, model, progress);
+    const mechanics::LinearResponse linear = found ? *found : response_for_counts(packing, bonds, progress);
     results.push_back(io::integer(group + "rattlers", linear.rattlers, "particles that carry no load, at the start"));
     results.push_back(io::integer(group + "floppy_modes", linear.floppy_modes,
                                   "zero-energy modes of the load-bearing particles at the start; -1: not counted"));
     results.push_back(io::scalar(group + "affine_modulus", linear.mean_affine_modulus(), "Pa",
-                                 "shear modulus if all particles followed the strain, mean, at the start"));
+                                 found
+                                     ? "shear modulus if all particles followed the strain, mean, at the start"
+                                     : "NaN: the contacts have no stiffness at the start, or are unstable under their prestress"));
+    return found;
 }
 
 void append_contact_stiffness(Results& results, const std::string& group, const Packing& packing, const ContactNetwork& bonds,

@@ -7,15 +7,19 @@
 #include <coagula/common/contact_network.hpp>
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
+#include <coagula/mechanics/linear.hpp>
 
+#include <optional>
 #include <string>
 
 namespace coagula::tools {
 
 /// Rattlers, floppy modes and affine modulus by the linear solver, below `group` ("/mechanics/dem/"). Where the contacts have no
 /// stiffness as found (Hertz's law without prestress) or the network is unstable, floppy modes are not counted: -1.
-void append_network_keys(Results& results, const std::string& group, const Packing& packing, const ContactNetwork& bonds,
-                         const ContactModel& model, const Progress& progress);
+/// Returns the linear response as found; nothing in those two cases.
+std::optional<mechanics::LinearResponse> append_network_keys(Results& results, const std::string& group, const Packing& packing,
+                                                             const ContactNetwork& bonds, const ContactModel& model,
+                                                             const Progress& progress);
 
 /// Stiffness of a contact as found, mean over the bonds.
 void append_contact_stiffness(Results& results, const std::string& group, const Packing& packing, const ContactNetwork& bonds,

@@ -219,6 +219,13 @@ private:
         text_ += std::string(mark(flows && oscillates)) +
                  "kind = \"smooth\"    # any sample: what the instrument does to it is diagnosed, no structures\n";
         text_ += flows && oscillates ? "# kind = \"network\"    # of particles: without the flow curves\n" : "";
+        if (oscillates) {
+            text_ +=
+                "\n# [structures]    # that a network of particles is simulated with\n"
+                "# generator = \"vem\"    # or files = [\"packing.h5\"], structures of your own, in place of these three lines\n"
+                "# particles = 1000\n"
+                "# seeds = [1, 2, 3, 4]    # one structure each\n";
+        }
     }
 
     /// What the exports say is taken over by itself; the lines are there to be seen and changed.

@@ -26,7 +26,7 @@ using report::PictureFormat;
 using report::PictureSize;
 using report::Series;
 
-constexpr Range picture_length{0.02, 1};  // m
+constexpr Range picture_length{0.02, 0.5};  // m
 
 /// Files as given; of a folder its structures and tables.
 std::vector<std::string> files_of(const Arguments& arguments) {

@@ -5,6 +5,7 @@
 #include "cli/progress_part.hpp"
 #include "network_keys.hpp"
 #include "orientation_list.hpp"
+#include "plate_stiffening.hpp"
 #include "rheometer_checkpoint.hpp"
 #include "rheometer_results.hpp"
 
@@ -112,7 +113,10 @@ Findings rheometer_response(const Arguments& arguments, const Packing& packing, 
     Findings found{.group = "/mechanics/dem",
                    .results = datasets_of(result, options, arguments.quantity("bond-tolerance")),
                    .table = table_of(result, options)};
-    append_network_keys(found.results, "/mechanics/dem/", packing, bonds, model, progress);
+    const auto linear = append_network_keys(found.results, "/mechanics/dem/", packing, bonds, model, progress);
+    if (options.boundary == mechanics::RheometerBoundary::plates) {
+        append_plate_stiffening(found, packing, bonds, linear, result, options.plate_layers, progress);
+    }
     return found;
 }
 

@@ -1,14 +1,14 @@
 // The page of coagula diagnose: its texts and tables are there; the figures are drawn in their places.
 
 import { pageJson } from "./data";
-import { el, printed } from "./dom";
+import { el } from "./dom";
 import { Chart } from "./plots/chart";
 import type { ChartSpec } from "./plots/chart_spec";
 import { themeButton } from "./theme";
 
 interface DiagnosisData {
   charts: ChartSpec[];
-  causes: { name: string; probability: number }[];
+  causes: { name: string; probability: string }[];
 }
 
 /** One switch for each model, for all figures of data at once. */
@@ -23,7 +23,7 @@ function modelSwitches(data: DiagnosisData, charts: Chart[]): HTMLElement {
   return el("div", { class: "models", role: "group", "aria-label": "Models drawn over the data" }, ...[...models].map(([name, look]) => {
     const probability = data.causes.find((cause) => cause.name === name)?.probability;
     const box = el("input", { type: "checkbox", checked: !look.hidden, onchange: () => charts.forEach((chart) => chart.show(name, box.checked)) });
-    const part = probability === undefined ? "" : probability > 0.999 ? " · probability above 99.9 %" : ` · probability ${printed(100 * probability, 3)} %`;
+    const part = probability === undefined ? "" : ` · probability ${probability}`;
     return el("label", { class: "control check" }, box, el("i", { style: `color: var(${look.colour})`, "aria-hidden": "true" }, look.dashed ? "╌╌" : "━━"),
       el("span", {}, name, el("span", { class: "soft" }, part)));
   }));

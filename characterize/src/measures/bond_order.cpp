@@ -1,6 +1,7 @@
 // Measure: bond-orientational order.
 #include <coagula/characterize/bond_order.hpp>
 
+#include "distribution.hpp"
 #include "optional_results.hpp"
 
 namespace coagula::characterize {
@@ -18,6 +19,10 @@ MeasureResult run(const MeasureInput& input) {
     result.add("bond_order/q4_spread", found.q4_spread, "1", "standard deviation of q4");
     result.add("bond_order/q6_spread", found.q6_spread, "1", "standard deviation of q6");
     result.add("bond_order/facets", found.facets, "1", "mean number of facets of a Voronoi cell", found.facets_stderr);
+    constexpr Index bins = 50;
+    result.add_vector("bond_order/value", middles_of_bins(0, 1, bins), "1", "middles of the bins of q4 and q6");
+    result.add_vector("bond_order/q4_density", density_in_bins(found.q4, 0, 1, bins), "1", "probability density of q4");
+    result.add_vector("bond_order/q6_density", density_in_bins(found.q6, 0, 1, bins), "1", "probability density of q6");
     if (found.q6.allFinite()) {
         result.add_field("q4", found.q4.transpose(), "1", "q4 of the particle's Voronoi cell");
         result.add_field("q6", found.q6.transpose(), "1", "q6 of the particle's Voronoi cell");

@@ -14,16 +14,19 @@ void add_distribution(const RadialDistribution& found, const std::string& name, 
                       MeasureResult& result) {
     result.add_vector(name + "/lower", found.lower, unit, "lower edges of the bins of " + of);
     result.add_vector(name + "/upper", found.upper, unit, "upper edges of the bins of " + of);
+    result.add_vector(name + "/distance", (found.lower + found.upper) / 2, unit, "middles of the bins of " + of);
     result.add_vector(name + "/g", found.g, "1", "pairs in the bin over those of an ideal gas");
     add_known(result, name + "/g_stderr", found.g_stderr, "1", "standard error of g from sub-volumes");
     result.add_vector(name + "/neighbours", found.neighbours, "1", "mean number of particles nearer than the upper edge");
 }
 
 MeasureResult run(const MeasureInput& input) {
-    const PairCorrelation found = if_applicable([&] {
+    const auto measure = [&] {
         return measure_pair_correlation(input.packing(), {.range = input.has("pair-range") ? input.number("pair-range") : unset,
                                                           .bin_width = input.number("pair-bin")});
-    });
+    };
+    const PairCorrelation found =
+        input.given("pair-range") ? measure() : if_applicable(measure);  // a range that does not fit is an error
     MeasureResult result;
     add_distribution(found.by_distance, "pair_correlation", "m", "the distance of centres", result);
     if (!is_monodisperse(input.packing())) {

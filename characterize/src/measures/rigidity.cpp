@@ -1,4 +1,5 @@
 // Measures: local rigidity of the network, with normal-and-shear bonds and with central forces only.
+#include "distribution.hpp"
 #include "inner_sums.hpp"
 #include "measure_options.hpp"
 
@@ -25,6 +26,7 @@ public:
         add_shares();
         add_check();
         add_components();
+        add_distribution();
         const std::string suffix = group_ == "rigidity" ? "" : "_central";
         result_.add_field("local_redundancy" + suffix, found_.particle_redundancy.transpose(), "1",
                           "redundant constraints at the particle, half of each of its contacts': over-braced where large");
@@ -113,6 +115,15 @@ private:
             add("smallest_nonzero", found_.smallest_nonzero, "lower estimate of the smallest other singular value of A");
         }
         add("trace_defect", found_.trace_defect, "|sum of the local redundancies - self_stresses|: rounding errors");
+    }
+
+    void add_distribution() const {
+        constexpr Index bins = 40;
+        const double high = std::max(1.0, std::ceil(found_.particle_redundancy.maxCoeff() * (1 + 1e-9)));
+        result_.add_vector(group_ + "/redundancy", middles_of_bins(0, high, bins), "1",
+                           "middles of the bins of the local redundancy");
+        result_.add_vector(group_ + "/redundancy_density", density_in_bins(found_.particle_redundancy, 0, high, bins), "1",
+                           "probability density of the local redundancy of a particle");
     }
 
     /// The null spaces split into those of the connected clusters, so these sums are whole numbers.

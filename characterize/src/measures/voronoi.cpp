@@ -3,6 +3,8 @@
 
 #include <boost/math/special_functions/gamma.hpp>
 
+#include "distribution.hpp"
+
 namespace coagula::characterize {
 
 Measure voronoi_measure();
@@ -39,22 +41,12 @@ Eigen::VectorXd moment_errors(const MeasureInput& input, double smallest) {
 void add_distribution(const Eigen::VectorXd& volumes, const VoronoiDistribution& found, double smallest, MeasureResult& result) {
     constexpr Index bins = 60;
     constexpr double end = 4;
-    Eigen::VectorXd middle(bins), density = Eigen::VectorXd::Zero(bins), fit(bins);
-    const double width = end / bins;
-    for (const double volume : volumes) {
-        const double x = (volume - smallest) / (found.mean - smallest);
-        const auto bin = static_cast<Index>(std::floor(x / width));
-        if (bin >= 0 && bin < bins) {
-            density[bin] += 1 / (width * static_cast<double>(volumes.size()));
-        }
-    }
-    for (Index bin = 0; bin < bins; ++bin) {
-        middle[bin] = (static_cast<double>(bin) + 0.5) * width;
-        const double k = found.shape;
-        fit[bin] = k * boost::math::gamma_p_derivative(k, k * middle[bin]);
-    }
+    const Eigen::VectorXd x = (volumes.array() - smallest) / (found.mean - smallest);
+    const Eigen::VectorXd middle = middles_of_bins(0, end, bins);
+    const double k = found.shape;
+    const Eigen::VectorXd fit = middle.unaryExpr([k](double at) { return k * boost::math::gamma_p_derivative(k, k * at); });
     result.add_vector("voronoi/free_volume", middle, "1", "x = (V - V_min) / (mean V - V_min), middles of the bins");
-    result.add_vector("voronoi/density", density, "1", "probability density of x");
+    result.add_vector("voronoi/density", density_in_bins(x, 0, end, bins), "1", "probability density of x");
     result.add_vector("voronoi/fit", fit, "1", "k^k / Gamma(k) x^(k-1) exp(-k x)");
 }
 

@@ -16,6 +16,7 @@ namespace {
 constexpr int rows = 20;
 constexpr int gaps = 8;
 constexpr double usual_cone = std::numbers::pi / 180;  ///< [rad]
+constexpr double rest = 3;                             ///< between two sweeps, over what the runs so far have taken
 
 /// The settings of an experiment.
 struct Habits {
@@ -116,6 +117,10 @@ std::string millimetres(std::initializer_list<double> lengths) {
     return text.str() + " mm)";
 }
 
+std::string minutes(double seconds) {
+    return std::to_string(std::lround(seconds / 60)) + " min";
+}
+
 std::vector<Candidate> shear_candidates(const Experiment& experiment, const std::vector<Observation>& observations) {
     const Habits habits = habits_of(observations);
     const double gap = experiment.instrument.gap;
@@ -144,6 +149,14 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
     const Plan sweep = Plan(plan).strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows));
     add("an amplitude sweep on a fresh sample", sweep.table(MeasurementKind::amplitude_sweep));
     add("an amplitude sweep on a fresh sample with its waveforms", sweep.with_waveforms());
+    const double faster = 10 * habits.angular_frequency;
+    add("an amplitude sweep on a fresh sample at ten times the frequency",
+        Plan(sweep).frequency(std::vector<double>(rows, faster)).table(MeasurementKind::amplitude_sweep));
+    Measurement again = sweep.table(MeasurementKind::amplitude_sweep);
+    again.run_order = 1;
+    again.pause = rest * habits.duration;
+    add("an amplitude sweep on a fresh sample, and the same again after a rest of " + minutes(again.pause),
+        sweep.table(MeasurementKind::amplitude_sweep), again);
     add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
     if (std::isfinite(gap)) {
         add("an amplitude sweep on a fresh sample at a quarter of the gap" + millimetres({0.25 * gap}),

@@ -8,7 +8,9 @@ Mechanism bond_strength() {
             .signature =
                 "the storage modulus falls and the loss modulus rises past a yield strain; it does not come back on the way down",
             .parameters = {{"critical_strain", "1", 3e-6, 3e-2, true, strength_step}},
-            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.critical_strain = values[0]; }},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) {
+                settings.critical_strain = std::min(settings.critical_strain, values[0]);
+            }},
             .applies = sweeps_amplitude,
             .in_contact = true};
 }

@@ -11,12 +11,17 @@
     ENTRY(shear_stiffness)          \
     ENTRY(bond_bending)             \
     ENTRY(bond_range)               \
+    ENTRY(missing_contacts)         \
     ENTRY(bond_strength)            \
+    ENTRY(activated_rupture)        \
     ENTRY(plate_strain_field)       \
     ENTRY(contact_nonlinearity)     \
     ENTRY(reversible_softening)     \
+    ENTRY(thixotropy)               \
     ENTRY(prestress)                \
     ENTRY(contact_loss)             \
+    ENTRY(contact_dashpot)          \
+    ENTRY(contact_relaxation)       \
     ENTRY(solvent_drag)             \
     ENTRY(ageing)                   \
     ENTRY(ageing_after_shear)       \

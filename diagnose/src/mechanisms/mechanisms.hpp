@@ -11,7 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <set>
+#include <string_view>
+#include <vector>
 
 namespace coagula::diagnose::mechanisms {
 
@@ -89,6 +92,18 @@ bool differs(const Experiment& experiment, const OfRow& of_row) {
         }
     }
     return !all.empty() && *all.rbegin() > 1.05 * *all.begin();
+}
+
+/// Whether a column of a table varies by more than a twentieth.
+inline bool varies(const Measurement& table, std::string_view name) {
+    const Column* column = find_column(table, name);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const double value : column == nullptr ? std::vector<double>{} : column->values) {
+        low = std::fmin(low, value);
+        high = std::fmax(high, value);
+    }
+    return high > 1.05 * low;
 }
 
 /// What changes every row alike is told from a material that nobody has a model of only where tables differ in gap or plate.

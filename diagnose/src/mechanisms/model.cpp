@@ -62,6 +62,15 @@ ContactModel contact_model_of(const Settings& settings, double radius) {
         model.normal_springpot_time = model.shear_springpot_time = 1 / (2 * std::numbers::pi);
         model.normal_springpot_exponent = model.shear_springpot_exponent = settings.springpot_exponent;
     }
+    if (settings.dashpot_time > 0) {
+        model.normal_viscosity = settings.dashpot_time * normal;
+        model.shear_viscosity = settings.dashpot_time * shear;
+    }
+    if (settings.relaxing_ratio > 0) {
+        model.normal_maxwell_stiffness = settings.relaxing_ratio * normal;
+        model.shear_maxwell_stiffness = settings.relaxing_ratio * shear;
+        model.normal_maxwell_time = model.shear_maxwell_time = settings.relaxation_time;
+    }
     if (settings.felt_viscosity > 0) {
         model.solvent_viscosity = settings.felt_viscosity;
     }

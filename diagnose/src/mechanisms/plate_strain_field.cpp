@@ -1,24 +1,12 @@
 #include "mechanisms.hpp"
 
-#include <limits>
-
 namespace coagula::diagnose::mechanisms {
 
 namespace {
 
 /// At one strain the field has no other signature than bonds that break at once; under a cone there is none.
 bool varies_strain(const Measurement& table) {
-    const Column* strain = find_column(table, "strain");
-    if (strain == nullptr || find_column(table, "storage_modulus") == nullptr || std::isfinite(table.cone_angle)) {
-        return false;
-    }
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0;
-    for (const double value : strain->values) {
-        low = std::isfinite(value) ? std::min(low, value) : low;
-        high = std::isfinite(value) ? std::max(high, value) : high;
-    }
-    return high > 1.05 * low;
+    return varies(table, "strain") && find_column(table, "storage_modulus") != nullptr && std::isnan(table.cone_angle);
 }
 
 bool sweeps_between_plates(const Experiment& experiment) {

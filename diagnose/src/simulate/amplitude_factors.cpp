@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -17,11 +18,38 @@ using Complex = std::complex<double>;
 
 constexpr int panels = 3;  ///< of the plates, see plate_rings
 
+/// Bond strength over that at 1 Hz: the force at which heat takes a bond over its barrier grows with the logarithm of the rate of
+/// loading (Evans and Ritchie, Biophysical Journal 72 (1997) 1541), which in an oscillation at that force is in proportion to the
+/// frequency. A bond that would break by itself keeps a twentieth.
+double relative_strength(const Settings& settings, double angular_frequency) {
+    constexpr double least = 0.05;
+    const bool known = settings.strength_per_decade > 0 && std::isfinite(angular_frequency);
+    const double decades = known ? std::log10(angular_frequency / (2 * std::numbers::pi)) : 0;
+    return std::max(least, 1 + settings.strength_per_decade * decades);
+}
+
 }  // namespace
 
 Settings with_weakest_bonds(Settings settings) {
     settings.critical_strain = std::min(settings.critical_strain, settings.rim_critical_strain);
     return settings;
+}
+
+/// At each observation: a strain over how much stronger bonds are at its frequency than at 1 Hz, and the largest of these before.
+std::vector<BondStrain> Forward::bond_strains(const Settings& settings) const {
+    if (settings.strength_per_decade == 0 && !bond_strains_.empty()) {
+        return bond_strains_;
+    }
+    std::vector<double> strains;
+    for (const Observation& observation : observations_) {
+        strains.push_back(observation.strain / relative_strength(settings, observation.angular_frequency));
+    }
+    const std::vector<double> before = largest_strains_before(strains);
+    std::vector<BondStrain> all;
+    for (std::size_t k = 0; k < strains.size(); ++k) {
+        all.push_back({strains[k], before[k]});
+    }
+    return all;
 }
 
 /// Whether the strain grows along the radius, gamma(r) = gamma_R r / R.
@@ -31,16 +59,16 @@ bool Forward::strain_varies(const Settings& settings, const Observation& observa
     return plates && std::isfinite(settings.rim_critical_strain);
 }
 
-/// G* / G of an oscillation with its strain at the rim after the largest before. Between plates the torque shows
+/// G* / G of an oscillation with its strain at the rim. Between plates the torque shows
 /// 4 / R^4 times the integral of G*(gamma_R r / R) r^3 (Macosko, Rheology, 1994, sec. 5.5).
-Eigen::VectorXcd Forward::breaking_response(const Settings& settings, const Observation& observation, double before) const {
-    const double strain = observation.strain;
+Eigen::VectorXcd Forward::breaking_response(const Settings& settings, const Observation& observation,
+                                            const BondStrain& strain) const {
     if (!strain_varies(settings, observation)) {
-        return simulator_.amplitude_response(settings, before, strain);
+        return simulator_.amplitude_response(settings, strain.before, strain.amplitude);
     }
     static const std::vector<Ring> rings = plate_rings(panels);
     const auto in = [&](const Ring& ring) -> Eigen::VectorXcd {
-        return ring.weight * simulator_.amplitude_response(settings, ring.radius * before, ring.radius * strain);
+        return ring.weight * simulator_.amplitude_response(settings, ring.radius * strain.before, ring.radius * strain.amplitude);
     };
     Eigen::VectorXcd mean = in(rings[0]);
     for (std::size_t k = 1; k < rings.size(); ++k) {
@@ -69,34 +97,35 @@ std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, 
     return mean;
 }
 
-/// The strains of the runs that were made on the sample before this table, in their order.
-std::vector<double> Forward::strains_before(std::size_t table) const {
+/// Of these strains of all observations those in the runs that were made on the sample before this table, in their order.
+std::vector<double> Forward::strains_before(std::size_t table, const std::vector<double>& strains) const {
     const std::vector<Measurement>& tables = experiment_.measurements;
     std::vector<std::pair<int, double>> earlier;
-    for (const Observation& observation : observations_) {
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
         const Measurement& other = tables[observation.measurement];
-        if (other.sample == tables[table].sample && observation.run < runs_[table].order && std::isfinite(observation.strain)) {
-            earlier.emplace_back(observation.run, observation.strain);
+        if (other.sample == tables[table].sample && observation.run < runs_[table].order && std::isfinite(strains[k])) {
+            earlier.emplace_back(observation.run, strains[k]);
         }
     }
     std::stable_sort(earlier.begin(), earlier.end(), [](const auto& one, const auto& two) { return one.first < two.first; });
-    std::vector<double> strains;
+    std::vector<double> in_order;
     for (const auto& [order, strain] : earlier) {
-        strains.push_back(strain);
+        in_order.push_back(strain);
     }
-    return strains;
+    return in_order;
 }
 
 /// Those strains of a table and of the runs before it on the sample that were larger than all before.
-std::vector<double> Forward::growing_strains(std::size_t table) const {
-    std::vector<double> strains = strains_before(table);
-    for (const Observation& observation : observations_) {
-        if (observation.measurement == table && std::isfinite(observation.strain)) {
-            strains.push_back(observation.strain);
+std::vector<double> Forward::growing_strains(std::size_t table, const std::vector<double>& strains) const {
+    std::vector<double> all = strains_before(table, strains);
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        if (observations_[k].measurement == table && std::isfinite(strains[k])) {
+            all.push_back(strains[k]);
         }
     }
     std::vector<double> growing;
-    for (const double strain : strains) {
+    for (const double strain : all) {
         if (growing.empty() || strain > growing.back()) {
             growing.push_back(strain);
         }
@@ -104,27 +133,27 @@ std::vector<double> Forward::growing_strains(std::size_t table) const {
     return growing;
 }
 
-/// The largest strain that the sample of each observation had seen before the oscillation that was measured; 0 where it had seen
-/// none.
-std::vector<double> Forward::largest_strains_before() const {
+/// The largest of these strains of all observations that the sample of each had seen before the oscillation that was measured; 0
+/// where it had seen none.
+std::vector<double> Forward::largest_strains_before(const std::vector<double>& strains) const {
     std::vector<double> largest(observations_.size(), 0);
     for (std::size_t table = 0; table < experiment_.measurements.size(); ++table) {
-        const std::vector<double> earlier = strains_before(table);
+        const std::vector<double> earlier = strains_before(table, strains);
         const double at_start = earlier.empty() ? 0.0 : *std::max_element(earlier.begin(), earlier.end());
         const bool repeated = experiment_.measurements[table].oscillations > 1;
         double so_far = at_start;
         std::size_t row_before = 0;
         for (std::size_t k = 0; k < observations_.size(); ++k) {
             const Observation& observation = observations_[k];
-            if (observation.measurement != table || !std::isfinite(observation.strain)) {
+            if (observation.measurement != table || !std::isfinite(strains[k])) {
                 continue;
             }
             if (observation.row <= row_before) {
                 so_far = at_start;  // the other modulus, from the start of the sweep
             }
             row_before = observation.row;
-            largest[k] = repeated ? std::max(so_far, observation.strain) : so_far;
-            so_far = std::max(so_far, observation.strain);
+            largest[k] = repeated ? std::max(so_far, strains[k]) : so_far;
+            so_far = std::max(so_far, strains[k]);
         }
     }
     for (std::size_t k = 0; k < observations_.size(); ++k) {
@@ -133,7 +162,7 @@ std::vector<double> Forward::largest_strains_before() const {
             table.kind == MeasurementKind::harmonics ? same_oscillation(experiment_, table, observations_[k].row) : std::nullopt;
         for (std::size_t other = 0; same && other < observations_.size(); ++other) {
             if (observations_[other].measurement == same->measurement && observations_[other].row == same->row) {
-                largest[k] = table.oscillations > 1 ? std::max(largest[other], observations_[k].strain) : largest[other];
+                largest[k] = table.oscillations > 1 ? std::max(largest[other], strains[k]) : largest[other];
             }
         }
     }
@@ -146,6 +175,11 @@ Eigen::VectorXcd Forward::exact_amplitude_factors(const Settings& settings) cons
         std::vector<double> strains;
         std::vector<Yielded> responses;
     };
+    const std::vector<BondStrain> bonds = bond_strains(settings);
+    std::vector<double> strains;
+    for (const BondStrain& one : bonds) {
+        strains.push_back(one.amplitude);
+    }
     Eigen::VectorXcd factors = Eigen::VectorXcd::Ones(static_cast<Index>(observations_.size()));
     std::map<std::size_t, Run> runs;  // by table
     for (std::size_t k = 0; k < observations_.size(); ++k) {
@@ -156,13 +190,13 @@ Eigen::VectorXcd Forward::exact_amplitude_factors(const Settings& settings) cons
         const auto [found, added] = runs.try_emplace(observation.measurement);
         Run& run = found->second;
         if (added) {
-            run.strains = growing_strains(observation.measurement);
+            run.strains = growing_strains(observation.measurement, strains);
             run.responses = exact_breaking_response(settings, observation, run.strains);
         }
-        const double before = largest_strains_before_[k];
-        const auto place = std::lower_bound(run.strains.begin(), run.strains.end(), std::max(before, observation.strain));
+        const auto [strain, before] = bonds[k];
+        const auto place = std::lower_bound(run.strains.begin(), run.strains.end(), std::max(before, strain));
         const Yielded& response = run.responses[static_cast<std::size_t>(place - run.strains.begin())];
-        factors[static_cast<Index>(k)] = observation.strain > before ? response.first : response.settled;
+        factors[static_cast<Index>(k)] = strain > before ? response.first : response.settled;
     }
     return factors;
 }
@@ -177,12 +211,13 @@ Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) c
     if (exact) {
         return exact_amplitude_factors(settings);
     }
+    const std::vector<BondStrain> bonds = bond_strains(settings);
     const Index columns = simulator_.amplitude_response(settings, 0, 0).size();
     Eigen::MatrixXcd factors = Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), columns);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         if (std::isfinite(observation.strain) && !observation.third_harmonic) {
-            factors.row(static_cast<Index>(k)) = breaking_response(settings, observation, largest_strains_before_[k]).transpose();
+            factors.row(static_cast<Index>(k)) = breaking_response(settings, observation, bonds[k]).transpose();
         }
     }
     return factors;

@@ -6,9 +6,9 @@
 #include <coagula/mechanics/frequency.hpp>
 
 #include "cache_key.hpp"
+#include "contact_losses.hpp"
 #include "drag_scatter.hpp"
 #include "interpolation.hpp"
-#include "springpot.hpp"
 #include "unit_stiffness.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using std::numbers::pi;
 /// Drag on a particle over its normal stiffness, times angular frequency.
 constexpr Axis drag_axis{1e-7, 100, 19};
 
-/// Springs, springpots and drag alone: what acts at vanishing strain and age.
+/// Springs, their losses and drag alone: what acts at vanishing strain and age.
 ContactModel dragged_model(const Settings& settings, double radius) {
     Settings part;
     part.normal_stiffness = settings.normal_stiffness;
@@ -36,6 +36,9 @@ ContactModel dragged_model(const Settings& settings, double radius) {
     part.bending_ratio = settings.bending_ratio;
     part.springpot_ratio = settings.springpot_ratio;
     part.springpot_exponent = settings.springpot_exponent;
+    part.dashpot_time = settings.dashpot_time;
+    part.relaxing_ratio = settings.relaxing_ratio;
+    part.relaxation_time = settings.relaxation_time;
     part.tension = settings.tension;
     part.felt_viscosity = settings.felt_viscosity;
     return contact_model_of(part, radius);
@@ -112,7 +115,7 @@ const std::vector<Complex>& Simulator::own_drag_curve(std::size_t structure) {
 
 /// Drag on a particle over its stiffness, times the angular frequency.
 double Simulator::reduced_drag(const Settings& settings, double angular_frequency) const {
-    const Complex springs = 1.0 + springpot(settings, angular_frequency);
+    const Complex springs = 1.0 + contact_losses(settings, angular_frequency);
     return translation_drag(radius_) * settings.felt_viscosity * angular_frequency /
            (settings.normal_stiffness * std::abs(springs));
 }
@@ -191,9 +194,10 @@ Complex Simulator::exact_drag_response(const Settings& settings, double angular_
     const std::vector<std::size_t> structures = members(group);
     for (const std::size_t k : structures) {
         const std::string key =
-            key_of("drag at " + names_[k], {settings.normal_stiffness, settings.stiffness_ratio, settings.bending_ratio,
-                                            settings.bond_tolerance, settings.springpot_ratio, settings.springpot_exponent,
-                                            settings.tension, settings.felt_viscosity, angular_frequency});
+            key_of("drag at " + names_[k],
+                   {settings.normal_stiffness, settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance,
+                    settings.springpot_ratio, settings.springpot_exponent, settings.dashpot_time, settings.relaxing_ratio,
+                    settings.relaxation_time, settings.tension, settings.felt_viscosity, angular_frequency});
         auto found = find_result(cache_, key, 2);
         if (found == cache_.end()) {
             progress_.update("simulating", 0.0, "drag of the solvent");
@@ -204,7 +208,7 @@ Complex Simulator::exact_drag_response(const Settings& settings, double angular_
         }
         sum += Complex(found->second[0], found->second[1]);
     }
-    const Complex springs = 1.0 + springpot(settings, angular_frequency);
+    const Complex springs = 1.0 + contact_losses(settings, angular_frequency);
     const double linear = exact_linear_modulus(settings, group) * exact_prestress_response(settings, group);
     return sum / (static_cast<double>(structures.size()) * linear * springs);
 }

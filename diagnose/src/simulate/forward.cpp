@@ -1,8 +1,8 @@
 #include "forward.hpp"
 
+#include "contact_losses.hpp"
 #include "data/median.hpp"
 #include "observables/pore_curves.hpp"
-#include "springpot.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,8 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
       observations_(observations),
       simulator_(simulator),
       runs_(run_times(experiment)),
-      largest_strains_before_(largest_strains_before()) {
+      history_(experiment) {
+    bond_strains_ = bond_strains(Settings{});
     check_structure_series(experiment_, observations_);
     if (experiment_.material.kind == MaterialKind::smooth) {
         smooth_.emplace(observations_, experiment_.material.ages);
@@ -107,9 +108,8 @@ Complex Forward::linear_response(const Settings& settings, const Observation& ob
     if (std::isfinite(observation.strain)) {
         response *= simulator_.contact_response(settings, observation.strain);
     }
-    if (settings.springpot_ratio > 0 && std::isfinite(observation.angular_frequency)) {
-        // A springpot in the same proportion to both springs scales the whole stiffness matrix.
-        response *= 1.0 + springpot(settings, observation.angular_frequency);
+    if (has_contact_losses(settings) && std::isfinite(observation.angular_frequency)) {
+        response *= 1.0 + contact_losses(settings, observation.angular_frequency);
     }
     if (settings.felt_viscosity > 0 && std::isfinite(observation.angular_frequency)) {
         response *= exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
@@ -140,7 +140,7 @@ Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
 /// By what changes the material in a row.
 void Forward::scale(Eigen::MatrixXcd& moduli, const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
-    const SimulatedSample sample{experiment_, simulator_, settings, exact};
+    const SimulatedSample sample{experiment_, simulator_, settings, history_, exact};
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         if (is_modulus(observations_[k])) {
             model.for_each<ScalesMaterial>([&](const ScalesMaterial& effect, Values values) {
@@ -166,12 +166,13 @@ Eigen::MatrixXcd Forward::with_fluids(Eigen::MatrixXcd moduli) const {
 Eigen::MatrixXcd Forward::network(const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const std::map<std::size_t, double> linear = linear_moduli(settings, exact);
+    const std::vector<BondStrain> bonds = bond_strains(settings);
     Eigen::VectorXcd moduli = Eigen::VectorXcd::Zero(static_cast<Index>(observations_.size()));
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         Complex& modulus = moduli[static_cast<Index>(k)];
         if (observation.third_harmonic) {
-            modulus = third_harmonic(settings, observation, largest_strains_before_[k]);
+            modulus = third_harmonic(settings, observation, bonds[k]);
         } else if (is_modulus(observation) && !is_fluid(observation)) {
             modulus = linear.at(observation.structures) * linear_response(settings, observation, exact);
         }

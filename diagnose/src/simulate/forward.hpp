@@ -7,6 +7,7 @@
 #include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
+#include "data/strain_history.hpp"
 #include "noise/prediction.hpp"
 #include "observables/observations.hpp"
 #include "smooth_material.hpp"
@@ -23,6 +24,12 @@ namespace coagula::diagnose {
 
 /// Bonds as weak as the weaker of the two causes makes them.
 Settings with_weakest_bonds(Settings settings);
+
+/// An oscillation as bonds feel it: the strain at 1 Hz that takes as large a part of their strength.
+struct BondStrain {
+    double amplitude = unset;  ///< NaN where the row has no strain
+    double before = 0;         ///< the largest before it on the sample, 0: none
+};
 
 /// Throws InputError unless structures stand for every row of a structure series.
 void check_structure_series(const Experiment& experiment, const std::vector<Observation>& observations);
@@ -69,15 +76,17 @@ private:
     std::complex<double> seen_by_instrument(const Model& model, std::size_t number, std::complex<double> modulus) const;
     double seen_of_structure(const Settings& settings, const Observation& observation, bool exact) const;
     bool strain_varies(const Settings& settings, const Observation& observation) const;
-    Eigen::VectorXcd breaking_response(const Settings& settings, const Observation& observation, double before) const;
+    Eigen::VectorXcd breaking_response(const Settings& settings, const Observation& observation, const BondStrain& strain) const;
     std::vector<Yielded> exact_breaking_response(const Settings& settings, const Observation& observation,
                                                  const std::vector<double>& amplitudes) const;
-    std::complex<double> third_harmonic(const Settings& settings, const Observation& observation, double before) const;
-    double storage_while_breaking(const Settings& settings, const Observation& observation, double before, double phase) const;
-    std::vector<double> strains_before(std::size_t table) const;
-    std::vector<double> growing_strains(std::size_t table) const;
+    std::complex<double> third_harmonic(const Settings& settings, const Observation& observation, const BondStrain& bonds) const;
+    double storage_while_breaking(const Settings& settings, const Observation& observation, const BondStrain& strain,
+                                  double phase) const;
+    std::vector<double> strains_before(std::size_t table, const std::vector<double>& strains) const;
+    std::vector<double> growing_strains(std::size_t table, const std::vector<double>& strains) const;
     Eigen::VectorXcd exact_amplitude_factors(const Settings& settings) const;
-    std::vector<double> largest_strains_before() const;
+    std::vector<double> largest_strains_before(const std::vector<double>& strains) const;
+    std::vector<BondStrain> bond_strains(const Settings& settings) const;
     Eigen::MatrixXcd amplitude_factors(const Settings& settings, bool exact) const;
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
     std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
@@ -95,7 +104,8 @@ private:
     const std::vector<Observation>& observations_;
     Simulator& simulator_;
     std::vector<RunTime> runs_;
-    std::vector<double> largest_strains_before_;
+    StrainHistory history_;
+    std::vector<BondStrain> bond_strains_;  ///< where strength does not depend on the frequency
     std::optional<SmoothMaterial> smooth_;
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;

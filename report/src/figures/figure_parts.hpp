@@ -31,6 +31,9 @@ Drawing draw_packing(const Sources& sources);
 Drawing draw_overview(const Sources& sources);
 Drawing draw_rheometer(const Sources& sources);
 
+/// The figures of the measures of a packing, for the table.
+std::vector<Figure> measure_figures();
+
 // The published points of those that have some.
 std::vector<Series> published_heterogeneity_coordination();
 std::vector<Series> published_modulus_heterogeneity();

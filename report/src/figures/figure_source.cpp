@@ -14,8 +14,9 @@ struct Maker {
     const char* group;
     const char* command;
 };
-constexpr std::array<Maker, 7> makers{
-    {{"/characterization", "coagula characterize FILE"},
+constexpr std::array<Maker, 8> makers{
+    {{"/characterization/rigidity", "coagula characterize FILE --only rigidity"},
+     {"/characterization", "coagula characterize FILE"},
      {"/mechanics/linear", "coagula shear FILE"},
      {"/mechanics/frequency", "coagula shear FILE --frequency-sweep 0.1Hz:1kHz:20 --model MODEL.toml"},
      {"/mechanics/quasistatic/ramp", "coagula shear FILE --method quasistatic --ramp 0.01 --orientation zx"},

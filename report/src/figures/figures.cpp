@@ -7,23 +7,9 @@ namespace coagula::report {
 
 namespace {
 
-HistogramFigure contacts() {
-    HistogramFigure figure;
-    figure.path = "/characterization/coordination_histogram";
-    figure.x_axis.name = figure.x_axis.plain = "contacts of a particle";
-    figure.of = "particles";
-    figure.caption = "Fraction of the particles with a given number of contacts.";
-    return figure;
-}
-
-}  // namespace
-
-const std::vector<Figure>& figures() {
-    static const std::vector<Figure> all = {
-        {.name = "pore-curve",
-         .meaning = "exclusion probability of the pores with the fitted error function",
-         .draw = draw_pore_curve},
-        {.name = "contacts", .meaning = "fraction of the particles with 0, 1, 2 ... contacts", .draw = histogram(contacts())},
+std::vector<Figure> make_table() {
+    std::vector<Figure> all = measure_figures();
+    const std::vector<Figure> others = {
         {.name = "bond-forces", .meaning = "distribution of the bond forces under shear", .draw = draw_bond_forces},
         {.name = "frequency", .meaning = "G' and G'' against frequency", .draw = draw_frequency_response},
         {.name = "amplitude", .meaning = "G' and G'' against the amplitude of the strain", .draw = draw_amplitude_response},
@@ -59,6 +45,14 @@ const std::vector<Figure>& figures() {
          .draw = draw_rheometer,
          .one_file = true},
         {.name = "overview", .meaning = "the spheres beside the pore curve", .draw = draw_overview, .one_file = true}};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+}
+
+}  // namespace
+
+const std::vector<Figure>& figures() {
+    static const std::vector<Figure> all = make_table();
     return all;
 }
 

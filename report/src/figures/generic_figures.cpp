@@ -3,16 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace coagula::report {
 
 namespace {
 
-void check_lengths(const FigureSource& source, const std::string& x_path, std::size_t x, const std::string& y_path, std::size_t y) {
-    if (x != y) {
-        throw InputError(source.file + ": " + x_path + " has " + std::to_string(x) + " numbers and " + y_path + " " +
-                         std::to_string(y) + ": a curve needs as many of both");
+bool is_there(const FigureSource& source, const std::string& path) {
+    return !path.empty() && source.find(path) != nullptr;
+}
+
+/// As many numbers as the curve has abscissae.
+std::vector<double> numbers_beside(const FigureSource& source, const CurveFigure& figure, const std::string& path) {
+    std::vector<double> numbers = source.numbers(path);
+    if (const std::size_t x = source.numbers(figure.x).size(); x != numbers.size()) {
+        throw InputError(source.file + ": " + figure.x + " has " + std::to_string(x) + " numbers and " + path + " " +
+                         std::to_string(numbers.size()) + ": a curve needs as many of both");
     }
+    return numbers;
 }
 
 /// Shares of counts at 0, 1, 2 ..., without the empty end.
@@ -52,20 +60,28 @@ void add_density(Series& series, const std::vector<double>& numbers, double low,
 std::function<Drawing(const Sources&)> curve(CurveFigure figure) {
     return [figure = std::move(figure)](const Sources& sources) {
         Chart chart{.x = figure.x_axis, .y = figure.y_axis, .legend = figure.legend};
+        std::vector<Series> others;
         for (std::size_t k = 0; k < sources.size(); ++k) {
             const FigureSource& source = sources[k];
             Series series{.name = legend_name(sources, k), .mark = figure.mark, .colour = static_cast<int>(k)};
             series.x = source.numbers(figure.x);
-            series.y = source.numbers(figure.y);
-            check_lengths(source, figure.x, series.x.size(), figure.y, series.y.size());
-            if (!figure.y_error.empty()) {
-                series.error = source.numbers(figure.y_error);
-                check_lengths(source, figure.x, series.x.size(), figure.y_error, series.error.size());
-            }
+            series.y = numbers_beside(source, figure, figure.y);
             chart.x.unit = source.unit(figure.x);
             chart.y.unit = source.unit(figure.y);
+            if (is_there(source, figure.other)) {
+                Series other{.name = k == 0 ? figure.other_name : "",
+                             .mark = Mark::dashed_line,
+                             .colour = sources.size() > 1 ? series.colour : -1};
+                other.x = series.x;
+                other.y = numbers_beside(source, figure, figure.other);
+                others.push_back(std::move(other));
+            }
+            if (is_there(source, figure.y_error)) {
+                series.error = numbers_beside(source, figure, figure.y_error);
+            }
             chart.series.push_back(std::move(series));
         }
+        std::move(others.begin(), others.end(), std::back_inserter(chart.series));
         return Drawing{.panels = {chart}, .caption = figure.caption};
     };
 }

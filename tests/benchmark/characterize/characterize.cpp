@@ -1,15 +1,20 @@
-// Time and memory of the characterization.
+// Time and memory of the characterization: every measure, the exact pore curve, Voronoi volumes beside voro++.
 //
 //     bench_characterize 8000                       random non-overlapping spheres (sequential addition, volume fraction 0.3)
+//     bench_characterize 8000 unequal               the same with radii between half of theirs and all
 //     bench_characterize structure.csv EDGE TILES   spheres of radius 0.25 um, centres x,y,z [m] after a header line, in a periodic
 //                                                   cube [m], repeated TILES times along each axis and shaken by 1 % of the radius
-#include <coagula/characterize/coordination.hpp>
-#include <coagula/characterize/heterogeneity.hpp>
+#include <coagula/characterize/measure.hpp>
+#include <coagula/common/checks.hpp>
 #include <coagula/common/random.hpp>
 
+#include <omp.h>
 #include <sys/resource.h>
+#include <time.h>
+#ifdef COAGULA_VOROPP
+#include <voro++/voro++.hh>
+#endif
 
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -102,37 +107,126 @@ Packing tiled_packing(const std::string& path, double edge, int tiles) {
     return make_packing(centres, tiles * edge);
 }
 
+/// Seconds of wall clock and of the processor.
+struct Seconds {
+    double wall = 0;
+    double processor = 0;
+};
+
 class Stopwatch {
 public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const std::chrono::duration<double> seconds = now - start_;
+    Seconds lap() {
+        const Seconds now = read();
+        const Seconds passed{now.wall - start_.wall, now.processor - start_.processor};
         start_ = now;
-        return seconds.count();
+        return passed;
     }
 
 private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    static double seconds_of(clockid_t clock) {
+        timespec time{};
+        clock_gettime(clock, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+    static Seconds read() { return {seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_PROCESS_CPUTIME_ID)}; }
+
+    Seconds start_ = read();
 };
 
-void measure(const Packing& packing) {
+void print(const std::string& what, const Seconds& seconds, const std::string& remark = "") {
+    std::printf("%-22s %8.3f %10.3f   %s\n", what.c_str(), seconds.wall, seconds.processor, remark.c_str());
+}
+
+/// Every measure that is made by default, one after the other; what several share counts for the first of them.
+void time_measures(const Packing& packing) {
+    const characterize::MeasureInput input(packing);
     Stopwatch stopwatch;
-    std::printf("N = %td, volume fraction %.4f\n", packing.size(), volume_fraction(packing));
-    const auto pores = characterize::measure_pores(packing);
-    const double pores_seconds = stopwatch.lap();
-    std::printf("pore curve, 200 radii  %8.3f s   mean %.6f r0, largest %.4f r0, cell volume defect %.1e\n", pores_seconds,
-                pores.mean / radius, pores.max / radius, pores.cell_volume_defect);
-    const auto fit = characterize::fit_degree_of_heterogeneity(pores, radius);
-    const double fit_seconds = stopwatch.lap();
-    std::printf("fit                    %8.3f s   a = %.5f +- %.5f, b = %.5f, rms %.5f\n", fit_seconds, fit.a, fit.a_stderr, fit.b,
-                fit.rms_residual);
-    const auto coordination = characterize::measure_coordination(packing);
-    const double coordination_seconds = stopwatch.lap();
-    std::printf("coordination           %8.3f s   %.4f\n", coordination_seconds, coordination.mean);
+    Seconds all;
+    for (const characterize::Measure& measure : characterize::measures()) {
+        if (measure.by_default) {
+            measure.run(input);
+            const Seconds seconds = stopwatch.lap();
+            all.wall += seconds.wall;
+            all.processor += seconds.processor;
+            print(measure.name, seconds);
+        }
+    }
+    print("all of these", all);
+}
+
+void time_curve(const Packing& packing) {
+    Stopwatch stopwatch;
+    const double mean = characterize::measure_pores(packing).mean;
+    print("pore curve, 200 radii", stopwatch.lap(), "mean " + to_text(mean / mean_radius(packing)) + " r0");
+}
+
+#ifdef COAGULA_VOROPP
+/// Volumes by voro++, with about the number of particles per block that it recommends.
+template <class Container>
+Eigen::VectorXd volumes_by_voropp(const Packing& packing) {
+    const Eigen::Vector3d lengths = packing.cell.lengths() / radius;
+    const int blocks = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(packing.size()) / 5)));
+    Container container(0, lengths[0], 0, lengths[1], 0, lengths[2], blocks, blocks, blocks, true, true, true, 8);
+    for (int i = 0; i < packing.size(); ++i) {
+        const Eigen::Vector3d centre = packing.positions.col(i) / radius;
+        if constexpr (std::is_same_v<Container, voro::container_poly>) {
+            container.put(i, centre[0], centre[1], centre[2], packing.radii[i] / radius);
+        } else {
+            container.put(i, centre[0], centre[1], centre[2]);
+        }
+    }
+    Eigen::VectorXd volumes = Eigen::VectorXd::Zero(packing.size());
+    voro::c_loop_all loop(container);
+    voro::voronoicell cell;
+    if (loop.start()) {
+        do {
+            volumes[loop.pid()] = container.compute_cell(cell, loop) ? cell.volume() : 0.0;
+        } while (loop.inc());
+    }
+    return volumes * (radius * radius * radius);
+}
+#endif
+
+/// Both on one core.
+void time_voronoi_volumes(const Packing& packing) {
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    Stopwatch stopwatch;
+    const Eigen::VectorXd volumes = characterize::measure_voronoi_cells(packing).volumes;
+    const Seconds seconds = stopwatch.lap();
+    print("Voronoi volumes", seconds, "one core");
+#ifdef COAGULA_VOROPP
+    const Eigen::VectorXd other =
+        is_monodisperse(packing) ? volumes_by_voropp<voro::container>(packing) : volumes_by_voropp<voro::container_poly>(packing);
+    const Seconds other_seconds = stopwatch.lap();
+    print("the same by voro++", other_seconds,
+          to_text(std::round(100 * other_seconds.processor / seconds.processor) / 100) + " times as long; largest difference " +
+              to_text((volumes - other).cwiseAbs().maxCoeff() / volumes.mean()) + " of the mean");
+#endif
+    omp_set_num_threads(threads);
+}
+
+void measure(const Packing& packing) {
+    std::printf("N = %td, volume fraction %.4f, %d threads\n", packing.size(), volume_fraction(packing), omp_get_max_threads());
+    std::printf("%-22s %8s %10s\n", "", "wall, s", "processor, s");
+    constexpr Index most_for_all = 100000;
+    if (packing.size() <= most_for_all) {
+        time_measures(packing);
+    }
+    time_curve(packing);
+    time_voronoi_volumes(packing);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    std::printf("all                    %8.3f s   peak memory %.2f GiB\n", pores_seconds + fit_seconds + coordination_seconds,
-                static_cast<double>(usage.ru_maxrss) / 1048576);
+    std::printf("peak memory %.2f GiB\n", static_cast<double>(usage.ru_maxrss) / 1048576);
+}
+
+/// The same centres with radii between half of the radius and all of it.
+Packing with_unequal_radii(Packing packing) {
+    for (Index i = 0; i < packing.size(); ++i) {
+        packing.radii[i] =
+            radius * (0.5 + 0.5 * random_uniform(1, RandomPurpose::perturbation, 1, static_cast<std::uint64_t>(i))[0]);
+    }
+    return packing;
 }
 
 }  // namespace
@@ -141,10 +235,12 @@ int main(int count, char** arguments) {
     try {
         if (count == 2) {
             measure(random_packing(std::stoul(arguments[1])));
+        } else if (count == 3 && arguments[2] == std::string("unequal")) {
+            measure(with_unequal_radii(random_packing(std::stoul(arguments[1]))));
         } else if (count == 4) {
             measure(tiled_packing(arguments[1], std::stod(arguments[2]), std::stoi(arguments[3])));
         } else {
-            std::cerr << "usage: bench_characterize PARTICLES | bench_characterize structure.csv EDGE TILES\n";
+            std::cerr << "usage: bench_characterize PARTICLES [unequal] | bench_characterize structure.csv EDGE TILES\n";
             return 2;
         }
     } catch (const std::exception& error) {

@@ -26,7 +26,8 @@ from table import BREAKING, in_set, print_table
 
 
 DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "single", "pair", "tie", "outside"]
-BREAKING_ROWS = {*BREAKING, "tie-yield"}
+BREAKING_ROWS = {*BREAKING, "tie-yield", "activated-rupture"}
+SERIES_ROWS = {"null-series", "structure-series", "tie-level", "contacts-removed", "volume-fraction", "missing-contacts"}
 
 
 def diagnose(program, experiment, cache, *words):
@@ -142,7 +143,8 @@ def main():
     chosen = parser.parse_args()
     program, folder = chosen.program.resolve(), chosen.folder.resolve()
     (folder / "bank").mkdir(parents=True, exist_ok=True)
-    Material(program, folder / "bank").prepare(jobs=chosen.jobs, breaking=not BREAKING_ROWS.isdisjoint(chosen.rows))
+    Material(program, folder / "bank").prepare(jobs=chosen.jobs, breaking=not BREAKING_ROWS.isdisjoint(chosen.rows),
+                                                   series=not SERIES_ROWS.isdisjoint(chosen.rows))
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

@@ -7,7 +7,7 @@ import numpy
 from material import CONTACTS, KNOWN, LOADS, SWEEP_ROWS
 from series import Series
 from session import (Hidden, Noise, Session, full_day, gap_day, level_day, long_day, one_sample, plates_day, up_and_down, wide_strains, yield_day,
-                     GAP, PLATE)
+                     rates_day, rest_day, GAP, PLATE)
 
 LEAST_GAIN, LARGEST_GAIN = 25, 400
 KNOWN_THAT_BREAK = 4  # structures of the diagnosis where bonds break, drawn of those that there are
@@ -57,7 +57,9 @@ def effects(generator, session):
     build_up = (float(numpy.exp(generator.uniform(numpy.log(0.4), numpy.log(2.5)))), begin)
     setting = (float(numpy.exp(generator.uniform(numpy.log(0.5), numpy.log(500)))), begin)
     opening = (0.3 * (power - 1.5), 0.3 * fracture[0])  # exponent and loss; a draw more would change all other rows
-    within = {"contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
+    relaxation = round(logarithmic(0.015, 0.5)((exponent - 0.015) / 0.085), 4)
+    within = {"contact-dashpot": logarithmic(1e-6, 1e-2), "contact-relaxation": logarithmic(0.004, 5.0), "thixotropy": logarithmic(0.1, 1e3),
+              "contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
               "tool-inertia": logarithmic(1e-8, 0.9e-4), "overfill": logarithmic(1e-5, 1e-3), "skin": logarithmic(1e-7, 1.0),
               "cooling": logarithmic(1e-3, 0.3), "softening": logarithmic(1.0, 1e-4),
               "drying": logarithmic(1e-7, 2e-5), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
@@ -76,6 +78,9 @@ def effects(generator, session):
         "drying-rim": lambda place: Hidden("drying-rim", skin=within["skin"](place)),
         "radius-error": lambda place: Hidden("radius-error", overfill=sign * within["overfill"](place)),
         "sudden-loss": lambda place: Hidden("sudden-loss", loss_of_hold=(where[0], where[1], 0.98 - 0.9 * place)),
+        "contact-dashpot": lambda place: Hidden("contact-dashpot", dashpot=float(f"{within['contact-dashpot'](place):.3g}")),
+        "contact-relaxation": lambda place: Hidden("contact-relaxation", relaxing=(float(f"{within['contact-relaxation'](place):.3g}"), relaxation)),
+        "thixotropy": lambda place: Hidden("thixotropy", thixotropy=(within["thixotropy"](place), begin)),
         "edge-fracture": lambda place: Hidden("edge-fracture", fracture=fracture),
         "reversible-softening": lambda place: Hidden("reversible-softening", softening=(within["softening"](place), *opening)),
     }
@@ -110,7 +115,8 @@ def of_effect(name):
     return draw
 
 
-DAYS = {"edge-fracture": wide_strains, "radius-error": plates_day, "reversible-softening": up_and_down}
+DAYS = {"edge-fracture": wide_strains, "radius-error": plates_day, "reversible-softening": up_and_down, "thixotropy": rest_day,
+        "contact-dashpot": lambda: full_day(4e-4, 14), "contact-relaxation": lambda: full_day(4e-4, 14)}
 
 
 def of_its_day(name):
@@ -121,6 +127,20 @@ def of_its_day(name):
         wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
         return scaled(session, material, wanted, strengths)
     return draw
+
+
+def activated_rupture(generator, material):
+    """Bonds twice as strong at the higher frequency as at the lower one, which are two or three decades apart."""
+    lowest = float(generator.choice([0.01, 0.1]))
+    hidden = Hidden("activated-rupture", rates=((lowest, 8.0), (10.0, 4.0)))
+    session = draw_session(generator, material, hidden, tables=rates_day(4e-4, SWEEP_ROWS, (lowest, 10.0)))
+    return replace(session, known_structures=known_that_break(generator))
+
+
+def missing_contacts(generator, material):
+    """Of a series of coordinations, at two strengths."""
+    stiffness = float(numpy.exp(generator.uniform(numpy.log(20), numpy.log(200))))
+    return Series(Hidden("missing-contacts", contact=("missing-contacts", float(generator.choice([0.04, 0.08])))), stiffness)
 
 
 def bond_strength_under_cone(generator, material):
@@ -250,7 +270,9 @@ ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlat
         "tie-level": tie_of_level, "tie-stiffening": tie_of_stiffening, "tie-yield": tie_of_yield,
         "bond-strength-cone": bond_strength_under_cone, "wrong-rows": with_faults(Noise(wrong_rows=2)), "slid-sample": with_faults(Noise(slid="B")),
         "null-one-sample": null_one_sample, "drag": drag, "contacts-removed": misstated("contacts-removed"),
-        "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump}
+        "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump,
+        "activated-rupture": activated_rupture, "missing-contacts": missing_contacts}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})
 ROWS.update({name: of_its_day(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "sudden-loss",
-                                                     "radius-error", "edge-fracture", "reversible-softening")})
+                                                     "radius-error", "edge-fracture", "reversible-softening", "thixotropy", "contact-dashpot",
+                                                     "contact-relaxation")})

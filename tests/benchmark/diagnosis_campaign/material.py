@@ -9,8 +9,11 @@ from pathlib import Path
 
 import numpy
 
+import network
+
 PARTICLES = 400
 STRUCTURES = 8
+THINNED = (0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14, 0.17, 0.2, 0.25, 0.3, 0.4)  # shares of missing contacts
 BREAKING = 32  # of a sample with bonds that break: what a few structures differ from very many is more than errors of 2 %
 KNOWN = 16     # that the diagnosis may know
 LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
@@ -41,18 +44,19 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, jobs, breaking):
-        """Everything that is not drawn: moduli of structures, breaking if asked for; and those structures that the diagnosis may know."""
+    def prepare(self, jobs, breaking, series):
+        """Everything that is not drawn: moduli of structures, breaking and series if asked for; and those structures that the diagnosis may know."""
+        coordinations = COORDINATIONS if series else ()
         contacts = [("", 0.0)] + [(cause, value) for cause, values in CONTACTS.items() for value in values]
-        tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in contacts]
-        tasks += [("modulus", number, *contact, coordination) for coordination in COORDINATIONS
+        tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in (contacts if series else contacts[:1])]
+        tasks += [("modulus", number, *contact, coordination) for coordination in coordinations
                   for number in range(SERIES_STRUCTURES) for contact in contacts]
         if breaking:
             tasks += [("modulus", number) for number in range(STRUCTURES, BREAKING)]
             tasks += [("breaking", number, load) for number in range(BREAKING) for load in LOADS]
         for number in range(BREAKING if breaking else STRUCTURES):
             self.structure(number)
-        for coordination in COORDINATIONS:
+        for coordination in coordinations:
             for number in range(SERIES_STRUCTURES):
                 self.structure(number, coordination=coordination)
         with ProcessPoolExecutor(jobs) as pool:
@@ -61,7 +65,7 @@ class Material:
                 self.keep()
         for number in range(KNOWN):
             self.known_structure(number)
-        for coordination in COORDINATIONS:
+        for coordination in coordinations:
             for number in range(SERIES_KNOWN):
                 self.known_structure(number, coordination)
 
@@ -116,6 +120,27 @@ class Material:
             self.run("import", points, "--box", ",".join(f"{edge}m" for edge in edges), "-o", made, "--force")
         return made
 
+    def thinned(self, number, missing, coordination=None):
+        """G' over that of all contacts where this share of them is missing at random, mean of three draws, by the solver of network.py."""
+        def compute():
+            path = self.structure(number, coordination=coordination)
+            points = self.folder / "points.csv"
+            self.run("export", path, "--format", "csv", "-o", points, "--force")
+            box = numpy.array(self.run("info", path)["box"])
+            header, *rows = points.read_text().splitlines()
+            columns = dict(zip((name.split()[0] for name in header.split(",")), numpy.array([row.split(",") for row in rows], float).T))
+            places = numpy.stack([columns[name] for name in "xyz"], axis=1)
+            bonds = network.bonds_of(places, columns["radius"], box)
+            generator = numpy.random.default_rng([number, round(1000 * missing), round(100 * (coordination or 0))])
+            modulus = lambda some: network.shear_modulus(len(places), some, box, CONTACT, 0.1 * CONTACT)
+            return float(numpy.mean([modulus(network.without(bonds, missing, generator)) for _ in range(3)]) / modulus(bonds))
+        return self.remembered(f"thinned {number} {missing} {coordination}", compute)
+
+    def left_by_bonds(self, number, share):
+        """G' over that of all bonds where these shares of them are there, along straight lines."""
+        curve = [self.thinned(number, missing) if missing else 1.0 for missing in THINNED]
+        return numpy.interp(1 - share, THINNED, curve)
+
     def mean_drag(self, ratio, frequencies):
         """G* over the elastic G' of all structures together with a solvent that drags, whose viscosity over the particles' stiffness is `ratio`."""
         def compute(number):
@@ -139,6 +164,8 @@ class Material:
     def modulus(self, number, cause="", value=0.0, coordination=None):
         """G' of a structure with springs of unit stiffness and perhaps another contact, by small oscillations."""
         def compute():
+            if cause == "missing-contacts":
+                return self.modulus(number, coordination=coordination) * self.thinned(number, value, coordination)
             model = self.folder / "contact.toml"
             stiffness = f"bending_stiffness = {value * CONTACT * RADIUS**2}\ntwisting_stiffness = {value * CONTACT * RADIUS**2}\n"
             model.write_text({"bond-bending": stiffness, "shear-stiffness": f"shear_stiffness = {value * STIFFNESS}\n"}.get(cause, ""))
@@ -183,19 +210,29 @@ class Material:
         return Sketch(self)
 
     def losses(self, number, ratio, exponent, frequencies):
-        """G* over the elastic G' with a springpot beside every spring, by the frequency solver."""
+        """G* over the elastic G' with a springpot beside every spring."""
+        return self.with_elements(number, f"losses {number} {ratio} {exponent}", lambda stiffness: {
+            "springpot_stiffness": ratio * stiffness, "springpot_time": 1 / (2 * numpy.pi), "springpot_exponent": exponent}, frequencies)
+
+    def dashpots(self, number, time, frequencies):
+        return self.with_elements(number, f"dashpots {number} {time}", lambda stiffness: {"viscosity": time * stiffness}, frequencies)
+
+    def relaxing(self, number, share, time, frequencies):
+        return self.with_elements(number, f"relaxing {number} {share} {time}", lambda stiffness: {
+            "maxwell_stiffness": share * stiffness, "maxwell_time": time}, frequencies)
+
+    def with_elements(self, number, key, elements, frequencies):
+        """G* over the elastic G' with these elements beside every spring of a stiffness, by the frequency solver."""
         def compute():
             model = self.folder / "loss.toml"
-            lines = []
-            for part, stiffness in (("normal", CONTACT), ("shear", 0.1 * CONTACT)):
-                lines += [f"{part}_springpot_stiffness = {ratio * stiffness}", f"{part}_springpot_time = {1 / (2 * numpy.pi)}",
-                          f"{part}_springpot_exponent = {exponent}"]
+            lines = [f"{part}_{name} = {value}" for part, stiffness in (("normal", CONTACT), ("shear", 0.1 * CONTACT))
+                     for name, value in elements(stiffness).items()]
             model.write_text("\n".join(lines) + "\n")
             words = ["--frequency", ",".join(f"{each}Hz" for each in frequencies)]
             found = self.shear(self.structure(number), "--model", model, *words)
             plain = self.remembered(f"plain {number}", lambda: self.shear(self.structure(number))["storage_modulus"]["mean"])
             return [(numpy.array(found[part]["mean"]) / plain).tolist() for part in ("storage_modulus", "loss_modulus")]
-        storage, loss = self.remembered(f"losses {number} {ratio} {exponent} {list(frequencies)}", compute)
+        storage, loss = self.remembered(f"{key} {list(frequencies)}", compute)
         return numpy.array(storage) + 1j * numpy.array(loss)
 
 
@@ -219,6 +256,14 @@ def computed(task):
 class Sketch:
     def __init__(self, material):
         self.modulus, self.mean_modulus, self.mean_breaking = material.modulus, material.mean_modulus, material.mean_breaking
+        self.left_by_bonds = material.left_by_bonds
 
     def losses(self, number, ratio, exponent, frequencies):
         return 1 + ratio * (1j * numpy.asarray(frequencies))**exponent
+
+    def dashpots(self, number, time, frequencies):
+        return 1 + 2j * numpy.pi * numpy.asarray(frequencies) * time
+
+    def relaxing(self, number, share, time, frequencies):
+        turned = 2j * numpy.pi * numpy.asarray(frequencies) * time
+        return 1 + share * turned / (1 + turned)

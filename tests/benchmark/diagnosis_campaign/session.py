@@ -44,7 +44,7 @@ class Hidden:
     resonance: tuple = ()   # size, frequency [Hz]
     drift: float = 0.0      # stress offset after ten minutes over G times the small strain
     warmth: tuple = ()      # size, period [s]
-    contact: tuple = ()     # cause, value; or "contacts-removed", share; "volume-fraction", true one
+    contact: tuple = ()     # cause, value; or "contacts-removed", share of the particles' bonds; "missing-contacts", share; "volume-fraction", true one
     viscosity: float = 0.0  # of the solvent, felt by the particles [Pa.s]
     bump: tuple = ()        # size, place [Hz], width in decades: of G'' over G'
     power: tuple = ()       # exponent, time [s]: stiffness as a power of the age
@@ -55,6 +55,10 @@ class Hidden:
     fracture: tuple = ()    # strain at a gap of 1 mm, power of the torque that is left
     softening: tuple = ()   # strain at which half of the contacts are open, exponent, loss there over the modulus
     loss_of_hold: tuple = ()  # sample, row among all its rows, share of the torque that remains
+    dashpot: float = 0.0    # viscosity of a contact over its stiffness [s]
+    relaxing: tuple = ()    # part of a contact that relaxes over the rest, time [s]
+    thixotropy: tuple = ()  # breaking per unit of strain, time in which bonds form again [s]
+    rates: tuple = ()       # frequency [Hz] and largest load of a sweep, for each frequency
     overfill: float = 0.0   # by which the sample is wider than its plate [m]
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
 
@@ -209,6 +213,20 @@ def up_and_down():
     return list(placed([sweep("amplitude-sweep", name, order, each, 1.0, 10) for name in "ABC" for order, each in ((0, strains), (1, strains[::-1]))]))
 
 
+def rest_day():
+    """Under a cone: up in strain, small strains while the sample rests, and up again."""
+    strains = numpy.geomspace(SMALL_STRAIN, 1e-3, 10)
+    tables = [sweep("amplitude-sweep", name, order, strains, 1.0, 20) for name in "ABC" for order in (0, 2)]
+    tables += [sweep("time-sweep", name, 1, numpy.full(8, SMALL_STRAIN), 1.0, 120) for name in "ABC"]
+    return list(placed([replace(table, cone=True) for table in tables]))
+
+
+def rates_day(largest_strain, rows, frequencies):
+    """Sweeps of strain at several frequencies under a cone, each on samples of its own."""
+    return list(placed([replace(sweep("amplitude-sweep", f"{name}{number}", 0, largest_strain * numpy.arange(1, rows + 1) / rows, frequency, 10), cone=True)
+                        for number, frequency in enumerate(frequencies) for name in "AB"]))
+
+
 def plates_day():
     """Samples under a small, a middle and a wide plate."""
     return list(placed([sweep("time-sweep", f"{name}{count}", 0, numpy.full(10, SMALL_STRAIN), 1.0, 60, plate=plate)
@@ -243,6 +261,12 @@ def follow_up(session, what):
         longest = max(table.start + table.time[-1] for table in session.tables)
         long = sweep("time-sweep", "N", 0, numpy.full(20, SMALL_STRAIN), 1.0, 1)
         return [replace(long, time=numpy.geomspace(0.01, 10, 20) * longest, trap="trap" in what)]
+    if "again after a rest" in what:
+        strains = numpy.geomspace(SMALL_STRAIN, max(table.strain.max() for table in session.tables), 20)
+        pair = [sweep("amplitude-sweep", "N", order, strains, 1.0, 30) for order in (0, 1)]
+        return [pair[0], replace(pair[1], start=pair[0].time[-1] + 1800)]
+    if "ten times the frequency" in what:
+        return [sweep("amplitude-sweep", "N", 0, numpy.geomspace(SMALL_STRAIN, max(table.strain.max() for table in session.tables), 20), 10.0, 10)]
     if "quarter of the gap" in what:
         return [sweep("amplitude-sweep", "N", 0, numpy.geomspace(SMALL_STRAIN, max(table.strain.max() for table in session.tables), 20),
                       1.0, 10, gap=GAP / 4)]
@@ -265,6 +289,15 @@ def true_modulus(material, session, table):
     modulus = numpy.full(len(table.strain), level * session.stiffness / 100, dtype=complex)
     if hidden.loss:
         modulus *= material.losses(session.structure, *hidden.loss, table.frequency)
+    if hidden.dashpot:
+        modulus *= material.dashpots(session.structure, hidden.dashpot, table.frequency)
+    if hidden.relaxing:
+        modulus *= material.relaxing(session.structure, *hidden.relaxing, table.frequency)
+    if hidden.thixotropy:
+        modulus *= material.left_by_bonds(session.structure, share_of_bonds(session, table))
+    for frequency, load in hidden.rates:
+        if table.kind == "amplitude-sweep" and table.frequency[0] == frequency:
+            modulus *= material.mean_breaking(load)
     if hidden.viscosity:
         modulus *= material.mean_drag(hidden.viscosity / session.stiffness, table.frequency)
     if hidden.loads and table.kind == "amplitude-sweep":
@@ -297,6 +330,24 @@ def true_modulus(material, session, table):
         size, period = hidden.warmth
         modulus *= 1 + size * numpy.sin(2 * numpy.pi * clock / period)
     return modulus
+
+
+def share_of_bonds(session, table):
+    """Row by row, in steps of a quarter of a second since the sample was filled: some break by the shear, some form again."""
+    breaking, time = session.hidden.thixotropy
+    runs = sorted((each for each in session.tables if each.sample == table.sample and each.order <= table.order), key=lambda each: each.order)
+    share, clock, step, rows = 1.0, 0.0, 0.25, []
+    for run in runs:
+        moments = run.start + run.time
+        rates = 4 * run.strain * run.frequency  # a cycle goes through four amplitudes
+        first = moments[0] - (moments[1] - moments[0])
+        while clock < moments[-1] - step / 2:
+            rate = 0.0 if clock < first - step / 2 else rates[numpy.searchsorted(moments, clock + step / 2)]
+            share += step * ((1 - share) / time - breaking * rate * share)
+            clock += step
+            if run is table and numpy.any(abs(moments - clock) < step / 2):
+                rows.append(share)
+    return numpy.array(rows)
 
 
 def worst_so_far(session, table):

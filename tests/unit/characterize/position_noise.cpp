@@ -1,6 +1,7 @@
 // Noise of the coordinates: what it does to a lattice, and the noise that overlaps imply.
 #include <coagula/characterize/position_noise.hpp>
 
+#include "named_results.hpp"
 #include "test_packings.hpp"
 
 #include <gtest/gtest.h>
@@ -8,15 +9,7 @@
 namespace coagula::characterize {
 namespace {
 
-double scalar(const MeasureResult& result, const std::string& name) {
-    for (const Dataset& dataset : result.datasets) {
-        if (dataset.path == "/characterization/" + name) {
-            return std::get<std::vector<double>>(dataset.values).front();
-        }
-    }
-    ADD_FAILURE() << "no " << name;
-    return 0;
-}
+using test::scalar;
 
 TEST(PositionNoise, IsTheOneThatOverlapsImply) {
     // Separations of touching spheres vary by sqrt(2) times the noise, half of them inward.

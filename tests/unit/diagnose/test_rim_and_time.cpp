@@ -46,7 +46,8 @@ Complex shown(const std::string& name, Complex modulus, const Observation& row, 
 Complex factor(const std::string& name, const Observation& row, std::vector<double> values) {
     static const Experiment none;
     static const Settings settings;
-    return std::get<ScalesMaterial>(cause(name).effect).factor(row, values, {none, simulator(), settings, false});
+    static const StrainHistory history(none);
+    return std::get<ScalesMaterial>(cause(name).effect).factor(row, values, {none, simulator(), settings, history, false});
 }
 
 /// Torque of rings of a material and of a skin around them, per angle, over that of a modulus of 1 Pa.

@@ -135,12 +135,16 @@ TEST_F(TextFormats, BadFilesNameLineAndRule) {
     const std::vector<BadText> files{
         {TextFormat::csv, "", " has no header"},
         {TextFormat::csv, header, " has no particles"},
-        {TextFormat::csv, "1,2,3\n", ", line 1: there is no column x; the first line must be a header that names x, y and z"},
+        {TextFormat::csv, "1,2,3\n",
+         ", line 1: there is no column x among 1, 2, 3; the first line must be a header that names x, y and z, or give --columns "
+         "x=HEADING"},
         {TextFormat::csv, "x [um],y [um]\n1,2\n",
-         ", line 1: there is no column z; the first line must be a header that names x, y and z"},
+         ", line 1: there is no column z among x, y; the first line must be a header that names x, y and z, or give --columns "
+         "z=HEADING"},
         {TextFormat::csv, "x [s],y [um],z [um]\n1,2,3\n", ", line 1: column x has the unit 's', which is not a length"},
         {TextFormat::csv, "x [mm,y [um],z [um]\n1,2,3\n",
-         ", line 1: there is no column x; the first line must be a header that names x, y and z"},
+         ", line 1: there is no column x among x [mm, y, z; the first line must be a header that names x, y and z, or give "
+         "--columns x=HEADING"},
         {TextFormat::csv, header + "1,2,3\n1,2\n", ", line 3: there are 2 fields, but the header names 3"},
         {TextFormat::csv, header + "1,2,3,4\n", ", line 2: there are 4 fields, but the header names 3"},
         {TextFormat::csv, header + "1,2,abc\n", ", line 2: z is 'abc', which is not a number"},

@@ -42,6 +42,17 @@ TEST(Charts, GiveDataInTheUnitOfTheFileAndAxesInOneThatSuits) {
     EXPECT_TRUE(contains(commands, "0.2 2 2 0"));
 }
 
+TEST(Charts, AxesShowInverseLengthsOverALengthWithPrefix) {
+    const auto shown = [](const std::string& unit, double largest) { return settle({.unit = unit}, {0, largest}); };
+    EXPECT_EQ(shown("m-1", 2e7).unit, "1/µm");
+    EXPECT_DOUBLE_EQ(shown("m-1", 2e7).scale, 1e6);
+    EXPECT_EQ(shown("m-3", 1e19).unit, "1/µm3");
+    EXPECT_DOUBLE_EQ(shown("m-3", 1e19).scale, 1e18);
+    EXPECT_EQ(shown("m-2", 0.5).unit, "1/km2");
+    EXPECT_EQ(shown("rad-1", 3).unit, "1/rad");
+    EXPECT_DOUBLE_EQ(shown("rad-1", 3).scale, 1);
+}
+
 TEST(Charts, LengthsTakeTheirPrefix) {
     const SettledAxis axis = settle({.unit = "m"}, {2e-8, 3e-7});
     EXPECT_EQ(axis.unit, "nm");

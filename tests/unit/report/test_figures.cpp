@@ -93,6 +93,28 @@ TEST(Figures, ACurveNeedsAsManyNumbersOfBoth) {
     EXPECT_THROW(curve(figure)({source}), InputError);
     figure.y = "/x";
     EXPECT_EQ(curve(figure)({source}).panels.at(0).y.unit, "m");
+    figure.y_error = "/y";
+    EXPECT_THROW(curve(figure)({source}), InputError);
+}
+
+TEST(Figures, ACurveMayHaveErrorsAndASecondOneBeside) {
+    const Eigen::Vector3d x(1, 2, 3), y(4, 5, 6), error(0.1, 0.2, 0.3), fit(4.1, 5.1, 5.9);
+    CurveFigure figure;
+    figure.x = "/x";
+    figure.y = "/y";
+    figure.y_error = "/error";
+    figure.other = "/fit";
+    figure.other_name = "fit";
+    const std::vector<io::Dataset> measured = {io::vector("/x", x, "m", "x"), io::vector("/y", y, "1", "y")};
+    std::vector<io::Dataset> complete = measured;
+    complete.push_back(io::vector("/error", error, "1", "e"));
+    complete.push_back(io::vector("/fit", fit, "1", "f"));
+    const Chart chart = curve(figure)({source_of(complete, "a"), source_of(measured, "b")}).panels.at(0);
+    ASSERT_EQ(chart.series.size(), 3U);
+    EXPECT_EQ(chart.series[0].error, (std::vector<double>{0.1, 0.2, 0.3}));
+    EXPECT_TRUE(chart.series[1].error.empty());
+    EXPECT_EQ(chart.series[2].name, "fit");
+    EXPECT_EQ(chart.series[2].y, (std::vector<double>{4.1, 5.1, 5.9}));
 }
 
 TEST(Figures, ThePowerLawThroughModuliIsTheirLaw) {

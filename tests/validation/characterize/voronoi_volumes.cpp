@@ -1,6 +1,7 @@
-// Cell volumes against voro++, a different algorithm (cells cut plane by plane).
-#include "power_diagram.hpp"
+// Volumes and surfaces of all cells against voro++, a different algorithm (cells cut plane by plane).
 #include "unit/characterize/test_packings.hpp"
+
+#include <coagula/characterize/voronoi_cells.hpp>
 
 #include <gtest/gtest.h>
 #include <voro++/voro++.hh>
@@ -8,26 +9,13 @@
 namespace coagula::characterize {
 namespace {
 
-Eigen::VectorXd volumes_by_orthoschemes(const Packing& packing) {
-    const PowerDiagram diagram = periodic_diagram(packing, packing.radii);
-    Eigen::VectorXd volumes = Eigen::VectorXd::Zero(packing.size());
-    for (const DiagramEdge& edge : diagram.edges) {
-        const EdgeGeometry geometry = measure_edge(diagram, edge);
-        const double height = geometry.height[0] + geometry.height[1];
-        for (const EdgeSide& side : geometry.sides) {
-            for (const auto& [corner, a] : {std::pair{side.first, side.first_distance}, {side.second, side.second_distance}}) {
-                const int site = edge.around[static_cast<std::size_t>(corner)];
-                if (site < packing.size()) {
-                    volumes[site] += a * side.foot_distance * height / 6;
-                }
-            }
-        }
-    }
-    return volumes;
-}
+/// Volumes and surfaces of the cells, N each.
+struct Cells {
+    Eigen::VectorXd volumes, surfaces;
+};
 
 template <class Container>
-Eigen::VectorXd volumes_by_voropp(const Packing& packing) {
+Cells cells_by_voropp(const Packing& packing) {
     const Eigen::Vector3d lengths = packing.cell.lengths();
     Container container(0, lengths[0], 0, lengths[1], 0, lengths[2], 5, 5, 5, true, true, true, 8);
     for (int i = 0; i < packing.size(); ++i) {
@@ -38,28 +26,68 @@ Eigen::VectorXd volumes_by_voropp(const Packing& packing) {
             container.put(i, centre[0], centre[1], centre[2]);
         }
     }
-    Eigen::VectorXd volumes = Eigen::VectorXd::Zero(packing.size());
+    Cells cells{Eigen::VectorXd::Zero(packing.size()), Eigen::VectorXd::Zero(packing.size())};
     voro::c_loop_all loop(container);
     voro::voronoicell cell;
     if (loop.start()) {
         do {
-            volumes[loop.pid()] = container.compute_cell(cell, loop) ? cell.volume() : 0.0;
+            if (container.compute_cell(cell, loop)) {
+                cells.volumes[loop.pid()] = cell.volume();
+                cells.surfaces[loop.pid()] = cell.surface_area();
+            }
         } while (loop.inc());
     }
-    return volumes;
+    return cells;
 }
 
-TEST(VoronoiVolumes, EqualSpheres) {
-    const Packing packing = test::random_spheres(2000, {10, 12, 17}, 0.5, 0.5, 4);
-    const Eigen::VectorXd expected = volumes_by_voropp<voro::container>(packing);
-    EXPECT_LT((volumes_by_orthoschemes(packing) - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.mean());
+Eigen::VectorXd surfaces_of(const Packing& packing) {
+    const VoronoiFaces faces = measure_voronoi_faces(packing);
+    Eigen::VectorXd surfaces = Eigen::VectorXd::Zero(packing.size());
+    for (Index face = 0; face < faces.areas.size(); ++face) {
+        surfaces[faces.neighbours.ends(0, face)] += faces.areas[face];
+        surfaces[faces.neighbours.ends(1, face)] += faces.areas[face];
+    }
+    return surfaces;
 }
 
-TEST(VoronoiVolumes, PowerCellsOfUnequalSpheres) {
+/// Each to 1e-9 of itself. Slivers smaller than a millionth of the mean are compared with the mean.
+void expect_equal(const Eigen::VectorXd& found, const Eigen::VectorXd& expected) {
+    const Eigen::ArrayXd scale = expected.array().max(1e-6 * expected.mean());
+    EXPECT_LT(((found - expected).array() / scale).abs().maxCoeff(), 1e-9);
+}
+
+template <class Container>
+void expect_cells_of_voropp(const Packing& packing) {
+    const Cells expected = cells_by_voropp<Container>(packing);
+    expect_equal(measure_voronoi_cells(packing).volumes, expected.volumes);
+    expect_equal(surfaces_of(packing), expected.surfaces);
+}
+
+TEST(VoronoiCells, OfRandomPoints) {
+    expect_cells_of_voropp<voro::container>(test::random_spheres(2000, {10, 12, 17}, 0.5, 0.5, 4));
+}
+
+TEST(VoronoiCells, OfUnequalSpheres) {
     const Packing packing = test::random_spheres(2000, {10, 12, 17}, 0.1, 0.9, 5);
-    const Eigen::VectorXd expected = volumes_by_voropp<voro::container_poly>(packing);
-    EXPECT_GT((expected.array() == 0).count(), 0) << "no particle is swallowed: the test misses that case";
-    EXPECT_LT((volumes_by_orthoschemes(packing) - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.mean());
+    const VoronoiCells cells = measure_voronoi_cells(packing);
+    EXPECT_GT((cells.volumes.array() == 0).count(), 0) << "no particle is swallowed: the test misses that case";
+    expect_cells_of_voropp<voro::container_poly>(packing);
+}
+
+TEST(VoronoiCells, OfCrystals) {
+    expect_cells_of_voropp<voro::container>(test::simple_cubic({5, 4, 6}, 0.5));
+    expect_cells_of_voropp<voro::container>(test::face_centred({4, 3, 5}, 0.5));
+    expect_cells_of_voropp<voro::container>(test::body_centred({4, 5, 3}, 0.5));
+}
+
+TEST(VoronoiCells, OfGels) {
+    for (const char* name : {"vem_1-8", "brownian_15mV"}) {
+        Packing packing = test::reference_structure(name);
+        packing.cell = Cell::periodic(1e6 * packing.cell.lengths());  // voro++ takes lengths near 1
+        packing.positions *= 1e6;
+        packing.radii *= 1e6;
+        expect_cells_of_voropp<voro::container>(packing);
+    }
 }
 
 }  // namespace

@@ -149,8 +149,11 @@ export function responseCharts(structures: Structure[]): ChartSpec[] {
 /** Names of what a curve is drawn against, the likeliest first. */
 const abscissae = [
   "frequency", "amplitude", "strain", "dilation", "radius", "distance", "r", "wave_number", "wavenumber", "q", "length", "chord_length", "size", "edge", "edges",
-  "bin_centre", "centre", "threshold", "lag", "time", "angle", "cosine", "volume", "level", "shell", "order", "fraction",
+  "bin_centre", "centre", "threshold", "lag", "time", "angle", "cosine", "free_volume", "volume", "value", "redundancy", "level", "shell", "order", "fraction",
 ];
+const binEdges = ["lower", "upper"]; // said by the middles of the bins already
+/** Curves that would dwarf the others of their figure, or that are errors: drawn when asked for. */
+const aside = /^(neighbours|vectors)$|(stderr|_error)$/;
 const fewest = 5; // numbers of a curve; fewer go into the table
 
 /** A data set of numbers along one axis: [n], or [n][k] as k curves. */
@@ -211,7 +214,7 @@ function title(path: string): string {
 export function furtherCharts(structures: Structure[], group: string): ChartSpec[] {
   const found = new Map<string, { result: Result; structure: Structure; k: number; curves: (number | null)[][] }[]>();
   structures.forEach((structure, k) => structure.results.forEach((result) => {
-    const known = result.path.startsWith(poreCurve) || result.path === histogram || result.path.includes("/bonds/");
+    const known = result.path.startsWith(poreCurve) || result.path === histogram || result.path.includes("/bonds/") || binEdges.includes(lastPart(result.path));
     const curves = result.path.startsWith(group) && !known ? curvesOf(result) : null;
     if (curves && abscissaOf(structure, result.path, result.shape[0]!) !== result) {
       const key = `${folder(result.path)} ${result.unit}`;
@@ -243,7 +246,7 @@ function chartOf(structures: Structure[], entries: { result: Result; structure: 
     const number = structures.length > 1 ? k : entries.findIndex((entry) => entry.result === result) + c;
     return { name: named(structures, structure, name), kind: counted ? "bars" : "line", colour: colourOf(number), width: 1.8,
       x: places(structure, result, curve.length).x.map((value) => value / along.factor),
-      y: curve.map((value) => (value === null ? null : value / prefix.factor)), hidden: (hasMean && !name.startsWith("mean")) || name.endsWith("stderr") };
+      y: curve.map((value) => (value === null ? null : value / prefix.factor)), hidden: (hasMean && !name.startsWith("mean")) || aside.test(lastPart(result.path)) };
   }));
   if (series.every((one) => one.y.every((value) => value === null))) {
     return [];

@@ -23,17 +23,18 @@ struct DensityFluctuations {
     Eigen::VectorXd edge;             ///< of the windows, ascending [m]
     Eigen::VectorXd deviation;        ///< standard deviation over mean
     Eigen::VectorXd deviation_error;  ///< standard errors from sub-volumes; NaN if unknown
-    double integral = unset;          ///< of the deviation over edge / r0 from 2 to 10; NaN if the box is shorter than 20 r0
+    double integral = unset;          ///< of the deviation over edge / r0 from 2 to `largest`; NaN if there are no such windows
     double integral_error = unset;
 };
 
 /// Windows at every point of a grid with a spacing of r0 / 2 or, in boxes of more than 1.6e7 such points, more. In an open packing
 /// only windows count that lie where the nearest particle is an inner one. The integral takes the deviation for a power law of the
 /// edge between two windows. Throws std::invalid_argument when no window of edge 2 r0 fits twice into the box.
-/// @param inner N flags of inner_particles.hpp.
-DensityFluctuations measure_density_fluctuations(const Packing& packing, const std::vector<bool>& inner);
+/// @param inner N flags of inner_particles.hpp. @param largest edge over r0 up to which the curve is integrated, 2 to 10.
+DensityFluctuations measure_density_fluctuations(const Packing& packing, const std::vector<bool>& inner,
+                                                 double largest = largest_window);
 
-/// Where the curves of two packings of equal r0 differ most: the window edge [m] and the difference of the deviations there (second
+/// Where the curves of two packings with edges in the same unit differ most: the window edge and the difference of the deviations there (second
 /// minus first), over the edges that both have.
 struct LargestDifference {
     double edge = unset;

@@ -45,6 +45,10 @@ public:
     void add_line(const std::string& label, const std::string& text);
     void append(const MeasureResult& other);
 
+    /// A scalar by its name, and its standard error; NaN if there is none.
+    double value(const std::string& name) const;
+    double standard_error(const std::string& name) const { return value("uncertainty/" + name); }
+
     std::vector<Dataset> datasets;
     std::vector<ParticleField> fields;
     Table lines;

@@ -24,6 +24,7 @@ enum class RandomPurpose : std::uint64_t {
     rotation_observation = 10,
     floppy_motion = 12,
     position_noise = 13,
+    thinned_contacts = 14,
     gelb_gubbins_sample = 21,
     test = 100,
 };

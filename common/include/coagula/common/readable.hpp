@@ -16,7 +16,7 @@ using Table = std::vector<std::pair<std::string, std::string>>;
 std::string with_unit(double value, const std::string& unit);
 
 /// "0.4566 +- 0.0014": as many decimals as the error has with two digits. Without an error that is finite and positive, five
-/// decimals.
+/// decimals; one that is not finite is not shown.
 std::string with_error(double value, double error);
 
 /// "10.9 x 10.9 x 10.9 um, periodic".

@@ -15,6 +15,7 @@
 namespace coagula::diagnose {
 
 class Simulator;
+class StrainHistory;
 struct Observation;
 
 /// A parameter with its physical range, over which the prior is uniform (or uniform in the logarithm).
@@ -42,6 +43,7 @@ struct SimulatedSample {
     const Experiment& experiment;
     Simulator& simulator;
     const Settings& settings;
+    const StrainHistory& history;
     bool exact;  ///< run the simulator at the settings themselves instead of between the nodes of its grids
 };
 

@@ -15,6 +15,9 @@ struct Settings {
 
     double springpot_ratio = 0;     ///< springpot of a contact over its spring at 1 Hz, in both directions
     double springpot_exponent = 0;  ///< 0 .. 1
+    double dashpot_time = 0;        ///< viscosity of a contact over its stiffness, in both directions [s]
+    double relaxing_ratio = 0;      ///< spring of the Maxwell element of a contact over its own, in both directions
+    double relaxation_time = 0;     ///< of that element [s]
 
     double felt_viscosity = 0;  ///< of the solvent as the particles feel it: drag 6 pi eta r against the affine flow [Pa.s]
 
@@ -23,6 +26,7 @@ struct Settings {
 
     double rim_critical_strain = std::numeric_limits<double>::infinity();  ///< the same where the strain between plates grows along
                                                                            ///< the radius; the smaller of both counts
+    double strength_per_decade = 0;  ///< by which both grow with each decade of the frequency beyond 1 Hz, where they are stated
 
     double tension = 0;  ///< force at rest that pulls in every contact, over its normal stiffness times the diameter
 

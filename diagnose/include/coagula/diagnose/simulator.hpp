@@ -94,8 +94,8 @@ public:
     /// before.
     double storage_while_breaking(const Settings& settings, double before, double amplitude, double phase);
 
-    /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; springpots beside
-    /// the springs are in both.
+    /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; what the
+    /// contacts lose beside their springs is in both.
     std::complex<double> drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
     /// What independent standard errors of the mean over so few structures change that by (src/simulate/drag_scatter.hpp): as many
     /// values for every group of structures and for all of them together, 0 for those of other groups.
@@ -107,6 +107,11 @@ public:
     /// G under a tension in all contacts over G without it, at vanishing strain.
     double prestress_response(const Settings& settings, std::size_t group = 0);
     double exact_prestress_response(const Settings& settings, std::size_t group = 0);
+
+    /// G without a share of the contacts, missing at random, over G with all of them, at vanishing strain: between nodes for the
+    /// contacts of the base model, or for those of the settings. A thousandth at least, where nothing bears a load.
+    double thinned_response(double missing, std::size_t group = 0);
+    double exact_thinned_response(const Settings& settings, double missing, std::size_t group = 0);
 
     /// Mean number of neighbours of a particle in a shell of distance (src/neighbour_shells.hpp) as measured coordinates would show
     /// it, mean over the structures.
@@ -149,6 +154,8 @@ private:
     double secant_modulus(std::size_t structure, double load);
     const std::vector<double>& secant_curve();
     double prestressed_modulus(std::size_t structure, const Settings& settings);
+    double thinned_modulus(std::size_t structure, const Settings& settings, double missing);
+    const std::vector<double>& thinned_curve(std::size_t group);
     const std::vector<double>& drag_nodes(std::size_t structure);
     const std::vector<std::complex<double>>& drag_curve(std::size_t group);
     const std::vector<std::complex<double>>& own_drag_curve(std::size_t structure);
@@ -165,9 +172,10 @@ private:
     Structures structures_;
     std::vector<std::string> names_;
     std::vector<std::size_t> groups_;
-    std::map<std::size_t, double> volume_fractions_;     ///< by group
-    std::map<std::array<double, 4>, double> nodes_;      ///< by ratio, bending, tolerance and group
-    std::map<std::array<double, 3>, double> exponents_;  ///< of the volume fraction, by ratio, bending and tolerance
+    std::map<std::size_t, double> volume_fractions_;             ///< by group
+    std::map<std::array<double, 4>, double> nodes_;              ///< by ratio, bending, tolerance and group
+    std::map<std::array<double, 3>, double> exponents_;          ///< of the volume fraction, by ratio, bending and tolerance
+    std::map<std::size_t, std::vector<double>> thinned_curves_;  ///< by group
     std::map<std::pair<int, int>, std::vector<double>> shell_nodes_;
     std::map<std::pair<int, int>, std::vector<double>> image_nodes_;
     std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;      ///< by group

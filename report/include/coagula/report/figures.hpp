@@ -69,7 +69,7 @@ struct PaperFigure {
 /// Figures 1 to 6 from all files that have what the figure shows.
 std::vector<PaperFigure> draw_paper_figures(const std::vector<FigureSource>& sources);
 
-/// A curve of two data sets of equal length, one series per file. The axes take their units from the file.
+/// A curve of two data sets of equal length, one series per file, and a second one beside. The axes take their units from the file.
 struct CurveFigure {
     std::string x;  ///< path of the abscissae, such as "/characterization/pair_correlation/distance"
     std::string y;
@@ -78,7 +78,9 @@ struct CurveFigure {
     std::string caption;
     Mark mark = Mark::line;
     Legend legend = Legend::top_right;
-    std::string y_error = {};  ///< path of the error of y; empty: none
+    std::string y_error = {};  ///< path of the error of y; empty or not in the file: none
+    std::string other = {};    ///< path of a second y, dashed, such as a fit; empty or not in the file: none
+    std::string other_name = {};
 };
 std::function<Drawing(const std::vector<FigureSource>&)> curve(CurveFigure figure);
 

@@ -1,0 +1,52 @@
+// Measure: the largest sphere that fits into the void, and the largest that can move through it.
+#include "../shared_measurements.hpp"
+#include "optional_results.hpp"
+
+namespace coagula::characterize {
+
+Measure free_spheres_measure();
+
+namespace {
+
+std::string in_diameters(double diameter, double r0) {
+    return with_unit(diameter, "m") + " = " + with_unit(diameter / (2 * r0), "mean diameters");
+}
+
+void add_free(const FreeSpheres& found, double r0, MeasureResult& result) {
+    result.add("free_spheres/free", found.free, "m",
+               "D_f: diameter of the largest sphere that can move from a place to a periodic image of it; 0: there is no such way");
+    result.add_vector("free_spheres/free_by_axis", found.free_by_axis, "m", "D_f of ways along x, y, z");
+    result.add_line("largest free sphere D_f", in_diameters(found.free, r0) + ": moves through the packing without end");
+    if (std::isfinite(found.included_along_free)) {
+        result.add("free_spheres/included_along_free", found.included_along_free, "m",
+                   "D_if: diameter of the largest sphere that fits somewhere along the ways of the free sphere");
+        result.add_line("included along its ways D_if", in_diameters(found.included_along_free, r0));
+    } else {
+        result.add_line("included along its ways D_if", found.free > 0 ? "not known: no straight way leads to the largest pore"
+                                                                       : "there are no ways through the packing");
+    }
+}
+
+MeasureResult run(const MeasureInput& input) {
+    const FreeSpheres found = if_applicable([&] { return measure_free_spheres(input.diagram(), input.progress()); });
+    const double r0 = input.r0();
+    MeasureResult result;
+    result.add("free_spheres/included", found.included, "m", "D_i: diameter of the largest sphere that fits into the void");
+    result.add_line("largest included sphere D_i", in_diameters(found.included, r0) + ": fits somewhere in the void");
+    if (input.packing().cell.is_periodic()) {
+        add_free(found, r0, result);
+    } else {
+        result.add_line("largest free sphere D_f", "left out: an open packing has no periodic images to move to");
+    }
+    return result;
+}
+
+}  // namespace
+
+Measure free_spheres_measure() {
+    return {.name = "free_spheres",
+            .summary = "largest sphere that fits into the void (D_i), and that can move through it without end (D_f, D_if)",
+            .run = run};
+}
+
+}  // namespace coagula::characterize

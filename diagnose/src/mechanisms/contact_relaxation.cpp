@@ -1,0 +1,23 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+/// A Maxwell element (Ferry, Viscoelastic Properties of Polymers, 1980, ch. 3): a part of the contact, such as a polymer bridge,
+/// that lets go and takes hold again within one time.
+Mechanism contact_relaxation() {
+    return {.name = "contact-relaxation",
+            .term = "a part of every contact relaxes: a spring in series with a dashpot beside their springs",
+            .signature =
+                "the storage modulus rises by a step around one frequency, and the loss modulus has its maximum there; well below, "
+                "it looks like 'contact-dashpot' and 'solvent-drag', over a decade or less like 'contact-loss', from which higher "
+                "and lower frequencies separate it",
+            .parameters = {{"relaxing_over_spring", "1", 3e-3, 10, true}, {"contact_relaxation_time", "s", 1e-3, 1e3, true}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) {
+                settings.relaxing_ratio = values[0];
+                settings.relaxation_time = values[1];
+            }},
+            .applies = knows_frequency,
+            .in_contact = true};
+}
+
+}  // namespace coagula::diagnose::mechanisms

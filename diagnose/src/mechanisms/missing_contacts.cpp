@@ -1,0 +1,34 @@
+#include "mechanisms.hpp"
+
+#include <coagula/diagnose/simulator.hpp>
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// Where the level is open and all rows have one structure, nothing shows a factor.
+bool shows_level_or_structures(const Experiment& experiment) {
+    const bool series =
+        any_measurement(experiment, [](const Measurement& table) { return table.kind == MeasurementKind::structure_series; });
+    return has_moduli(experiment) && (std::isfinite(known_scale(experiment).value) || series);
+}
+
+}  // namespace
+
+/// Particles that touch in the simulation and bear nothing in the sample: not every pair that meets is bonded.
+Mechanism missing_contacts() {
+    return {
+        .name = "missing-contacts",
+        .term = "some contacts of the simulated structures are absent in the sample, at random",
+        .signature =
+            "all moduli lower by one factor, most where the coordination is low, until nothing bears a load; of one structure "
+            "softer particles or a lower volume fraction look the same, and several coordinations separate them",
+        .parameters = {{"missing_share", "1", 0, 0.3, false}},
+        .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) -> std::complex<double> {
+            return sample.exact ? sample.simulator.exact_thinned_response(sample.settings, values[0], row.structures)
+                                : sample.simulator.thinned_response(values[0], row.structures);
+        }},
+        .applies = shows_level_or_structures};
+}
+
+}  // namespace coagula::diagnose::mechanisms

@@ -1,0 +1,65 @@
+#include "mechanisms.hpp"
+
+#include "data/strain_history.hpp"
+
+#include <coagula/diagnose/simulator.hpp>
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// Share of the bonds after some time at one shear rate.
+double approached(double share, double rate, double duration, Values values) {
+    const double forming = 1 / values[1];
+    const double total = forming + values[0] * rate;
+    const double end = forming / total;
+    return end + (share - end) * std::exp(-total * std::max(duration, 0.0));
+}
+
+/// From a sample that has rested long to a time on its clock.
+double share_of_bonds(const std::vector<ShearedSpan>& history, double until, Values values) {
+    double share = 1;
+    double clock = 0;
+    for (const ShearedSpan& span : history) {
+        if (span.from >= until) {
+            break;
+        }
+        share = span.destroyed ? 0.0 : approached(share, 0, span.from - clock, values);
+        share = approached(share, span.rate, std::min(span.to, until) - span.from, values);
+        clock = span.to;
+    }
+    return approached(share, 0, until - clock, values);
+}
+
+std::complex<double> left_by_shear(const Observation& row, Values values, const SimulatedSample& sample) {
+    if (!std::isfinite(row.time) || is_steady(row)) {
+        return 1;
+    }
+    const double share = share_of_bonds(sample.history.of(row.measurement), row.time, values);
+    return sample.simulator.thinned_response(1 - share, row.structures);
+}
+
+bool shears_in_time(const Experiment& experiment) {
+    const auto shears = [](const Measurement& table) { return find_column(table, "strain") != nullptr; };
+    return takes_time(experiment) && knows_frequency(experiment) && any_measurement(experiment, shears);
+}
+
+}  // namespace
+
+/// d share / dt = (1 - share) / build-up time - breakdown x shear rate x share (Moore, Transactions of the British Ceramic Society
+/// 58 (1959) 470; Mewis and Wagner, Advances in Colloid and Interface Science 147 (2009) 214). The modulus is that of the network
+/// with this share of its bonds.
+Mechanism thixotropy() {
+    return {
+        .name = "thixotropy",
+        .term = "shear breaks bonds at a rate of its own, and at rest they form again",
+        .signature =
+            "the moduli fall with the strain that was sheared through so far, faster and farther at a higher rate, and come back "
+            "with the time at rest; on the way up alone 'bond-strength' and 'reversible-softening' look alike, of which one "
+            "does not come back and the other does at once: rest and repeat",
+        .parameters = {{"breakdown_per_strain", "1", 1e-4, 1e5, true}, {"rebuilding_time", "s", 10, 1e5, true}},
+        .effect = ScalesMaterial{left_by_shear},
+        .applies = shears_in_time};
+}
+
+}  // namespace coagula::diagnose::mechanisms

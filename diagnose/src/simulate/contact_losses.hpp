@@ -1,0 +1,29 @@
+// What acts beside the springs of every contact and takes time.
+#pragma once
+
+#include <coagula/diagnose/settings.hpp>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace coagula::diagnose {
+
+inline bool has_contact_losses(const Settings& settings) {
+    return settings.springpot_ratio > 0 || settings.dashpot_time > 0 || settings.relaxing_ratio > 0;
+}
+
+/// Complex stiffness of springpot, dashpot and Maxwell element over that of the spring. In the same proportion to both springs they
+/// scale the whole stiffness matrix.
+inline std::complex<double> contact_losses(const Settings& settings, double angular_frequency) {
+    const std::complex<double> dashpot(0, angular_frequency * settings.dashpot_time);
+    const std::complex<double> relaxing(0, angular_frequency * settings.relaxation_time);
+    std::complex<double> losses = dashpot + settings.relaxing_ratio * relaxing / (1.0 + relaxing);
+    if (settings.springpot_ratio > 0) {
+        const std::complex<double> cycles(0, angular_frequency / (2 * std::numbers::pi));
+        losses += settings.springpot_ratio * std::pow(cycles, settings.springpot_exponent);
+    }
+    return losses;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,103 @@
+#include "linear_solution.hpp"
+
+#include "block_factor.hpp"
+#include "conjugate_gradients.hpp"
+#include "schwarz.hpp"
+
+#include <coagula/common/blas_threads.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace coagula::mechanics {
+
+namespace {
+
+constexpr double floppy_threshold = 1e-6;   // pivots below this, in contact stiffnesses, have no stiffness
+constexpr int direct_blas_threads = 2;      // fixed: the bits of a factor depend on it
+constexpr int most_direct_iterations = 60;  // a good shift needs fewer than ten
+constexpr int most_schwarz_iterations = 2000;
+
+/// K, its loads and what solves it.
+struct Problem {
+    BlockMatrix full;
+    BlockMatrix upper;  ///< with the free spins stiffened, for the preconditioner
+    Loads loads;
+    Block affine;
+    Index spins = 0;
+};
+
+Problem build_problem(const LinearNetwork& network) {
+    Problem problem;
+    problem.upper = network.stiffness();
+    problem.full = both_triangles(problem.upper);
+    problem.spins = network.stiffen_spins(problem.upper);
+    problem.loads = network.loads();
+    problem.affine = network.affine_energy();
+    return problem;
+}
+
+/// Conjugate gradients preconditioned by the factor of K + shift I. A larger shift where rounding errors win.
+Solution solve_directly(const Problem& problem, const EliminationOrder& order, const LinearOptions& options,
+                        const Progress& progress, Index& floppy_modes) {
+    const BlasThreads threads(direct_blas_threads);
+    const StopRule rule{.residual = options.tolerance, .energy = 0, .most_iterations = most_direct_iterations};
+    for (double shift = options.shift; shift <= 1e-5; shift *= 100) {
+        progress.update("factorising", 0.1);
+        const CholeskyFactor factor(shifted(problem.upper, shift), order);
+        if (floppy_modes < 0) {
+            floppy_modes = problem.spins + factor.pivots_below(floppy_threshold);
+        }
+        Solution solution = conjugate_gradients(
+            problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { z = factor.solve(r); }, rule,
+            progress);
+        if (solution.converged) {
+            return solution;
+        }
+    }
+    throw std::runtime_error("the direct solver did not reach the residual " + to_text(options.tolerance) +
+                             "; the network is too close to losing its stiffness, or the tolerance is too small");
+}
+
+Solution solve_iteratively(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
+                           const Progress& progress) {
+    const BlasThreads threads(1);  // the boxes run in parallel, not the kernels
+    Eigen::Matrix3Xd fraction(3, static_cast<Index>(kept.particle.size()));
+    for (Index place = 0; place < fraction.cols(); ++place) {
+        const Eigen::Vector3d position = packing.cell.wrap(packing.positions.col(kept.particle[static_cast<std::size_t>(place)]));
+        fraction.col(place) = (position - packing.cell.origin()).cwiseQuotient(packing.cell.lengths());
+    }
+    const SchwarzPreconditioner schwarz(problem.upper, problem.full, fraction, packing.cell.lengths(), SchwarzOptions{}, progress);
+    const StopRule rule{
+        .residual = options.tolerance, .energy = options.modulus_tolerance, .most_iterations = most_schwarz_iterations};
+    Solution solution = conjugate_gradients(
+        problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { schwarz.solve(r, z); }, rule,
+        progress);
+    if (!solution.converged) {
+        throw std::runtime_error("the iterative solver did not converge in " + std::to_string(solution.iterations) +
+                                 " iterations; the network is too close to losing its stiffness");
+    }
+    return solution;
+}
+
+}  // namespace
+
+SolvedNetwork solve_network(const LinearNetwork& network, const Packing& packing, const LoadBearing& kept,
+                            const LinearOptions& options, const Progress& progress) {
+    const Problem problem = build_problem(network);
+    const EliminationOrder order = elimination_order(problem.upper, Ordering::nested_dissection);
+    SolvedNetwork solved;
+    solved.predicted_memory = order.predicted_memory();
+    const bool direct = options.solver == LinearSolver::direct ||
+                        (options.solver == LinearSolver::automatic && order.predicted_memory() <= options.memory_limit);
+    solved.solver = direct ? LinearSolver::direct : LinearSolver::iterative;
+    Solution solution = direct ? solve_directly(problem, order, options, progress, solved.floppy_modes)
+                               : solve_iteratively(problem, packing, kept, options, progress);
+    solved.motion = std::move(solution.motion);
+    solved.iterations = solution.iterations;
+    solved.residual = solution.residual;
+    solved.modulus_error = direct ? 0.0 : solution.energy_error;
+    return solved;
+}
+
+}  // namespace coagula::mechanics

@@ -1,0 +1,49 @@
+"""Shear modulus of a bonded network by a dense solver in numpy, with bonds that are missing at random: nothing of the program is in it."""
+
+import numpy
+
+
+def bonds_of(points, radii, box, tolerance=0.01):
+    """Pairs nearer than (1 + tolerance) times the sum of their radii, and the vectors between them; the box is periodic."""
+    branch = points[None, :, :] - points[:, None, :]
+    branch -= box * numpy.round(branch / box)
+    near = numpy.linalg.norm(branch, axis=2) < (1 + tolerance) * (radii[:, None] + radii[None, :])
+    first, second = numpy.nonzero(numpy.triu(near, 1))
+    return first, second, branch[first, second]
+
+
+def cross(vector):
+    x, y, z = vector
+    return numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+
+
+def shear_modulus(count, bonds, box, normal, shear):
+    """Mean over the three planes [Pa]. A contact in the middle of two equal spheres has springs `normal` and `shear` [N/m]; particles turn."""
+    first, second, branch = bonds
+    length = numpy.linalg.norm(branch, axis=1).mean()
+    stiffness = numpy.zeros((6 * count, 6 * count))
+    forces = numpy.zeros((6 * count, 3))
+    energy = numpy.zeros(3)
+    planes = [numpy.zeros((3, 3)) for _ in range(3)]
+    for plane, (a, b) in zip(planes, ((0, 1), (0, 2), (1, 2))):
+        plane[a, b] = plane[b, a] = 0.5
+    for i, j, arm in zip(first, second, branch):
+        axis = arm / numpy.linalg.norm(arm)
+        local = shear * numpy.eye(3) + (normal - shear) * numpy.outer(axis, axis)
+        # Displacement at the contact: u_j - u_i - (turn_i + turn_j) x arm / 2; turns are those of the surfaces, in units of the mean length.
+        turn = cross(arm) / 2 / length
+        moved = numpy.hstack([-numpy.eye(3), turn, numpy.eye(3), turn])
+        places = numpy.r_[6 * i:6 * i + 6, 6 * j:6 * j + 6]
+        stiffness[numpy.ix_(places, places)] += moved.T @ local @ moved
+        affine = numpy.array([plane @ arm for plane in planes]).T
+        forces[places] += moved.T @ local @ affine
+        energy += numpy.einsum("ik,ij,jk->k", affine, local, affine)
+    stiffness[numpy.diag_indices_from(stiffness)] += 1e-9 * normal  # what nothing holds
+    relaxed = numpy.linalg.solve(stiffness, forces)
+    return float(numpy.mean(energy - numpy.einsum("ik,ik->k", forces, relaxed)) / numpy.prod(box))
+
+
+def without(bonds, share, generator):
+    """The bonds of which each is missing with this probability."""
+    there = generator.random(len(bonds[0])) >= share
+    return tuple(part[there] for part in bonds)

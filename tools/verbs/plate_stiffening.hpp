@@ -1,0 +1,22 @@
+// What the plates of the rheometer did to its moduli.
+#pragma once
+
+#include "findings.hpp"
+
+#include <coagula/common/contact_network.hpp>
+#include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
+#include <coagula/mechanics/linear.hpp>
+#include <coagula/mechanics/rheometer.hpp>
+
+#include <optional>
+
+namespace coagula::tools {
+
+/// Adds by how much the plates stiffen this structure, by the linear method with and without them, and the modulus of `result` over
+/// that ratio. NaN where there is no linear response.
+void append_plate_stiffening(Findings& found, const Packing& packing, const ContactNetwork& bonds,
+                             const std::optional<mechanics::LinearResponse>& linear, const mechanics::RheometerResult& result,
+                             double plate_layers, const Progress& progress);
+
+}  // namespace coagula::tools
