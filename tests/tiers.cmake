@@ -58,7 +58,7 @@ set(coagula_slow_tests
   "fuzz[.].*"
   # the pages in a browser
   "web[.].*"
-  # damaged files, kills, installation, every option; other programs; the examples of README.md
+  # damaged files, kills, installation, every option; other programs; the manual and the examples there and in README.md
   "DamagedFile[.]SingleBytes"
   "cli[.]broken_files[.].*"
   "cli[.]install[.].*"
@@ -66,6 +66,7 @@ set(coagula_slow_tests
   "cli[.]option_sweep"
   "mechanics_validation[.].*"
   "examples[.].*"
+  "manual[.].*"
 )
 set(coagula_rates_tests
   "DiagnosisRates[.].*"

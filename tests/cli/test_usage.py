@@ -2,7 +2,6 @@
 
 import json
 import unittest
-from pathlib import Path
 
 from support import ProgramTest, VEM
 
@@ -30,10 +29,9 @@ class Help(ProgramTest):
         line = next(line for line in self.succeed("shear", "--help").split("\n") if "--normal-stiffness" in line)
         self.assertIn("[unit N/m; default 100N/m; range 1e-12 .. 1e+15]", line)
 
-    def test_the_manual_has_the_catalogue_of_causes(self):
+    def test_the_catalogue_of_causes_is_one_table_and_list(self):
         printed = self.succeed("diagnose", "--catalogue")
-        manual = (Path(__file__).resolve().parents[2] / "docs" / "diagnosis.md").read_text()
-        self.assertIn(printed, manual)
+        self.assertTrue(printed.startswith("| cause | what it changes | how it shows | parameters and their range |\n|---|---|---|---|\n"))
         causes = json.loads(self.succeed("diagnose", "--catalogue", "--json"))
         self.assertEqual(len(causes), len(printed.splitlines()) - 2)
         self.assertEqual(causes[0]["parameters"]["shear_over_normal"], {"low": 0.05, "high": 1, "unit": "1", "prior": "uniform in the logarithm"})

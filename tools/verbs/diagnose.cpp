@@ -275,7 +275,7 @@ Verb diagnose_verb() {
         .run = run,
         .notes = {"Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore "
                   "curves "
-                  "are diagnosed; see docs/diagnosis.md."},
+                  "are diagnosed; see docs/explanation/diagnosis.md."},
         .many_beside = "new",
         .alone = "catalogue"};
     const std::vector<Option> own = diagnosis_options();
