@@ -44,16 +44,15 @@ MeasureResult run(const MeasureInput& input) {
     result.add("doh/b", fit.b, "1", "position of the fitted error function, over r0", error[1]);
     result.add("doh/a_stderr", fit.a_stderr, "1", "standard error of a");
     result.add("doh/b_stderr", fit.b_stderr, "1", "standard error of b");
-    result.add("doh/rms_residual", fit.rms_residual, "1", "root mean square residual of the fitted probability",
-               error[4]);
-    result.add_line("degree of heterogeneity a", with_error(fit.a, fit.a_stderr));
-    result.add_line("position b", with_error(fit.b, fit.b_stderr));
+    result.add("doh/rms_residual", fit.rms_residual, "1", "root mean square residual of the fitted probability", error[4]);
+    result.add_line("degree of heterogeneity a", with_error(fit.a, error[0]));
+    result.add_line("position b", with_error(fit.b, error[1]));
     result.add_line("rms residual of the fit", with_unit(fit.rms_residual, "1"));
     if (has_main_part) {
         const DegreeOfHeterogeneity main = fit_degree_of_heterogeneity(pores, r0, main_part);
         result.add("doh/a_main_part", main.a, "1", "a of the fit to the part of the curve with P >= 0.1", error[2]);
         result.add("doh/b_main_part", main.b, "1", "b of the fit to the part of the curve with P >= 0.1", error[3]);
-        result.add_line("a fitted to P >= 0.1 only", with_error(main.a, main.a_stderr));
+        result.add_line("a fitted to P >= 0.1 only", with_error(main.a, error[2]));
     }
     result.add_vector("pore_curve/fit", fitted_curve(fit, pores, r0), "1", "1 - erf((r/r0 - b) / (a sqrt 2))");
     return result;
