@@ -54,6 +54,9 @@ CALLS = {
                                       "-o", "profile.csv", "--force"]),
     "diagnose": ("diagnosis", ["diagnose", "experiment.toml", "-o", "diagnosis", "--bootstrap", "99", "--causes", "contact-loss",
                                "--force"]),
+    "report": ("page.html", ["report", "small.h5", "-o", "page.html", "--force"]),
+    "plot": ("figure.svg", ["plot", "small.h5", "--figure", "packing", "-o", "figure.svg", "--force"]),
+    "man": ("pages", ["man", "-o", "pages", "--force"]),
 }
 PICTURE = ["generate", "brownian", "--potential-curve", "--radius", "0.25um", "--surface-potential", "15mV", "--picture", "curve.svg", "--force"]
 CALLS["generate brownian --picture"] = ("curve.svg", PICTURE)
@@ -82,7 +85,7 @@ def data_sets(path):
 def values_of(path):
     """What a file holds, apart from when and how fast it was made; of a folder by name."""
     if path.is_dir():
-        return {part.name: values_of(part) for part in path.iterdir() if part.name != ".new"}
+        return {part.name: values_of(part) for part in path.iterdir() if not part.name.startswith(".")}
     if path.suffix == ".h5":
         return data_sets(path)
     if path.suffix == ".json":

@@ -341,7 +341,7 @@ class Waveforms(Tables):
         self.assertEqual({row["base"] for row in self.rows(found, "third_harmonic_storage")}, {0})
         page = (self.folder / "results" / "report.html").read_text()
         self.assertIn("harmonics, sample", page)
-        self.assertIn("Third harmonic of the stress over the first", page)
+        self.assertIn("Third harmonic of the stress", page)
 
     def test_a_third_harmonic_is_found_and_described(self):
         found = self.diagnosis(self.waveforms(-0.08))
