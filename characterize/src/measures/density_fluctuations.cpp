@@ -1,6 +1,7 @@
 // Measure: density fluctuations over sub-volumes.
 #include <coagula/characterize/density_fluctuations.hpp>
-#include <coagula/characterize/measure.hpp>
+
+#include "optional_results.hpp"
 
 namespace coagula::characterize {
 
@@ -12,7 +13,7 @@ MeasureResult run(const MeasureInput& input) {
     const Packing& packing = input.packing();
     require_applicable(packing.cell.lengths().minCoeff() >= 8 * input.r0(),
                        "the box is shorter than eight mean radii: cubic windows of four must fit into it twice");
-    const DensityFluctuations found = measure_density_fluctuations(packing, input.inner());
+    const DensityFluctuations found = if_applicable([&] { return measure_density_fluctuations(packing, input.inner()); });
     MeasureResult result;
     result.add_vector("density_fluctuations/edge", found.edge, "m", "edge of the cubic windows");
     result.add_vector("density_fluctuations/deviation", found.deviation, "1",
