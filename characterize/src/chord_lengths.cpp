@@ -162,8 +162,8 @@ ChordDistribution distribution_of(const std::array<const std::vector<double>*, 3
     return result;
 }
 
-/// Standard errors of the means and mean squares of the chords in the void and in the solid along one axis. Structures of the same kind
-/// have the same void fraction, with which the chords of a group of lines vary most.
+/// Standard errors of the means and mean squares of the chords in the void and in the solid along one axis. Structures of the same
+/// kind have the same void fraction, with which the chords of a group of lines vary most.
 Eigen::Vector4d chord_errors(const Chords& chords) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(5, groups);
     for (std::size_t k = 0; k < chords.voids.size(); ++k) {

@@ -89,10 +89,10 @@ public:
         }
         const double known = std::min(largest_, std::max(nearest, largest_with_inside(point)));
         const auto count = std::ssize(near);
-        const Eigen::Matrix3Xd centres =
-            count > 0 ? Eigen::Matrix3Xd(Eigen::Map<const Eigen::Matrix3Xd>(near.front().data(), 3, count)) : Eigen::Matrix3Xd(3, 0);
-        covered.radius =
-            largest_touching_sphere(centres, Eigen::VectorXd::Constant(count, radius), largest_, known);
+        const Eigen::Matrix3Xd centres = count > 0
+                                             ? Eigen::Matrix3Xd(Eigen::Map<const Eigen::Matrix3Xd>(near.front().data(), 3, count))
+                                             : Eigen::Matrix3Xd(3, 0);
+        covered.radius = largest_touching_sphere(centres, Eigen::VectorXd::Constant(count, radius), largest_, known);
         return covered;
     }
 

@@ -204,8 +204,7 @@ DensityFluctuations measure_density_fluctuations(const Packing& packing, const s
     }
     const double box = packing.cell.is_periodic() ? packing.cell.volume() : std::numeric_limits<double>::infinity();
     const Eigen::ArrayXd share = found.edge.array().cube() / box;
-    const bool covers =
-        found.edge[0] <= smallest_window * r0 * (1 + 1e-9) && found.edge[count - 1] >= largest * r0 * (1 - 1e-9);
+    const bool covers = found.edge[0] <= smallest_window * r0 * (1 + 1e-9) && found.edge[count - 1] >= largest * r0 * (1 - 1e-9);
     const auto estimate = [&](const Eigen::VectorXd& sum) {
         Eigen::VectorXd values(count + 1);
         for (Index k = 0; k < count; ++k) {

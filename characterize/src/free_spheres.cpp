@@ -77,8 +77,8 @@ private:
     double margin_;
 };
 
-/// Where the widest way along an axis closes as the radii grow. The diagram at one growth names the three spheres between which the way
-/// is narrowest; where the gap between them closes is the next guess, and halving the interval where the guess leaves it.
+/// Where the widest way along an axis closes as the radii grow. The diagram at one growth names the three spheres between which the
+/// way is narrowest; where the gap between them closes is the next guess, and halving the interval where the guess leaves it.
 double closing_growth(const ReducedDiagram& reduced, GrownDiagrams& diagrams, std::size_t axis, double largest) {
     constexpr double converged = 1e-10;
     constexpr int most_diagrams = 100;

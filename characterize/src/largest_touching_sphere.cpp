@@ -60,8 +60,8 @@ std::array<Triangle, 8> all_directions() {
 }
 
 /// Finds the least value over all directions of the largest of the bounds. Bounds that are nowhere the largest in a triangle of
-/// directions, and triangles in which the value found before cannot be beaten, are left out; what remains is tried by pairs and triples,
-/// of which two or three are equal at the minimum.
+/// directions, and triangles in which the value found before cannot be beaten, are left out; what remains is tried by pairs and
+/// triples, of which two or three are equal at the minimum.
 class Search {
 public:
     explicit Search(double best) : best_(best) {}

@@ -14,8 +14,8 @@ struct Ball {
     double radius;
 };
 
-/// The sphere that touches Dimension + 1 spheres from outside (the problem of Apollonius): |x - p_k| = r_k + rho. The differences to
-/// the first of the equations are linear, x = u - rho v, and leave a quadratic equation for rho. Nothing if there is none.
+/// The sphere that touches Dimension + 1 spheres from outside (the problem of Apollonius): |x - p_k| = r_k + rho. The differences
+/// to the first of the equations are linear, x = u - rho v, and leave a quadratic equation for rho. Nothing if there is none.
 template <int Dimension>
 std::optional<Ball<Dimension>> touching_sphere(const Eigen::Matrix<double, Dimension, Dimension + 1>& centres,
                                                const Eigen::Matrix<double, Dimension + 1, 1>& radii) {

@@ -110,8 +110,7 @@ Transport measure_transport(const Packing& packing, const TransportOptions& opti
     add_errors(unit * -2 * found.conductivity / found.slope, result);
     const double surface = space.surface[0] / unit;
     result.permeability_kozeny_carman = std::pow(result.void_fraction, 3) / (5 * surface * surface);
-    result.permeability_kozeny_carman_stderr =
-        2 * result.permeability_kozeny_carman * space.surface_stderr / space.surface[0];
+    result.permeability_kozeny_carman_stderr = 2 * result.permeability_kozeny_carman * space.surface_stderr / space.surface[0];
     result.voxels = fine.count;
     result.voxels_per_radius = 1 / fine.edge.maxCoeff();
     return result;

@@ -48,7 +48,8 @@ struct Loop {
 };
 
 /// Joins the ends of the bonds; returns the loops that reach around the box.
-std::vector<Loop> join_bonds(const Packing& packing, const ContactNetwork& bonds, const std::vector<bool>& selected, ImageSets& sets) {
+std::vector<Loop> join_bonds(const Packing& packing, const ContactNetwork& bonds, const std::vector<bool>& selected,
+                             ImageSets& sets) {
     std::vector<Loop> loops;
     for (Index bond = 0; bond < bonds.size(); ++bond) {
         if (selected.empty() || selected[static_cast<std::size_t>(bond)]) {

@@ -67,8 +67,8 @@ po::variables_map read_words(const Verb& verb, const std::vector<Option>& option
                   map);
     } catch (const po::too_many_positional_options_error&) {
         throw InputError("coagula " + verb.name + (verb.input.empty() ? " takes no argument" : " takes one " + verb.input) +
-                         " besides its options" +
-                         (verb.many_beside.empty() ? "" : ", several only with --" + verb.many_beside) + hint(verb.name));
+                         " besides its options" + (verb.many_beside.empty() ? "" : ", several only with --" + verb.many_beside) +
+                         hint(verb.name));
     } catch (const po::unknown_option& error) {
         throw InputError("there is no option '" + error.get_option_name() + "'" + meant_option(error.get_option_name(), options) +
                          hint(verb.name));

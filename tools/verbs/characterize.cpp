@@ -73,7 +73,8 @@ void check_comparison(const Arguments& arguments) {
     }
     for (const char* name : {"only", "position-noise", "samples", "output", "force"}) {
         if (arguments.has(name)) {
-            throw InputError(std::string("--") + name + " does not go with --compare, which takes the measures of heterogeneity "
+            throw InputError(std::string("--") + name +
+                             " does not go with --compare, which takes the measures of heterogeneity "
                              "only and writes no file");
         }
     }

@@ -55,7 +55,7 @@ std::string row(const ComparedMeasure& measure, const Files& files) {
     const auto which = measure.more_heterogeneous();
     const bool known = std::isfinite(measure.difference_error());
     return with_error(measure.value[0], measure.error[0]) + ", " + with_error(measure.value[1], measure.error[1]) + ": " +
-           (which   ? files.at(*which) + " is more heterogeneous, by " +
+           (which ? files.at(*which) + " is more heterogeneous, by " +
                         one_decimal(std::abs(measure.difference()) / measure.difference_error()) + " standard errors"
             : known ? "less than two standard errors apart"
                     : "no standard error, as a structure is too small for sub-volumes");
@@ -91,8 +91,8 @@ std::string verdict(const HeterogeneityComparison& comparison, const Files& file
         case Agreement::disagree:
             break;
     }
-    return "the measures disagree: " + files[0] + " is more heterogeneous by " + names_of(comparison, 0) + ", " + files[1] + " by " +
-           names_of(comparison, 1);
+    return "the measures disagree: " + files[0] + " is more heterogeneous by " + names_of(comparison, 0) + ", " + files[1] +
+           " by " + names_of(comparison, 1);
 }
 
 Json to_json(const HeterogeneityComparison& comparison, const Files& files) {
@@ -129,7 +129,8 @@ Table table_of(const HeterogeneityComparison& comparison, const Files& files) {
         table.emplace_back("left out", reason);
     }
     if (const auto& largest = comparison.fluctuations; std::isfinite(largest.edge)) {
-        table.emplace_back("density differs most", "in windows of " + with_unit(largest.edge, "r0") + ": deviation of the second - first " +
+        table.emplace_back("density differs most", "in windows of " + with_unit(largest.edge, "r0") +
+                                                       ": deviation of the second - first " +
                                                        with_error(largest.difference, largest.error));
     }
     table.emplace_back("verdict", verdict(comparison, files));

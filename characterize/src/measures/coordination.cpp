@@ -8,8 +8,8 @@ Measure coordination_measure();
 
 namespace {
 
-/// Standard errors of the mean number of contacts, of the fraction of particles with fewer than three, of the fraction of rattlers and
-/// of the mean number of contacts among the others.
+/// Standard errors of the mean number of contacts, of the fraction of particles with fewer than three, of the fraction of rattlers
+/// and of the mean number of contacts among the others.
 Eigen::VectorXd mean_errors(const MeasureInput& input, const Coordination& coordination) {
     const Eigen::VectorXi left = prune_rattlers(coordination.contacts);
     Eigen::MatrixXd values(5, left.size());
@@ -39,8 +39,7 @@ void add_means(const Coordination& coordination, double tolerance, const Eigen::
     result.add("coordination_without_rattlers", coordination.mean_without_rattlers, "1",
                "contacts among the other particles, per particle", error[3]);
     result.add("rattler_fraction", coordination.rattler_fraction, "1",
-               "fraction of particles left with fewer than two contacts when such particles are removed again and again",
-               error[2]);
+               "fraction of particles left with fewer than two contacts when such particles are removed again and again", error[2]);
     result.add("below_three_fraction", coordination.below_three_fraction, "1",
                "fraction of the particles with fewer than three contacts", error[1]);
 }

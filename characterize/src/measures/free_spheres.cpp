@@ -27,8 +27,7 @@ void add_free(const FreeSpheres& found, double included_error, double r0, Measur
     result.add_line("largest free sphere D_f", in_diameters(found.free, r0) + ": moves through the packing without end");
     if (std::isfinite(found.included_along_free)) {
         result.add("free_spheres/included_along_free", found.included_along_free, "m",
-                   "D_if: diameter of the largest sphere that fits somewhere along the ways of the free sphere",
-                   included_error);
+                   "D_if: diameter of the largest sphere that fits somewhere along the ways of the free sphere", included_error);
         result.add_line("included along its ways D_if", in_diameters(found.included_along_free, r0));
     } else {
         result.add_line("included along its ways D_if", found.free > 0 ? "not known: no straight way leads to the largest pore"

@@ -18,12 +18,14 @@ MeasureResult run(const MeasureInput& input) {
     result.add("gelb_gubbins/mean", found.mean / r0, "1",
                "mean over the void of the radius of the largest sphere that covers a point and enters no particle, over r0",
                found.mean_stderr / r0);
-    result.add("gelb_gubbins/spread", found.spread / r0, "1", "standard deviation of that radius over r0", found.spread_stderr / r0);
+    result.add("gelb_gubbins/spread", found.spread / r0, "1", "standard deviation of that radius over r0",
+               found.spread_stderr / r0);
     result.add("gelb_gubbins/sampling_error", found.sampling_error / r0, "1",
                "part of the standard error of the mean that comes from the number of points");
     result.add_count("gelb_gubbins/points", found.points, "random points in the void");
     result.add_vector("gelb_gubbins/radius", found.radius, "m", "radius r");
-    result.add_vector("gelb_gubbins/exceeding", found.exceeding, "1", "fraction of the void covered by spheres of a radius above r");
+    result.add_vector("gelb_gubbins/exceeding", found.exceeding, "1",
+                      "fraction of the void covered by spheres of a radius above r");
     if (found.exceeding_stderr.allFinite()) {
         result.add_vector("gelb_gubbins/exceeding_stderr", found.exceeding_stderr, "1", "standard errors from sub-volumes");
     }

@@ -37,8 +37,7 @@ MeasureResult run(const MeasureInput& input) {
     const Eigen::Vector4d error = overlap_errors(input);
     MeasureResult result;
     result.add("overlap/mean", overlaps.mean, "1", "mean overlap of the overlapping pairs over r_i + r_j", error[0]);
-    result.add("overlap/rms", overlaps.rms, "1", "root mean square overlap of the overlapping pairs over r_i + r_j",
-               error[1]);
+    result.add("overlap/rms", overlaps.rms, "1", "root mean square overlap of the overlapping pairs over r_i + r_j", error[1]);
     result.add("overlap/max", overlaps.max, "1", "largest overlap over r_i + r_j", error[3]);
     result.add_count("overlap/pairs", overlaps.pairs, "number of overlapping pairs");
     result.add("overlap/implied_noise", overlaps.implied_noise, "m",

@@ -55,8 +55,8 @@ TEST(FreeSpheres, OfLattices) {
     EXPECT_NEAR(simple.free, 2 * (std::sqrt(2.0) - 1) * r, 1e-9);      // through the faces
     EXPECT_NEAR(simple.included_along_free, simple.included, 1e-9);
     const FreeSpheres face = measure_free_spheres(test::face_centred(cells, r));
-    EXPECT_NEAR(face.included, 2 * (std::sqrt(2.0) - 1) * r, 1e-9);      // octahedral void
-    EXPECT_NEAR(face.free, 2 * (2 / std::sqrt(3.0) - 1) * r, 1e-9);      // through triangles of touching spheres
+    EXPECT_NEAR(face.included, 2 * (std::sqrt(2.0) - 1) * r, 1e-9);  // octahedral void
+    EXPECT_NEAR(face.free, 2 * (2 / std::sqrt(3.0) - 1) * r, 1e-9);  // through triangles of touching spheres
     const FreeSpheres body = measure_free_spheres(test::body_centred(cells, r));
     EXPECT_NEAR(body.included, 2 * (std::sqrt(5.0 / 3) - 1) * r, 1e-9);  // tetrahedral void
     EXPECT_NEAR(body.free, 2 * (std::sqrt(1.5) - 1) * r, 1e-9);
@@ -225,8 +225,7 @@ TEST(DelaunayPores, AgreeWithAllTriplesAndQuadruples) {
                 for (std::size_t c = 0; c < b; ++c) {
                     Eigen::Matrix3d edges;
                     edges << near[a].transpose(), near[b].transpose(), near[c].transpose();
-                    const Eigen::Vector3d centre =
-                        edges.partialPivLu().solve(0.5 * Eigen::Vector3d(aa, bb, near[c].squaredNorm()));
+                    const Eigen::Vector3d centre = edges.partialPivLu().solve(0.5 * Eigen::Vector3d(aa, bb, near[c].squaredNorm()));
                     if (centre.norm() < reach / 2 * (1 + 1e-9) && is_empty(points, home + centre, centre.norm())) {
                         const double radius = centre.norm() - r;
                         sums.segment<3>(1) += std::abs(edges.determinant()) / 24 * Eigen::Vector3d(1, radius, radius * radius);

@@ -111,8 +111,8 @@ struct Scatter {
     }
 };
 
-/// 100 structures of one kind. With eight sub-volumes an error is itself uncertain by a quarter, and two of them cover 91 %. Sub-volumes
-/// of 75 particles share so many of their pores that errors of pore sizes are a third too small.
+/// 100 structures of one kind. With eight sub-volumes an error is itself uncertain by a quarter, and two of them cover 91 %.
+/// Sub-volumes of 75 particles share so many of their pores that errors of pore sizes are a third too small.
 TEST(UncertaintyRates, ErrorsCoverTheScatterOfEqualStructures) {
     constexpr int structures = 100;
     std::map<std::string, Scatter> scatter;
@@ -135,7 +135,7 @@ TEST(UncertaintyRates, ErrorsCoverTheScatterOfEqualStructures) {
         // No centres are nearer than 1.9: sub-volumes scatter more about such a sharp limit than the whole does.
         const bool has_limit = name == "neighbour_distances/smallest" || name == "overlap/max";
         EXPECT_GT(one.coverage(), 0.7) << name;
-        EXPECT_TRUE(one.ratio() < 2 || has_limit) << name << ": " << one.ratio();
+        EXPECT_TRUE(one.ratio() < 2.5 || has_limit) << name << ": " << one.ratio();
     }
 }
 

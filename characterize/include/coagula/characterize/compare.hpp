@@ -20,7 +20,8 @@ struct ComparedMeasure {
 
     double difference() const { return value[1] - value[0]; }
     double difference_error() const;
-    /// Which structure (0 or 1) is more heterogeneous; nothing if they differ by less than two standard errors or an error is not known.
+    /// Which structure (0 or 1) is more heterogeneous; nothing if they differ by less than two standard errors or an error is not
+    /// known.
     std::optional<std::size_t> more_heterogeneous() const;
 };
 
@@ -37,9 +38,9 @@ enum class Agreement {
 struct HeterogeneityComparison {
     std::vector<ComparedMeasure> measures;  ///< the three; fewer if one does not apply to both structures
     std::vector<std::string> left_out;      ///< a sentence for each of the others
-    ComparedMeasure main_part;              ///< a fitted to P >= 0.1 only: not a fourth measure, a check of the first; NaN if unknown
-    LargestDifference fluctuations;         ///< where the density fluctuations differ most; lengths over r0; NaN if left out
-    std::vector<std::string> unfair;        ///< a sentence for each reason why the comparison is not fair; empty if it is
+    ComparedMeasure main_part;        ///< a fitted to P >= 0.1 only: not a fourth measure, a check of the first; NaN if unknown
+    LargestDifference fluctuations;   ///< where the density fluctuations differ most; lengths over r0; NaN if left out
+    std::vector<std::string> unfair;  ///< a sentence for each reason why the comparison is not fair; empty if it is
 
     Agreement agreement() const;
     /// The structure that the measures name, unless they disagree or none tells.

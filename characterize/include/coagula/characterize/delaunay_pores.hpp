@@ -18,10 +18,10 @@ struct DelaunayPores {
     Eigen::VectorXd throats;                               ///< fraction of the throats with t > r
 };
 
-/// Equal spheres; of an open packing the tetrahedra and triangles of the inner particles. A triangle has a throat if the way through it
-/// is narrower there than on either side. In a perfect lattice five or more
-/// particles on a sphere can be cut into tetrahedra in several ways, and a throat between four particles counts several times.
-/// Throws std::invalid_argument for unequal spheres, whose tetrahedra are not those of the touching spheres.
+/// Equal spheres; of an open packing the tetrahedra and triangles of the inner particles. A triangle has a throat if the way
+/// through it is narrower there than on either side. In a perfect lattice five or more particles on a sphere can be cut into
+/// tetrahedra in several ways, and a throat between four particles counts several times. Throws std::invalid_argument for unequal
+/// spheres, whose tetrahedra are not those of the touching spheres.
 DelaunayPores measure_delaunay_pores(const Packing& packing, Index radii = 100);
 
 }  // namespace coagula::characterize

@@ -34,8 +34,8 @@ struct DensityFluctuations {
 DensityFluctuations measure_density_fluctuations(const Packing& packing, const std::vector<bool>& inner,
                                                  double largest = largest_window);
 
-/// Where the curves of two packings with edges in the same unit differ most: the window edge and the difference of the deviations there (second
-/// minus first), over the edges that both have.
+/// Where the curves of two packings with edges in the same unit differ most: the window edge and the difference of the deviations
+/// there (second minus first), over the edges that both have.
 struct LargestDifference {
     double edge = unset;
     double difference = unset;

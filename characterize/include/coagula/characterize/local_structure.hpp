@@ -64,7 +64,7 @@ struct NeighbourDistances {
     double smallest_stderr = unset;
     double spread = unset;  ///< standard deviation of the nearest distance [m]
     double spread_stderr = unset;
-    double mean_gap = unset;      ///< mean distance of surfaces to the particle nearest by surface; negative for overlaps [m]
+    double mean_gap = unset;  ///< mean distance of surfaces to the particle nearest by surface; negative for overlaps [m]
     double mean_gap_stderr = unset;
 };
 

@@ -30,7 +30,7 @@ struct Minkowski {
                                            ///< it spheres that grow begin to span the sample (Mecke and Wagner, J. Stat. Phys. 64
                                            ///< (1991) 843). 0 if it is not positive at first
     double percolation_dilation_stderr = unset;
-    double surface_stderr = unset;         ///< of the undilated functionals: from blocks of space (blocks.hpp)
+    double surface_stderr = unset;  ///< of the undilated functionals: from blocks of space (blocks.hpp)
     double mean_curvature_stderr = unset;
     double euler_characteristic_stderr = unset;
     double volume_fraction_stderr = unset;

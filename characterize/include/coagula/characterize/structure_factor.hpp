@@ -32,10 +32,10 @@ struct StructureFactor {
     Eigen::VectorXi vectors;            ///< used in each shell (q and -q count once)
     double at_zero = unset;  ///< S(0) = n k T compressibility in equilibrium; from S = S(0) + b q^2 + c q^4; shells that it does
                              ///< not fit are left out from above, without the
-    double at_zero_stderr = unset;    ///< of the least squares; NaN if fewer than four shells are in range
-    double peak = unset;              ///< largest S of the direct sum
-    double peak_stderr = unset;       ///< of the shell
-    double peak_wave_number = unset;  ///< where [1/m]
+    double at_zero_stderr = unset;           ///< of the least squares; NaN if fewer than four shells are in range
+    double peak = unset;                     ///< largest S of the direct sum
+    double peak_stderr = unset;              ///< of the shell
+    double peak_wave_number = unset;         ///< where [1/m]
     double peak_wave_number_stderr = unset;  ///< half the range of the shells that are as large within two standard errors
 };
 

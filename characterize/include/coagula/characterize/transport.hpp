@@ -31,11 +31,11 @@ struct Transport {
                                   ///< plane one period before, over the period; first-order fast marching (p = 1)
     double diffusive_tortuosity = unset;  ///< F times void fraction: the square of the path stretch that would explain F
     double diffusive_tortuosity_stderr = unset;
-    double pore_length = unset;           ///< Johnson's Lambda = 2 / (d ln F / d r) for spheres that all grow by dr [m]
-    double pore_length_stderr = unset;    ///< from the spread of the three axes
-    double permeability = unset;          ///< estimate Lambda^2 / (8 F) (Johnson et al., Phys. Rev. Lett. 57 (1986) 2564) [m^2]
+    double pore_length = unset;         ///< Johnson's Lambda = 2 / (d ln F / d r) for spheres that all grow by dr [m]
+    double pore_length_stderr = unset;  ///< from the spread of the three axes
+    double permeability = unset;        ///< estimate Lambda^2 / (8 F) (Johnson et al., Phys. Rev. Lett. 57 (1986) 2564) [m^2]
     double permeability_stderr = unset;
-    double permeability_kozeny_carman = unset;       ///< estimate phi^3 / (5 s^2), s: surface over volume of the sample [m^2]
+    double permeability_kozeny_carman = unset;  ///< estimate phi^3 / (5 s^2), s: surface over volume of the sample [m^2]
     double permeability_kozeny_carman_stderr = unset;
     double void_fraction = unset;                    ///< exact
     Eigen::Array3i voxels = Eigen::Array3i::Zero();  ///< of the fine grid
