@@ -136,26 +136,19 @@ ChordDistribution distribution_of(const std::array<const std::vector<double>*, 3
     ChordDistribution result;
     double longest = 0;
     BlockSums all(groups);
-    Eigen::Vector3d square_errors;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         BlockSums own(groups);
-        BlockSums squares(groups);
         for (std::size_t k = 0; k < lengths[axis]->size(); ++k) {
             const double length = (*lengths[axis])[k];
             own.add((*groups_of[axis])[k], length);
-            squares.add((*groups_of[axis])[k], length * length);
             all.add((*groups_of[axis])[k], length);
             longest = std::max(longest, length);
         }
         result.mean_by_axis[static_cast<Index>(axis)] = own.weight() > 0 ? own.mean() : unset;
-        result.stderr_by_axis[static_cast<Index>(axis)] = own.mean_stderr();
-        square_errors[static_cast<Index>(axis)] = squares.mean_stderr();
     }
     result.chords = static_cast<Index>(all.weight());
     require(result.chords > 0, "no line through the packing meets both spheres and voids: there are no chords to measure");
     result.mean = all.mean();
-    result.mean_stderr = result.stderr_by_axis.mean();  // the axes see the same structure: their errors are not independent
-    result.second_moment_stderr = square_errors.mean();
     result.second_moment = 0;
     const double width = longest / static_cast<double>(bins);
     result.length = Eigen::VectorXd::LinSpaced(bins, width / 2, longest - width / 2);
@@ -167,6 +160,34 @@ ChordDistribution distribution_of(const std::array<const std::vector<double>*, 3
         }
     }
     return result;
+}
+
+/// Standard errors of the means and mean squares of the chords in the void and in the solid along one axis. Structures of the same
+/// kind have the same void fraction, with which the chords of a group of lines vary most.
+Eigen::Vector4d chord_errors(const Chords& chords) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(5, groups);
+    for (std::size_t k = 0; k < chords.voids.size(); ++k) {
+        sums.col(chords.void_group[k]).head<3>() += Eigen::Vector3d(1, chords.voids[k], chords.voids[k] * chords.voids[k]);
+        sums.col(chords.solid_group[k]).tail<2>() += Eigen::Vector2d(chords.solid[k], chords.solid[k] * chords.solid[k]);
+    }
+    return block_errors(
+        sums, [](const Eigen::VectorXd& sum) -> Eigen::VectorXd { return sum.tail<4>() / sum[0]; },
+        [](const Eigen::VectorXd& sum) { return sum[1] / (sum[1] + sum[3]); });
+}
+
+/// The axes see the same structure: their errors are not independent.
+void add_errors(const std::array<Chords, 3>& chords, ChordLengths& result) {
+    Eigen::Matrix<double, 4, 3> errors;
+    for (int axis = 0; axis < 3; ++axis) {
+        errors.col(axis) = chord_errors(chords[static_cast<std::size_t>(axis)]);
+    }
+    const Eigen::Vector4d mean = errors.rowwise().mean();
+    result.voids.mean_stderr = mean[0];
+    result.voids.second_moment_stderr = mean[1];
+    result.voids.stderr_by_axis = errors.row(0);
+    result.solid.mean_stderr = mean[2];
+    result.solid.second_moment_stderr = mean[3];
+    result.solid.stderr_by_axis = errors.row(2);
 }
 
 }  // namespace
@@ -188,6 +209,7 @@ ChordLengths measure_chord_lengths(const Packing& packing, const ChordOptions& o
                                    {&chords[0].void_group, &chords[1].void_group, &chords[2].void_group}, options.bins);
     result.solid = distribution_of({&chords[0].solid, &chords[1].solid, &chords[2].solid},
                                    {&chords[0].solid_group, &chords[1].solid_group, &chords[2].solid_group}, options.bins);
+    add_errors(chords, result);
     return result;
 }
 

@@ -22,12 +22,12 @@ Eigen::VectorXd fitted_curve(const DegreeOfHeterogeneity& fit, const PoreSizes& 
     return curve;
 }
 
-/// Standard errors of a and b, of a and b of the fit to the main part, and of the residual.
+/// Standard errors of a and b, and of a and b of the fit to the main part.
 Eigen::VectorXd structure_errors(const PoreSizes& pores, double r0, bool has_main_part) {
     return pore_errors(pores, [&](const PoreSizes& curve) {
         const DegreeOfHeterogeneity whole = fit_degree_of_heterogeneity(curve, r0);
         const DegreeOfHeterogeneity main = has_main_part ? fit_degree_of_heterogeneity(curve, r0, main_part) : whole;
-        return Eigen::VectorXd{{whole.a, whole.b, main.a, main.b, whole.rms_residual}};
+        return Eigen::VectorXd{{whole.a, whole.b, main.a, main.b}};
     });
 }
 
@@ -44,7 +44,7 @@ MeasureResult run(const MeasureInput& input) {
     result.add("doh/b", fit.b, "1", "position of the fitted error function, over r0", error[1]);
     result.add("doh/a_stderr", fit.a_stderr, "1", "standard error of a");
     result.add("doh/b_stderr", fit.b_stderr, "1", "standard error of b");
-    result.add("doh/rms_residual", fit.rms_residual, "1", "root mean square residual of the fitted probability", error[4]);
+    result.add("doh/rms_residual", fit.rms_residual, "1", "root mean square residual of the fitted probability");
     result.add_line("degree of heterogeneity a", with_error(fit.a, error[0]));
     result.add_line("position b", with_error(fit.b, error[1]));
     result.add_line("rms residual of the fit", with_unit(fit.rms_residual, "1"));

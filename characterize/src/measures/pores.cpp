@@ -39,17 +39,25 @@ void add_sizes(const PoreSizes& pores, double r0, MeasureResult& result) {
     result.add("pore_size/max_m", pores.max, "m", "radius of the largest pore", largest_error);
 }
 
-/// Standard error of the void fraction; of a periodic packing it is a fact.
-double void_fraction_error(const PoreSizes& pores, const Cell& cell) {
-    Eigen::MatrixXd sums(2, pores.void_by_block.cols());
-    sums << pores.void_by_block.row(0), pores.volume_by_block.row(0);
+/// Standard error of the void fraction; periodic packings of the same kind have the same number of particles.
+double void_fraction_error(const MeasureInput& input) {
+    const PoreSizes& pores = input.pores();
+    const Blocks& blocks = input.blocks();
+    if (blocks.count == 0) {
+        return unset;
+    }
+    Eigen::MatrixXd sums(3, blocks.count);
+    sums << pores.void_by_block.row(0), pores.volume_by_block.row(0),
+        sum_by_block(blocks, Eigen::RowVectorXd::Ones(input.packing().size()));
     const auto fraction = [](const Eigen::VectorXd& sum) { return Eigen::VectorXd::Constant(1, sum[0] / sum[1]); };
-    return cell.is_periodic() ? 0.0 : block_errors(sums, fraction)[0];
+    const auto density = [](const Eigen::VectorXd& sum) { return sum[2] / sum[1]; };
+    return input.packing().cell.is_periodic() ? block_errors(sums, fraction, density)[0] : block_errors(sums, fraction)[0];
 }
 
-void add_space(const PoreSizes& pores, const Cell& cell, MeasureResult& result) {
+void add_space(const MeasureInput& input, MeasureResult& result) {
+    const PoreSizes& pores = input.pores();
     result.add("pore_space/void_fraction", pores.void_fraction, "1", "void volume over the volume measured",
-               void_fraction_error(pores, cell));
+               void_fraction_error(input));
     result.add("pore_space/volume", pores.volume, "m3",
                "volume measured: the periodic box, or the inner Voronoi cells of an open packing");
     result.add_count("pore_space/inner_particles", pores.inner_particles, "particles whose Voronoi cells were measured");
@@ -66,7 +74,7 @@ MeasureResult run(const MeasureInput& input) {
     const double r0 = input.r0();
     MeasureResult result;
     add_sizes(pores, r0, result);
-    add_space(pores, input.packing().cell, result);
+    add_space(input, result);
     result.add_vector("pore_curve/radius", pores.radius, "m", "radius r");
     result.add_vector("pore_curve/exclusion_probability", pores.exclusion_probability, "1",
                       "P(r_P > r): probability that a point of the void space is farther than r from every surface");

@@ -19,7 +19,7 @@ struct ChordDistribution {
     Eigen::VectorXd length;        ///< middle of each bin [m]
     Eigen::VectorXd density;       ///< probability density of the length of a chord [1/m]
     double mean = unset;           ///< [m]; 4 phi / s for isotropic structures (s: surface per volume of the box)
-    double mean_stderr = unset;    ///< from groups of neighbouring lines, a tenth of the box across
+    double mean_stderr = unset;    ///< from groups of neighbouring lines, for structures of one void fraction
     double second_moment = unset;  ///< mean of the square [m^2]
     double second_moment_stderr = unset;
     Eigen::Vector3d mean_by_axis;  ///< along x, y, z [m]: differences are anisotropy
