@@ -4,9 +4,9 @@
     tests/benchmark/measures.py [--program build/bin/coagula] [--datasets build/datasets]
 
 Prints tables: each measure at N = 8000; whole processes at N = 8000 with equal and unequal spheres; the exact pore curve at N = 64 000
-beside a million sample points that scipy's k-d tree (cKDTree, periodic) answers; at N = 512 000 Voronoi volumes beside voro++ on one core and
-the exact curve. The structure is that of 8000 particles at N_V/N = 1/8, repeated along each axis. Needs bench_characterize (cmake --build build
---target benchmarks), which knows voro++ where it is installed, numpy and scipy.
+beside a million sample points that scipy's k-d tree (cKDTree, periodic) answers; at N = 512 000 Voronoi volumes beside voro++ on one core
+and the exact curve. The structure is that of 8000 particles at N_V/N = 1/8, repeated along each axis. Needs bench_characterize (cmake
+--build build --target benchmarks), which knows voro++ where it is installed, numpy and scipy.
 """
 
 import argparse
