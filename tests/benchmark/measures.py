@@ -4,9 +4,9 @@
     tests/benchmark/measures.py [--program build/bin/coagula] [--datasets build/datasets]
 
 Prints tables: each measure at N = 8000; whole processes at N = 8000 with equal and unequal spheres; the exact pore curve at N = 64 000
-beside a million sample points that scipy's k-d tree (cKDTree, periodic) answers; at N = 512 000 Voronoi volumes beside voro++ on one core and
-the exact curve. The structure is that of 8000 particles at N_V/N = 1/8, repeated along each axis. Needs bench_characterize (cmake --build build
---target benchmarks), which knows voro++ where it is installed, numpy and scipy.
+beside a million sample points that scipy's k-d tree (cKDTree, periodic) answers; at N = 512 000 Voronoi volumes beside voro++ on one core
+and the exact curve. The structure is that of 8000 particles at N_V/N = 1/8, repeated along each axis. Needs bench_characterize (cmake
+--build build --target benchmarks), which knows voro++ where it is installed, numpy and scipy.
 """
 
 import argparse
@@ -83,16 +83,16 @@ class Benchmark:
         edge = 2 * EDGE
         self.packing("large.h5", points, numpy.full(len(points), RADIUS), edge)
         samples = numpy.random.default_rng(3).uniform(0, edge, (1000000, 3))
-        print("\n| N = 64 000, exact curve beside a million points | wall, s | ratio |\n|---|---|---|")
+        print("\n| N = 64 000, exact curve beside a million points | wall, s | processor, s |\n|---|---|---|")
         for threads in (1, 2):
-            exact = self.characterize("large.h5", "--only", "doh", threads=threads)[0]
-            start = time.monotonic()
+            wall, processor, command = self.characterize("large.h5", "--only", "doh", threads=threads)
+            print(f"| `{command}`, whole process, threads: {threads} | {wall:.2f} | {processor:.2f} |")
+            start, processor_start = time.monotonic(), time.process_time()
             distances, _ = cKDTree(points, boxsize=edge).query(samples, workers=threads)
-            sampled = time.monotonic() - start
-            sizes = numpy.sort(distances[distances > RADIUS] - RADIUS)
-            print(f"| coagula, whole process, threads: {threads} | {exact:.2f} | 1 |")
-            print(f"| cKDTree, tree and queries, workers: {threads}; mean pore {sizes.mean() / RADIUS:.5f} r0 | {sampled:.2f} | "
-                  f"{sampled / exact:.2f} |", flush=True)
+            wall, processor = time.monotonic() - start, time.process_time() - processor_start
+            sizes = distances[distances > RADIUS] / RADIUS - 1
+            print(f"| cKDTree, tree and queries, workers: {threads}; mean pore {sizes.mean():.5f} r0 | {wall:.2f} | {processor:.2f} |",
+                  flush=True)
 
     def bench(self, heading, *words):
         print(f"\n{heading}: `bench_characterize {' '.join(map(str, words))}`\n")

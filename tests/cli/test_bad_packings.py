@@ -53,7 +53,8 @@ class Packings(ProgramTest):
             for only in ("pores", "doh", "bond_order", "minkowski"):
                 self.refuse(only, [f"has {count} particles"])
             self.refuse("voronoi", ["fewer than two"])
-            self.assertIn(f"doh  left out: the packing is open and has {count} particles", self.spaced(self.succeed("characterize", "p.h5")))
+            text = self.spaced(self.succeed("characterize", "p.h5"))
+            self.assertIn(f"doh  left out: the packing is open and has {count} particles", text)
             self.refuse("chord_lengths", ["periodic"])
             self.refuse("transport", ["periodic"])
             self.refuse("neighbour_distances", [f"{count} particles", "neighbour 12"])

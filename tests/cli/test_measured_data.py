@@ -48,6 +48,36 @@ class ConfocalImage(ProgramTest):
         self.fail_with(2, "shear", "gel.h5", says=["200 particles", "larger sample"])
 
 
+def numbers_in(tree, name=""):
+    """Names and values of the numbers that are no whole ones."""
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            yield from numbers_in(value, f"{name}{key}/")
+        elif isinstance(value, float):
+            yield name + key, value
+
+
+class ConfocalGel(ProgramTest):
+    """A colloidal gel imaged four times, a few particles deep: its noise is the scatter between the images."""
+
+    def test_the_noise_moves_every_measure_by_a_known_amount(self):
+        self.succeed("import", DATA / "silica_gel_confocal" / "peri_static.csv", "--columns", "x=xum,y=yum,z=zum", "--frame", "0",
+                     "--length-unit", "1um", "--radius", "0.92um", "--open", "-o", "gel.h5")
+        noise = ["--position-noise", "5.5nm,5.5nm,7.8nm", "--noise-replicas", "3"]
+        self.assertIn("pores  ", self.succeed("characterize", "gel.h5", *noise))
+        found = self.succeed_json("characterize", "gel.h5", *noise, "--force", "-o", "out.h5")
+        shift, error = (dict(numbers_in(found["noise"][part])) for part in ("shift", "shift_error"))
+        self.assertEqual(shift.keys(), error.keys())
+        given = {"mean_radius", "contact_tolerance", "seconds"}
+        measured = {name for name, _ in numbers_in(found) if not name.startswith(("noise/", "uncertainty/"))} - given
+        self.assertEqual(set(shift), measured)
+        self.assertGreater(len(measured), 25)
+        # The nearest neighbours are 1.77 um away: noise of some nanometres hardly moves their distance, but it opens contacts.
+        self.assertLess(abs(shift["neighbour_distances/nearest"]), 2e-9)
+        # The overlaps imply far more than the scatter between the images: missed radii and particles.
+        self.assertAlmostEqual(found["overlap"]["implied_noise"], 1.74e-7, delta=2e-9)
+
+
 class ReferenceStructure(ProgramTest):
     """A gel of 8000 particles against values from another program."""
 

@@ -1,5 +1,5 @@
-"""Measures against numpy and scipy: neighbours and pores by a k-d tree, q4 and q6 by a Voronoi diagram and spherical harmonics, S(q), angles,
-common neighbours and windows by brute force, and the rank of the rigidity matrix."""
+"""Measures against numpy and scipy: neighbours and pores by a k-d tree, q4 and q6 by a Voronoi diagram and spherical harmonics, S(q),
+angles, common neighbours and windows by brute force, and the rank of the rigidity matrix."""
 
 import itertools
 import random
@@ -158,7 +158,8 @@ class AgainstScipy(ProgramTest):
         for radius, exact in zip(found["pore_curve"]["radius"][5:-5:10], found["pore_curve"]["exclusion_probability"][5:-5:10]):
             sampled = 1 - numpy.searchsorted(sizes, radius * 1e6) / len(sizes)
             self.assertAlmostEqual(sampled, exact, delta=5 * (exact * (1 - exact) / len(sizes)) ** 0.5 + 1e-4)
-        self.assertAlmostEqual(sizes.mean() * 1e-6 / found["pore_size"]["mean_m"], 1, delta=5 * sizes.std() / sizes.mean() / len(sizes) ** 0.5)
+        error = sizes.std() / sizes.mean() / len(sizes) ** 0.5
+        self.assertAlmostEqual(sizes.mean() * 1e-6 / found["pore_size"]["mean_m"], 1, delta=5 * error)
 
     def test_density_fluctuations(self):
         points = self.packing(1500, 0.4, 0.4)[:, :3]

@@ -87,7 +87,7 @@ CurveFigure voronoi() {
             .y_axis = density(),
             .caption = "Distribution of the Voronoi volumes less the smallest possible one, over the mean; dashed: gamma law.",
             .other = measured("voronoi/fit"),
-            .other_name = "gamma law"};
+            .other_name = "gamma"};
 }
 
 CurveFigure density_fluctuations() {

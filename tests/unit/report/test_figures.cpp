@@ -52,7 +52,7 @@ TEST(Figures, OfFilesWithoutResultsNameTheCommandThatComputesThem) {
             ADD_FAILURE() << figure.name;
         } catch (const InputError& error) {
             const std::string sentence = error.what();
-            EXPECT_TRUE(sentence.find("'coagula characterize empty.h5'") != std::string::npos ||
+            EXPECT_TRUE(sentence.find("'coagula characterize empty.h5") != std::string::npos ||
                         sentence.find("'coagula shear empty.h5") != std::string::npos)
                 << sentence;
         }

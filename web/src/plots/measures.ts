@@ -151,7 +151,8 @@ const abscissae = [
   "frequency", "amplitude", "strain", "dilation", "radius", "distance", "r", "wave_number", "wavenumber", "q", "length", "chord_length", "size", "edge", "edges",
   "bin_centre", "centre", "threshold", "lag", "time", "angle", "cosine", "free_volume", "volume", "value", "redundancy", "level", "shell", "order", "fraction",
 ];
-const binEdges = ["lower", "upper"]; // said by the middles of the bins already
+/** No curves: edges of bins, whose middles are there too, rows of different things, and errors of what another figure shows. */
+const noCurve = /\/(lower|upper|signatures)$|\/uncertainty\/|\/bonds\//;
 /** Curves that would dwarf the others of their figure, or that are errors: drawn when asked for. */
 const aside = /^(neighbours|vectors)$|(stderr|_error)$/;
 const fewest = 5; // numbers of a curve; fewer go into the table
@@ -214,7 +215,7 @@ function title(path: string): string {
 export function furtherCharts(structures: Structure[], group: string): ChartSpec[] {
   const found = new Map<string, { result: Result; structure: Structure; k: number; curves: (number | null)[][] }[]>();
   structures.forEach((structure, k) => structure.results.forEach((result) => {
-    const known = result.path.startsWith(poreCurve) || result.path === histogram || result.path.includes("/bonds/") || binEdges.includes(lastPart(result.path));
+    const known = result.path.startsWith(poreCurve) || result.path === histogram || noCurve.test(result.path);
     const curves = result.path.startsWith(group) && !known ? curvesOf(result) : null;
     if (curves && abscissaOf(structure, result.path, result.shape[0]!) !== result) {
       const key = `${folder(result.path)} ${result.unit}`;
