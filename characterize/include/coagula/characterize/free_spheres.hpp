@@ -17,7 +17,7 @@ struct FreeSpheres {
                               ///< point can; NaN in an open packing, which has no images
     double included_along_free = unset;  ///< D_if: largest sphere that fits somewhere along the ways of the free sphere; NaN if
                                          ///< there is none, and for unequal spheres if no straight way leads there
-    Eigen::Vector3d free_by_axis =  ///< D_f of ways that end in an image displaced along x, y, z; D_f is the largest
+    Eigen::Vector3d free_by_axis =       ///< D_f of ways that end in an image displaced along x, y, z; D_f is the largest
         Eigen::Vector3d::Constant(unset);
 };
 
