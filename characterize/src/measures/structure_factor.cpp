@@ -40,7 +40,7 @@ Measure structure_factor_measure() {
     return {.name = "structure_factor",
             .summary = "structure factor S(q), from wave vectors and from g(r), and S(0)",
             .run = run,
-            .options = {{"largest-wave-number", "1", "largest q of S(q), times the mean diameter", 25, 1, 1000}}};
+            .options = {{"largest-wave-number", "1", "largest q of S(q), times the mean diameter", 25, 1, 100}}};
 }
 
 }  // namespace coagula::characterize
