@@ -64,6 +64,8 @@ TEST(HardSphereFluid, HasTheTabulatedStructure) {
         std::pow(1 - fraction, 4) / (std::pow(1 + 2 * fraction, 2) + std::pow(fraction, 3) * (fraction - 4));
     EXPECT_NEAR(at_zero.mean(), compressibility, 4 * at_zero.error());
     EXPECT_LT(at_zero.error(), 0.01);
+    // The transform of g(r) up to half the box does not see waves longer than that.
+    const double resolved = 4 * std::numbers::pi / fluid.packing().cell.lengths().minCoeff();
     // Percus and Yevick are themselves off by up to 4 % of the peak at this fraction.
     double largest = 0;
     for (std::size_t shell = 0; shell < direct.size(); ++shell) {
@@ -71,9 +73,11 @@ TEST(HardSphereFluid, HasTheTabulatedStructure) {
         largest = std::max(largest, exact);
         EXPECT_NEAR(direct[shell].mean(), exact, 4 * direct[shell].error() + 0.04 * exact)
             << last.wave_number[static_cast<Index>(shell)];
-        EXPECT_NEAR(transformed[shell].mean(), exact,
-                    4 * transformed[shell].error() + last.transformed_error[static_cast<Index>(shell)] + 0.04 * exact)
-            << last.wave_number[static_cast<Index>(shell)];
+        if (last.wave_number[static_cast<Index>(shell)] >= resolved) {
+            EXPECT_NEAR(transformed[shell].mean(), exact,
+                        4 * transformed[shell].error() + last.transformed_error[static_cast<Index>(shell)] + 0.04 * exact)
+                << last.wave_number[static_cast<Index>(shell)];
+        }
     }
     EXPECT_GT(largest, 1.9);
     EXPECT_LT(crystal.mean(), 0.01);
