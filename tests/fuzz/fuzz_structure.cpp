@@ -18,7 +18,14 @@ std::string sound_file(const fuzz::InputFolder& folder) {
                         {io::scalar("/mechanics/linear/storage_modulus/mean", 1e6, "Pa", "a modulus"),
                          io::vector("/characterization/curve", Eigen::VectorXd::LinSpaced(5, 0, 1), "1", "a curve"),
                          io::text("/mechanics/linear/solver", "direct", "a text")},
-                        {.stage = "generate vem", .command_line = "coagula generate vem", .options = "{}", .seed = 1}, true);
+                        {.stage = "generate vem",
+                         .command_line = "coagula generate vem",
+                         .options = "{}",
+                         .seed = 1,
+                         .version = "",
+                         .time = "",
+                         .positions_sha256 = ""},
+                        true);
     return fuzz::contents_of(path);
 }
 
