@@ -20,8 +20,9 @@ from pathlib import Path
 import numpy
 
 from cases import ROWS
+from days import placed
 from material import Material
-from session import follow_up, placed
+from session import follow_up
 from table import BREAKING, in_set, print_table
 
 

@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy
 
+from days import (GAP, PLATE, full_day, gap_day, level_day, long_day, one_sample, plates_day, rates_day, rest_day, up_and_down, wide_strains,
+                  yield_day)
 from material import CONTACTS, KNOWN, LOADS, SWEEP_ROWS
 from series import Series
-from session import (Hidden, Noise, Session, full_day, gap_day, level_day, long_day, one_sample, plates_day, up_and_down, wide_strains, yield_day,
-                     rates_day, rest_day, GAP, PLATE)
+from session import Hidden, Noise, Session
 
 LEAST_GAIN, LARGEST_GAIN = 25, 400
 KNOWN_THAT_BREAK = 4  # structures of the diagnosis where bonds break, drawn of those that there are

@@ -81,6 +81,24 @@ inline double drawn_normal(std::uint64_t seed, std::uint64_t number, std::uint64
     return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * std::numbers::pi * u[1]);
 }
 
+/// Columns of moduli with a relative error of |G*|.
+inline void add_moduli(Measurement& table, const std::vector<std::complex<double>>& moduli, double error, std::uint64_t seed,
+                       bool with_loss = true) {
+    Column storage{"storage_modulus", "Pa", {}};
+    Column loss{"loss_modulus", "Pa", {}};
+    for (std::size_t k = 0; k < moduli.size(); ++k) {
+        const double deviation = error * std::abs(moduli[k]);
+        storage.values.push_back(moduli[k].real() + deviation * drawn_normal(seed, 2 * k));
+        loss.values.push_back(moduli[k].imag() + deviation * drawn_normal(seed, 2 * k + 1));
+        storage.standard_errors.push_back(deviation);
+        loss.standard_errors.push_back(deviation);
+    }
+    table.columns.push_back(storage);
+    if (with_loss) {
+        table.columns.push_back(loss);
+    }
+}
+
 /// Centres as a microscope finds them: errors, some particles missed, no periodic box.
 inline Measurement seen_by_microscope(const Packing& hidden, double sigma_plane, double sigma_axis, double missed,
                                       std::uint64_t seed) {

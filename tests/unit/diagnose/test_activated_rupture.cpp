@@ -1,8 +1,7 @@
 // Bonds that heat helps to break: the law against the rate equation behind it, and sweeps of other structures at two frequencies.
+#include "explicit_sweep.hpp"
 #include "hidden_effects.hpp"
 #include "simulate/forward.hpp"
-
-#include <coagula/mechanics/rheometer.hpp>
 
 #include <gtest/gtest.h>
 
@@ -25,19 +24,9 @@ Measurement sweep(double frequency, const std::vector<double>& strains, const st
     table.kind = MeasurementKind::amplitude_sweep;
     table.label = "hidden";
     table.sample = "at " + to_text(frequency) + " Hz";
-    Column storage{"storage_modulus", "Pa", {}};
-    Column loss{"loss_modulus", "Pa", {}};
-    for (std::size_t k = 0; k < moduli.size(); ++k) {
-        const double deviation = error * std::abs(moduli[k]);
-        storage.values.push_back(moduli[k].real() + deviation * drawn_normal(seed, 2 * k));
-        loss.values.push_back(moduli[k].imag() + deviation * drawn_normal(seed, 2 * k + 1));
-        storage.standard_errors.push_back(deviation);
-        loss.standard_errors.push_back(deviation);
-    }
     table.columns = {{"strain", "1", strains},
-                     {"angular_frequency", "rad/s", std::vector<double>(strains.size(), 2 * pi * frequency)},
-                     storage,
-                     loss};
+                     {"angular_frequency", "rad/s", std::vector<double>(strains.size(), 2 * pi * frequency)}};
+    add_moduli(table, moduli, error, seed);
     return table;
 }
 
@@ -116,40 +105,10 @@ double median_rupture_force(double rate_at_rest, double frequency) {
     return 0.5 * (low + high);
 }
 
-/// G* of a sweep under the explicit rheometer, mean over two structures in two orientations each.
-std::vector<Complex> explicit_sweep(const std::vector<double>& strains, double critical_strain) {
-    mechanics::RheometerOptions run;
-    run.model = {.normal_stiffness = 40, .shear_stiffness = 4};
-    run.model.normal_strength = run.model.shear_strength = critical_strain * 20 * 0.25e-6;
-    run.boundary = mechanics::RheometerBoundary::periodic;
-    run.amplitude = *std::max_element(strains.begin(), strains.end());
-    run.oscillations = static_cast<int>(strains.size()) + 2;
-    run.steps_per_oscillation = 5000;
-    run.damping = 0.75;
-    run.compare_with_rest = false;
-    run.course.assign(2, {1e-3});  // until the start is forgotten
-    for (const double strain : strains) {
-        run.course.push_back({strain / run.amplitude});
-    }
-    std::vector<Complex> moduli(strains.size());
-    for (const std::uint64_t seed : {77U, 78U}) {
-        const Packing packing = structure(250, seed);
-        const auto result = mechanics::run_rheometer(packing, find_contacts(packing, 0.01), run, {{2, 0}, {1, 2}});
-        for (const auto& one : result.runs) {
-            const double lag = one.oscillations[1].fundamental_loss;  // of the rate of the run
-            for (std::size_t k = 0; k < strains.size(); ++k) {
-                const auto& oscillation = one.oscillations[k + 2];
-                moduli[k] += Complex(oscillation.fundamental_storage, oscillation.fundamental_loss - lag) / 4.0;
-            }
-        }
-    }
-    return moduli;
-}
-
 Diagnosis diagnosis_of(double first_strain, double second_strain) {
     const std::vector<double> strains = up_and_down();
-    const auto slow = explicit_sweep(strains, first_strain);
-    const auto fast = explicit_sweep(strains, second_strain);
+    const auto slow = explicit_sweep(strains, first_strain, {77, 78}, {{2, 0}, {1, 2}});
+    const auto fast = explicit_sweep(strains, second_strain, {77, 78}, {{2, 0}, {1, 2}});
     const Experiment measured = under_cone({sweep(0.1, strains, slow, 0.05, 3), sweep(10, strains, fast, 0.05, 4)});
     DiagnosisOptions options;
     options.bootstrap = 399;

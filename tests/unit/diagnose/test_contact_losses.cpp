@@ -19,17 +19,11 @@ Measurement sweep(const std::vector<double>& frequencies, const std::vector<Comp
     table.label = "hidden";
     table.sample = "sample " + std::to_string(seed);
     Column frequency{"angular_frequency", "rad/s", {}};
-    Column storage{"storage_modulus", "Pa", {}};
-    Column loss{"loss_modulus", "Pa", {}};
-    for (std::size_t k = 0; k < moduli.size(); ++k) {
-        const double deviation = error * std::abs(moduli[k]);
-        frequency.values.push_back(2 * pi * frequencies[k]);
-        storage.values.push_back(moduli[k].real() + deviation * drawn_normal(seed, 2 * k));
-        loss.values.push_back(moduli[k].imag() + deviation * drawn_normal(seed, 2 * k + 1));
-        storage.standard_errors.push_back(deviation);
-        loss.standard_errors.push_back(deviation);
+    for (const double each : frequencies) {
+        frequency.values.push_back(2 * pi * each);
     }
-    table.columns = {frequency, storage, loss};
+    table.columns = {frequency};
+    add_moduli(table, moduli, error, seed);
     return table;
 }
 

@@ -3,8 +3,8 @@
 #include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>
-#include <coagula/mechanics/rheometer.hpp>
 
+#include "explicit_sweep.hpp"
 #include "hidden_effects.hpp"
 
 #include <gtest/gtest.h>
@@ -172,43 +172,13 @@ TEST(Diagnosis, NamesTheLossOfTheContacts) {
     EXPECT_FALSE(found.failures.empty());
 }
 
-/// G* of a sweep over bonds that break by the explicit rheometer, mean over three structures in three orientations each.
-std::vector<std::complex<double>> explicit_sweep(const std::vector<double>& strains, double critical_strain) {
-    mechanics::RheometerOptions run;
-    run.model = springs(40);
-    run.model.normal_strength = run.model.shear_strength = critical_strain * 20 * 0.25e-6;
-    run.boundary = mechanics::RheometerBoundary::periodic;
-    run.amplitude = *std::max_element(strains.begin(), strains.end());
-    run.oscillations = static_cast<int>(strains.size()) + 2;
-    run.steps_per_oscillation = 5000;
-    run.damping = 0.75;
-    run.compare_with_rest = false;
-    run.course.assign(2, {1e-3});  // until the start is forgotten
-    for (const double strain : strains) {
-        run.course.push_back({strain / run.amplitude});
-    }
-    std::vector<std::complex<double>> moduli(strains.size());
-    for (const std::uint64_t seed : {77U, 78U, 79U}) {
-        const Packing packing = structure(250, seed);
-        const auto result = mechanics::run_rheometer(packing, find_contacts(packing, 0.01), run, {{2, 0}, {0, 1}, {1, 2}});
-        for (const auto& one : result.runs) {
-            for (std::size_t k = 0; k < strains.size(); ++k) {
-                const double lag = one.oscillations[1].fundamental_loss;  // of the rate of the run
-                const auto& oscillation = one.oscillations[k + 2];
-                moduli[k] += std::complex(oscillation.fundamental_storage, oscillation.fundamental_loss - lag) / 9.0;
-            }
-        }
-    }
-    return moduli;
-}
-
 /// Under a cone, where the strain is the same everywhere.
 TEST(Diagnosis, NamesTheStrengthOfTheBonds) {
     std::vector<double> strains = logarithmic_steps(1e-5, 2.5e-3, 16);
     for (const double strain : {1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {
         strains.push_back(strain);  // on the way up alone, contacts that open and close again look like bonds that break
     }
-    const std::vector<std::complex<double>> moduli = explicit_sweep(strains, 3e-4);
+    const std::vector<std::complex<double>> moduli = explicit_sweep(strains, 3e-4, {77, 78, 79}, {{2, 0}, {0, 1}, {1, 2}});
     const auto sweep_with = [&](std::uint64_t seed) {
         return table(MeasurementKind::amplitude_sweep, strains, std::vector<double>(strains.size(), 1.0), moduli, seed, 0.05, 0.02);
     };

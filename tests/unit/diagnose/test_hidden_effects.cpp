@@ -51,23 +51,6 @@ ContactModel springs(double stiffness) {
     return {.normal_stiffness = stiffness, .shear_stiffness = 0.1 * stiffness};
 }
 
-/// Columns of moduli with a relative error of |G*|.
-void add_moduli(Measurement& table, const std::vector<Complex>& moduli, double error, std::uint64_t seed, bool with_loss) {
-    Column storage{"storage_modulus", "Pa", {}};
-    Column loss{"loss_modulus", "Pa", {}};
-    for (std::size_t k = 0; k < moduli.size(); ++k) {
-        const double deviation = error * std::abs(moduli[k]);
-        storage.values.push_back(moduli[k].real() + deviation * drawn_normal(seed, 2 * k));
-        loss.values.push_back(moduli[k].imag() + deviation * drawn_normal(seed, 2 * k + 1));
-        storage.standard_errors.push_back(deviation);
-        loss.standard_errors.push_back(deviation);
-    }
-    table.columns.push_back(storage);
-    if (with_loss) {
-        table.columns.push_back(loss);
-    }
-}
-
 Measurement table_of(MeasurementKind kind, const Column& axis) {
     Measurement table;
     table.kind = kind;

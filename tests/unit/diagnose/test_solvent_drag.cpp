@@ -151,22 +151,16 @@ TEST(SolventDrag, TheStructuresErrorsAreThereWhereNothingShowsThem) {
 }
 
 Measurement sweep(const std::vector<double>& frequencies, const std::vector<Complex>& moduli, double error, std::uint64_t seed) {
-    Column frequency{"angular_frequency", "rad/s", {}};
-    Column storage{"storage_modulus", "Pa", {}};
-    Column loss{"loss_modulus", "Pa", {}};
-    for (std::size_t k = 0; k < moduli.size(); ++k) {
-        const double deviation = error * std::abs(moduli[k]);
-        frequency.values.push_back(2 * pi * frequencies[k]);
-        storage.values.push_back(moduli[k].real() + deviation * drawn_normal(seed, 2 * k));
-        loss.values.push_back(moduli[k].imag() + deviation * drawn_normal(seed, 2 * k + 1));
-        storage.standard_errors.push_back(deviation);
-        loss.standard_errors.push_back(deviation);
-    }
     Measurement table;
     table.kind = MeasurementKind::frequency_sweep;
     table.label = "hidden";
     table.sample = "sample";
-    table.columns = {frequency, storage, loss};
+    Column frequency{"angular_frequency", "rad/s", {}};
+    for (const double each : frequencies) {
+        frequency.values.push_back(2 * pi * each);
+    }
+    table.columns = {frequency};
+    add_moduli(table, moduli, error, seed);
     return table;
 }
 
