@@ -146,7 +146,8 @@ def main():
     program, folder = chosen.program.resolve(), chosen.folder.resolve()
     (folder / "bank").mkdir(parents=True, exist_ok=True)
     Material(program, folder / "bank").prepare(jobs=chosen.jobs, breaking=not BREAKING_ROWS.isdisjoint(chosen.rows),
-                                                   series=not SERIES_ROWS.isdisjoint(chosen.rows), contacts=not CONTACT_ROWS.isdisjoint(chosen.rows))
+                                                   series=not SERIES_ROWS.isdisjoint(chosen.rows), contacts=not CONTACT_ROWS.isdisjoint(chosen.rows),
+                                                   dragged="drag" in chosen.rows)
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

@@ -6,7 +6,7 @@ import numpy
 
 from days import (GAP, PLATE, full_day, gap_day, level_day, long_day, one_sample, plates_day, rates_day, rest_day, up_and_down, wide_strains,
                   yield_day)
-from material import CONTACTS, KNOWN, LOADS, SWEEP_ROWS
+from material import CONTACTS, DRAGGED, KNOWN, LOADS, STRUCTURES, SWEEP_ROWS
 from series import Series
 from session import Hidden, Noise, Session
 
@@ -225,10 +225,11 @@ def null_one_sample(generator, material):
 
 
 def drag(generator, material):
-    """The sample is as large as eight structures; the two of the diagnosis are others each time, or all runs would share their error."""
+    """The sample is as large as eight structures. They and the two of the diagnosis are others each time, or all runs would share their error."""
     viscosity = float(generator.choice(VISCOSITIES))
-    known = tuple(int(number) for number in generator.choice(KNOWN, 2, replace=False))
-    return replace(draw_session(generator, material), mean_of_all=True, hidden=Hidden("solvent-drag", viscosity=viscosity), known_structures=known)
+    drawn = lambda count: tuple(generator.choice(DRAGGED, count, replace=False).tolist())
+    return replace(draw_session(generator, material), known_structures=drawn(2), mean_of=drawn(STRUCTURES),
+                   hidden=Hidden("solvent-drag", viscosity=viscosity))
 
 
 def misstated(kind):

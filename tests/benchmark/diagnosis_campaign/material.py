@@ -16,6 +16,7 @@ STRUCTURES = 8
 THINNED = (0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14, 0.17, 0.2, 0.25, 0.3, 0.4)  # shares of missing contacts
 BREAKING = 32  # of a sample with bonds that break: what a few structures differ from very many is more than errors of 2 %
 KNOWN = 16     # that the diagnosis may know
+DRAGGED = 64   # of which each sample in a solvent that drags is made anew: floppy modes differ up to a hundredfold between structures
 LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
 SWEEP_ROWS = 14
 STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
@@ -44,9 +45,9 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, jobs, breaking, series, contacts):
-        """Everything that is not drawn: moduli of structures, with breaking, series and other contacts if asked for; and those structures that the
-        diagnosis may know."""
+    def prepare(self, jobs, breaking, series, contacts, dragged):
+        """Everything that is not drawn: moduli of structures, with breaking, series, other contacts and a dragging solvent if asked for; and those
+        structures that the diagnosis may know."""
         coordinations = COORDINATIONS if series else ()
         kinds = [("", 0.0)] + [(cause, value) for cause, values in CONTACTS.items() for value in values if contacts]
         tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in kinds]
@@ -55,7 +56,8 @@ class Material:
         if breaking:
             tasks += [("modulus", number) for number in range(STRUCTURES, BREAKING)]
             tasks += [("breaking", number, load) for number in range(BREAKING) for load in LOADS]
-        for number in range(BREAKING if breaking else STRUCTURES):
+        tasks += [("elastic", number) for number in range(DRAGGED) if dragged]
+        for number in range(DRAGGED if dragged else BREAKING if breaking else STRUCTURES):
             self.structure(number)
         for coordination in coordinations:
             for number in range(SERIES_STRUCTURES):
@@ -64,7 +66,7 @@ class Material:
             for known_values in pool.map(computed, [(self.program, self.folder, task) for task in tasks]):
                 self.known.update(known_values)
                 self.keep()
-        for number in range(KNOWN):
+        for number in range(DRAGGED if dragged else KNOWN):
             self.known_structure(number)
         for coordination in coordinations:
             for number in range(SERIES_KNOWN):
@@ -142,19 +144,21 @@ class Material:
         curve = [self.thinned(number, missing) if missing else 1.0 for missing in THINNED]
         return numpy.interp(1 - share, THINNED, curve)
 
-    def mean_drag(self, ratio, frequencies):
-        """G* over the elastic G' of all structures together with a solvent that drags, whose viscosity over the particles' stiffness is `ratio`."""
+    def elastic(self, number):
+        """G' of a structure by the solver."""
+        return self.remembered(f"plain {number}", lambda: self.shear(self.structure(number))["storage_modulus"]["mean"])
+
+    def mean_drag(self, ratio, frequencies, numbers):
+        """G* over the elastic G' of these structures together with a solvent that drags, whose viscosity over the particles' stiffness is `ratio`."""
         def compute(number):
             model = self.folder / "drag.toml"
             model.write_text(f"solvent_viscosity = {ratio * STIFFNESS}\n")
             found = self.shear(self.structure(number), "--model", model, "--frequency", ",".join(f"{each}Hz" for each in frequencies))
             return [numpy.atleast_1d(found[part]["mean"]).tolist() for part in ("storage_modulus", "loss_modulus")]
         values = [self.remembered(f"drag {number} {ratio:.6g} {list(frequencies)}", lambda number=number: compute(number))
-                  for number in range(STRUCTURES)]
-        plain = numpy.mean([self.remembered(f"plain {number}", lambda number=number: self.shear(self.structure(number))["storage_modulus"]["mean"])
-                            for number in range(STRUCTURES)])
+                  for number in numbers]
         storage, loss = numpy.mean(values, axis=0)
-        return (storage + 1j * loss) / plain
+        return (storage + 1j * loss) / numpy.mean([self.elastic(number) for number in numbers])
 
     def shear(self, path, *words):
         return self.run("shear", path, "-o", self.folder / "sheared.h5", "--force", *words)
@@ -179,7 +183,7 @@ class Material:
         return self.remembered(f"modulus {number} {cause} {value} {coordination}", compute)
 
     def mean_modulus(self, cause="", value=0.0):
-        """Of a sample as large as all structures together."""
+        """Of a sample as large as the first structures together."""
         return float(numpy.mean([self.modulus(number, cause, value) for number in range(STRUCTURES)]))
 
     def breaking(self, number, load):

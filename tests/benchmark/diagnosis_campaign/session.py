@@ -63,7 +63,7 @@ class Session:
     known_stiffness: bool = False
     known_structures: tuple = (0, 1)
     storage_only: bool = False
-    mean_of_all: bool = False    # the sample is as large as all structures together
+    mean_of: tuple = ()          # structures as large as which together the sample is, in a solvent that drags
     told_noise: bool = False     # the file states the errors that there are
 
     def write(self, material, folder, generator):
@@ -173,8 +173,12 @@ def true_modulus(material, session, table):
     hidden = session.hidden
     if numpy.isfinite(table.viscosity):
         return 2j * numpy.pi * table.frequency * table.viscosity
-    whole = session.known_stiffness or session.mean_of_all
-    level = material.mean_modulus(*hidden.contact) if whole else material.modulus(session.structure)
+    if session.mean_of:
+        level = numpy.mean([material.elastic(number) for number in session.mean_of])
+    elif session.known_stiffness:
+        level = material.mean_modulus(*hidden.contact)
+    else:
+        level = material.modulus(session.structure)
     modulus = numpy.full(len(table.strain), level * session.stiffness / 100, dtype=complex)
     if hidden.loss:
         modulus *= material.losses(session.structure, *hidden.loss, table.frequency)
@@ -188,7 +192,7 @@ def true_modulus(material, session, table):
         if table.kind == "amplitude-sweep" and table.frequency[0] == frequency:
             modulus *= material.mean_breaking(load)
     if hidden.viscosity:
-        modulus *= material.mean_drag(hidden.viscosity / session.stiffness, table.frequency)
+        modulus *= material.mean_drag(hidden.viscosity / session.stiffness, table.frequency, session.mean_of)
     if hidden.loads and table.kind == "amplitude-sweep":
         modulus *= material.mean_breaking(*hidden.loads, rim=hidden.rim and not table.cone)
     if hidden.ageing:
