@@ -23,6 +23,16 @@ function(coagula_warnings target)
   endif()
 endfunction()
 
+# coagula_unity(<target>): with COAGULA_UNITY its sources are compiled in batches. Names in their unnamed namespaces must then differ; sources
+# with the same names by design say SKIP_UNITY_BUILD_INCLUSION.
+function(coagula_unity target)
+  if(COAGULA_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    # Names of one source shadow nothing in the next one, and a source is no header.
+    target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage>")
+  endif()
+endfunction()
+
 # coagula_precompile(<target> <header>...): what nearly every source of the target includes is parsed once. Sources with compile options
 # of their own say SKIP_PRECOMPILE_HEADERS.
 function(coagula_precompile target)
@@ -47,6 +57,7 @@ function(coagula_library name)
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
     "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   coagula_warnings(${target})
+  coagula_unity(${target})
   coagula_precompile(${target})
   install(TARGETS ${target} EXPORT coagula_${name}_targets COMPONENT ${name})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})

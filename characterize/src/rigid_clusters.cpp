@@ -19,13 +19,13 @@ struct Pair {
 };
 
 /// A contact as one of its ends sees it.
-struct Step {
+struct ClusterStep {
     Index other;
     Eigen::Vector3d branch;
 };
 
-std::vector<std::vector<Step>> steps_of(const ContactNetwork& contacts) {
-    std::vector<std::vector<Step>> steps(static_cast<std::size_t>(contacts.particles));
+std::vector<std::vector<ClusterStep>> steps_of(const ContactNetwork& contacts) {
+    std::vector<std::vector<ClusterStep>> steps(static_cast<std::size_t>(contacts.particles));
     for (Index contact = 0; contact < contacts.size(); ++contact) {
         const Index first = contacts.ends(0, contact);
         const Index second = contacts.ends(1, contact);
@@ -46,7 +46,7 @@ std::vector<Pair> near_pairs(const ContactNetwork& contacts) {
     for (Index contact = 0; contact < contacts.size(); ++contact) {
         add(contacts.ends(0, contact), contacts.ends(1, contact), contacts.branch.col(contact));
     }
-    for (const std::vector<Step>& steps : steps_of(contacts)) {
+    for (const std::vector<ClusterStep>& steps : steps_of(contacts)) {
         for (auto one = steps.begin(); one != steps.end(); ++one) {
             for (auto other = steps.begin(); other != one; ++other) {
                 add(one->other, other->other, other->branch - one->branch);

@@ -10,7 +10,7 @@ namespace coagula::mechanics {
 
 namespace {
 
-constexpr double rounding = 5e-15;  // of forces, in contact stiffnesses times mean radii
+constexpr double rounding_of_forces = 5e-15;  // of forces, in contact stiffnesses times mean radii
 constexpr int most_newton_iterations = 25;
 constexpr int most_krylov_iterations = 60;
 constexpr double predictor_tolerance = 1e-6;
@@ -64,7 +64,7 @@ private:
 /// Forces are measured by the largest of the run so far: near zero strain there is next to none.
 bool EquilibriumSolver::is_balanced(const Trial& trial) {
     const double scale = std::max(trial.rms_force, largest_force_);
-    const bool balanced = trial.rms_residual <= std::max(tolerance_ * scale, rounding);
+    const bool balanced = trial.rms_residual <= std::max(tolerance_ * scale, rounding_of_forces);
     if (balanced) {
         largest_force_ = scale;
     }
@@ -96,7 +96,7 @@ Motion EquilibriumSolver::precondition(const Motion& load) {
 
 /// @param correction P^-1 residual; renewed with the factor.
 std::optional<Motion> EquilibriumSolver::newton_step(const ShearedNetwork& network, const Trial& trial, Motion& correction) {
-    const ContactStiffness stiffness(network, trial);
+    const StiffnessOfContacts stiffness(network, trial);
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!factor_ || (attempt > 0 && !fresh_)) {
             factorise(network, trial);
@@ -133,7 +133,7 @@ bool EquilibriumSolver::search_line(const ShearedNetwork& network, const Motion&
 }
 
 Motion EquilibriumSolver::predict(const ShearedNetwork& network, const Trial& rest) {
-    const ContactStiffness stiffness(network, rest);
+    const StiffnessOfContacts stiffness(network, rest);
     factorise(network, rest);
     return minimise_residual([&](const Motion& motion) { return precondition(stiffness * motion); },
                              precondition(stiffness.strain_load()), predictor_tolerance, most_krylov_iterations)
@@ -231,7 +231,7 @@ bool EquilibriumSolver::follow_newton(const ShearedNetwork& network, Trial& tria
 
 /// Newton's direction where it leads down, else that of the preconditioner, which always does.
 Motion EquilibriumSolver::downhill(const ShearedNetwork& network, const Trial& trial) {
-    const ContactStiffness stiffness(network, trial);
+    const StiffnessOfContacts stiffness(network, trial);
     if (!factor_ || !fresh_) {
         factorise(network, trial);
     }

@@ -1,8 +1,8 @@
 // Finds the motion after which every particle of a sheared network is in balance.
 #pragma once
 
-#include "contact_stiffness.hpp"
 #include "sheared_network.hpp"
+#include "stiffness_of_contacts.hpp"
 #include "updated_factor.hpp"
 
 #include <coagula/common/progress.hpp>

@@ -28,9 +28,9 @@ UpdatedFactor::UpdatedFactor(const ShearedNetwork& network, const Trial& trial) 
 }
 
 void UpdatedFactor::factorise(const ShearedNetwork& network, const Trial& trial) {
-    const ContactStiffness stiffness(network, trial);
+    const StiffnessOfContacts stiffness(network, trial);
     const BlasThreads threads(blas_threads);
-    auto convex = ContactStiffness::Convex::contacts_without_bond;
+    auto convex = StiffnessOfContacts::Convex::contacts_without_bond;
     BlockMatrix matrix = stiffness.symmetric_part(convex);
     const EliminationOrder order = elimination_order(matrix, Ordering::nested_dissection);
     for (double shift = smallest_shift;; shift *= 10) {
@@ -44,7 +44,7 @@ void UpdatedFactor::factorise(const ShearedNetwork& network, const Trial& trial)
             }
             if (convex_) {
                 convex_ = false;
-                convex = ContactStiffness::Convex::all;
+                convex = StiffnessOfContacts::Convex::all;
                 matrix = stiffness.symmetric_part(convex);
                 shift = 0.1 * smallest_shift;
             }

@@ -1,8 +1,8 @@
 // Factor of the tangent of a sheared network that follows the contacts which open, close, slip or break.
 #pragma once
 
-#include "contact_stiffness.hpp"
 #include "sheared_network.hpp"
+#include "stiffness_of_contacts.hpp"
 
 #include <coagula/common/cholesky_factor.hpp>
 

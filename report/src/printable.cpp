@@ -6,20 +6,20 @@
 
 namespace coagula::report {
 
-using Json = nlohmann::json;
+using AnyJson = nlohmann::json;
 
 bool is_utf8(const std::string& text) {
     try {
-        Json(text).dump();
-    } catch (const Json::type_error&) {
+        AnyJson(text).dump();
+    } catch (const AnyJson::type_error&) {
         return false;
     }
     return true;
 }
 
 std::string printable(const std::string& text) {
-    const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-    auto safe = Json::parse(quoted).get<std::string>();
+    const std::string quoted = AnyJson(text).dump(-1, ' ', false, AnyJson::error_handler_t::replace);
+    auto safe = AnyJson::parse(quoted).get<std::string>();
     for (std::size_t place = 0; place < safe.size(); ++place) {
         const auto byte = static_cast<unsigned char>(safe[place]);
         if (std::iscntrl(byte) != 0) {

@@ -12,7 +12,7 @@ Measure bond_angles_measure();
 
 namespace {
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_bond_angles(const MeasureInput& input) {
     const BondAngles found = measure_bond_angles(input.packing(), {.contact_tolerance = input.number("contact-tolerance")});
     MeasureResult result;
     result.add_vector("bond_angles/angle", found.angle, "rad",
@@ -37,7 +37,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure bond_angles_measure() {
     return {.name = "bond_angles",
             .summary = "angles between the contacts of a particle",
-            .run = run,
+            .run = run_bond_angles,
             .options = {contact_tolerance_option()}};
 }
 

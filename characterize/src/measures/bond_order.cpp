@@ -24,7 +24,7 @@ double spread_error(const MeasureInput& input, const Eigen::VectorXd& values) {
     })[0];
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_bond_order(const MeasureInput& input) {
     const BondOrder found =
         if_applicable([&] { return measure_bond_order(input.packing(), input.voronoi_faces(), input.inner()); });
     MeasureResult result;
@@ -50,7 +50,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure bond_order_measure() {
     return {.name = "bond_order",
             .summary = "bond-orientational order q4, q6, weighted by the facets of the Voronoi cells",
-            .run = run};
+            .run = run_bond_order};
 }
 
 }  // namespace coagula::characterize

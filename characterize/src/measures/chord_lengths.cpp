@@ -21,7 +21,7 @@ void add_phase(const ChordDistribution& found, const std::string& phase, Measure
     result.add_count(name + "/chords", found.chords, "number" + of);
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_chord_lengths(const MeasureInput& input) {
     const ChordLengths found =
         if_applicable([&] { return measure_chord_lengths(input.packing(), {.lines = input.count("chord-lines")}); });
     MeasureResult result;
@@ -37,7 +37,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure chord_lengths_measure() {
     return {.name = "chord_lengths",
             .summary = "lengths of the pieces that straight lines have in the void and in the spheres",
-            .run = run,
+            .run = run_chord_lengths,
             .options = {{"chord-lines", "", "number of lines of the chord lengths along each axis", 3000, 1, 1e8}}};
 }
 

@@ -20,7 +20,7 @@ Eigen::MatrixXd table_of(const CommonNeighbours& found) {
     return table;
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_common_neighbours(const MeasureInput& input) {
     const CommonNeighbours found =
         measure_common_neighbours(input.packing(), {.contact_tolerance = input.number("contact-tolerance")});
     MeasureResult result;
@@ -48,7 +48,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure common_neighbours_measure() {
     return {.name = "common_neighbours",
             .summary = "common neighbours of contacts; particles in fcc, hcp, bcc and icosahedral order",
-            .run = run,
+            .run = run_common_neighbours,
             .options = {contact_tolerance_option()}};
 }
 

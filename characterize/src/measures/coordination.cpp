@@ -44,7 +44,7 @@ void add_means(const Coordination& coordination, double tolerance, const Eigen::
                "fraction of the particles with fewer than three contacts", error[1]);
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_coordination(const MeasureInput& input) {
     const Coordination& coordination = input.coordination();
     const double tolerance = input.number("contact-tolerance");
     MeasureResult result;
@@ -61,8 +61,10 @@ MeasureResult run(const MeasureInput& input) {
 }  // namespace
 
 Measure coordination_measure() {
-    return {
-        .name = "coordination", .summary = "contacts per particle, rattlers", .run = run, .options = {contact_tolerance_option()}};
+    return {.name = "coordination",
+            .summary = "contacts per particle, rattlers",
+            .run = run_coordination,
+            .options = {contact_tolerance_option()}};
 }
 
 }  // namespace coagula::characterize

@@ -20,7 +20,7 @@ Eigen::VectorXd moments(const Eigen::VectorXd& sums) {
     return Eigen::VectorXd{{sums[2] / sums[1], deviation(1), sums[5] / sums[4], deviation(4), sums[4] / sums[0]}};
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_delaunay_pores(const MeasureInput& input) {
     const DelaunayPores pores = if_applicable([&] { return measure_delaunay_pores(input.diagram(), radii); });
     const Eigen::VectorXd found = moments(sum_inner(input, pores.by_particle));
     const Eigen::VectorXd error = errors_of_means(input, pores.by_particle, moments);
@@ -50,7 +50,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure delaunay_pores_measure() {
     return {.name = "delaunay_pores",
             .summary = "spheres that touch four neighbours (Delaunay circumspheres), and the throats between them",
-            .run = run};
+            .run = run_delaunay_pores};
 }
 
 }  // namespace coagula::characterize

@@ -9,7 +9,7 @@ Measure density_fluctuations_measure();
 
 namespace {
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_density_fluctuations(const MeasureInput& input) {
     const Packing& packing = input.packing();
     const DensityFluctuations found = if_applicable([&] { return measure_density_fluctuations(packing, input.inner()); });
     MeasureResult result;
@@ -35,7 +35,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure density_fluctuations_measure() {
     return {.name = "density_fluctuations",
             .summary = "deviation of the solid volume in cubic windows against their size, and its integral",
-            .run = run};
+            .run = run_density_fluctuations};
 }
 
 }  // namespace coagula::characterize

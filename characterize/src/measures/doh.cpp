@@ -31,7 +31,7 @@ Eigen::VectorXd structure_errors(const PoreSizes& pores, double r0, bool has_mai
     });
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_doh(const MeasureInput& input) {
     const PoreSizes& pores = known_pores(input);
     const double r0 = input.r0();
     constexpr Index fewest = 6;  // radii of the main part, so that the fit has something to average
@@ -63,7 +63,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure doh_measure() {
     return {.name = "doh",
             .summary = "degree of heterogeneity a: width of the error function fitted to the pore-size curve",
-            .run = run,
+            .run = run_doh,
             .options = {radii_option(), pore_tolerance_option()},
             .along = {"pores"}};
 }

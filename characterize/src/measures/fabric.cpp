@@ -31,7 +31,7 @@ double anisotropy_of(const Eigen::VectorXd& sums) {
     return std::sqrt(1.5) * (tensor / tensor.trace() - Eigen::Matrix3d::Identity() / 3).norm();
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_fabric(const MeasureInput& input) {
     const ContactNetwork& contacts = input.contacts();
     require_applicable(contacts.size() > 0, "no particles are in contact: there is no fabric");
     const Fabric fabric = find_fabric(contacts, Eigen::VectorXd::Ones(contacts.size()));
@@ -55,7 +55,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure fabric_measure() {
     return {.name = "fabric",
             .summary = "fabric tensor of the contacts and its anisotropy",
-            .run = run,
+            .run = run_fabric,
             .options = {contact_tolerance_option()}};
 }
 

@@ -35,7 +35,7 @@ void add_free(const FreeSpheres& found, double included_error, double r0, Measur
     }
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_free_spheres(const MeasureInput& input) {
     const FreeSpheres found = if_applicable([&] { return measure_free_spheres(input.diagram(), input.progress()); });
     const double r0 = input.r0();
     const double included_error = 2 * largest_pore_error(input.pores());
@@ -56,7 +56,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure free_spheres_measure() {
     return {.name = "free_spheres",
             .summary = "largest sphere that fits into the void (D_i), and that can move through it without end (D_f, D_if)",
-            .run = run,
+            .run = run_free_spheres,
             .options = {radii_option(), pore_tolerance_option()}};
 }
 

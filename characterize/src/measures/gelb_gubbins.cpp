@@ -9,7 +9,7 @@ Measure gelb_gubbins_measure();
 
 namespace {
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_gelb_gubbins(const MeasureInput& input) {
     const double r0 = input.r0();
     const CoveringOptions options{.points = input.count("covering-points"), .seed = input.seed()};
     const CoveringSpheres found =
@@ -39,7 +39,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure gelb_gubbins_measure() {
     return {.name = "gelb_gubbins",
             .summary = "pore sizes after Gelb and Gubbins: the largest sphere in the void that covers a point, sampled",
-            .run = run,
+            .run = run_gelb_gubbins,
             .options = {{"covering-points", "", "random points in the box at which covering spheres are sought", 20000, 100, 1e8}}};
 }
 

@@ -9,7 +9,7 @@ Measure minkowski_measure();
 
 namespace {
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_minkowski(const MeasureInput& input) {
     const Minkowski found = if_applicable(
         [&] { return measure_minkowski(input.packing(), {.dilations = input.count("dilations")}, input.progress()); });
     MeasureResult result;
@@ -37,7 +37,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure minkowski_measure() {
     return {.name = "minkowski",
             .summary = "volume, surface, mean curvature and Euler characteristic of the spheres as they grow, exact",
-            .run = run,
+            .run = run_minkowski,
             .options = {{"dilations", "", "number of dilations of the Minkowski functionals; 0: 60 for equal spheres, else 20", 0,
                          0, 10000}}};
 }

@@ -9,7 +9,7 @@ Measure neighbour_distances_measure();
 
 namespace {
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_neighbour_distances(const MeasureInput& input) {
     const NeighbourDistances found = if_applicable([&] { return measure_neighbour_distances(input.packing()); });
     MeasureResult result;
     result.add_vector("neighbour_distances/mean", found.mean, "m",
@@ -30,7 +30,7 @@ MeasureResult run(const MeasureInput& input) {
 }  // namespace
 
 Measure neighbour_distances_measure() {
-    return {.name = "neighbour_distances", .summary = "distances to the nearest particles, H(r)", .run = run};
+    return {.name = "neighbour_distances", .summary = "distances to the nearest particles, H(r)", .run = run_neighbour_distances};
 }
 
 }  // namespace coagula::characterize

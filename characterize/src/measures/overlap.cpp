@@ -32,7 +32,7 @@ Eigen::Vector4d overlap_errors(const MeasureInput& input) {
     return {error[0], error[1], error[2], extreme_error(largest_by_block(input.blocks(), largest))};
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_overlap(const MeasureInput& input) {
     const Overlaps overlaps = measure_overlaps(input.packing());
     const Eigen::Vector4d error = overlap_errors(input);
     MeasureResult result;
@@ -50,7 +50,7 @@ MeasureResult run(const MeasureInput& input) {
 }  // namespace
 
 Measure overlap_measure() {
-    return {.name = "overlap", .summary = "overlaps of touching spheres", .run = run};
+    return {.name = "overlap", .summary = "overlaps of touching spheres", .run = run_overlap};
 }
 
 }  // namespace coagula::characterize

@@ -29,7 +29,7 @@ double density_error(const MeasureInput& input) {
     return input.packing().cell.is_periodic() ? 0.0 : block_errors(sum_by_block(input.blocks(), values), density)[0];
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_pair_correlation(const MeasureInput& input) {
     const auto measure = [&] {
         return measure_pair_correlation(input.packing(), {.range = input.has("pair-range") ? input.number("pair-range") : unset,
                                                           .bin_width = input.number("pair-bin")});
@@ -58,7 +58,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure pair_correlation_measure() {
     return {.name = "pair_correlation",
             .summary = "pair correlation function g(r), with the contacts in a bin of their own",
-            .run = run,
+            .run = run_pair_correlation,
             .options = {{"pair-range", "m", "largest distance of g(r); default: half the box, at most 12 mean diameters", {}, 0},
                         {"pair-bin", "1", "width of the bins of g(r) in mean diameters", 0.05, 0.01, 1}}};
 }

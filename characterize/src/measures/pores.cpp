@@ -69,7 +69,7 @@ void add_space(const MeasureInput& input, MeasureResult& result) {
     }
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_pores(const MeasureInput& input) {
     const PoreSizes& pores = known_pores(input);
     const double r0 = input.r0();
     MeasureResult result;
@@ -88,7 +88,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure pores_measure() {
     return {.name = "pores",
             .summary = "exact pore-size curve (distance of void points to the nearest surface) and its moments",
-            .run = run,
+            .run = run_pores,
             .options = {radii_option(), pore_tolerance_option()}};
 }
 

@@ -19,7 +19,7 @@ Eigen::VectorXd per_particle(const Eigen::VectorXd& sums) {
     return rings;
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_rings(const MeasureInput& input) {
     const auto largest = static_cast<int>(input.count("largest-ring"));
     const Rings rings = measure_rings(input.contacts(), largest);
     Eigen::MatrixXd values(rings.per_particle.rows() + 1, rings.per_particle.cols());
@@ -47,7 +47,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure rings_measure() {
     return {.name = "rings",
             .summary = "shortest-path rings of the contact network (Franzblau)",
-            .run = run,
+            .run = run_rings,
             .options = {contact_tolerance_option(), {"largest-ring", "", "largest size of rings that are searched", 8, 3, 12}}};
 }
 

@@ -8,7 +8,7 @@ Measure sampled_check_measure();
 
 namespace {
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_sampled_check(const MeasureInput& input) {
     require(input.has("samples"), "the sampled check needs the number of points, samples");
     input.progress().update("sampling", 0.0);
     const SampledCheck check = compare_with_samples(input.packing(), known_pores(input), input.count("samples"), input.seed());
@@ -29,7 +29,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure sampled_check_measure() {
     return {.name = "sampled_check",
             .summary = "random points against the exact pore-size curve",
-            .run = run,
+            .run = run_sampled_check,
             .options = {radii_option(),
                         pore_tolerance_option(),
                         {"samples", "", "also sample N random points, a check of the exact pore-size curve", {}, 100, 1e10}},

@@ -9,7 +9,7 @@ Measure structure_factor_measure();
 
 namespace {
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_structure_factor(const MeasureInput& input) {
     const StructureFactor found =
         if_applicable([&] { return measure_structure_factor(input.packing(), {.largest = input.number("largest-wave-number")}); });
     MeasureResult result;
@@ -39,7 +39,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure structure_factor_measure() {
     return {.name = "structure_factor",
             .summary = "structure factor S(q), from wave vectors and from g(r), and S(0)",
-            .run = run,
+            .run = run_structure_factor,
             .options = {{"largest-wave-number", "1", "largest q of S(q), times the mean diameter", 25, 1, 100}}};
 }
 

@@ -42,7 +42,7 @@ void add_clusters(const Topology& topology, double largest, double error, Measur
                      "connected cluster of the particle, 1 the largest; 0: no contact");
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_topology(const MeasureInput& input) {
     const Topology topology = measure_topology(input.packing(), input.contacts());
     const Eigen::MatrixXd values = particle_values(topology);
     const Eigen::VectorXd error = errors_of_means(input, values, scalars);
@@ -66,7 +66,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure topology_measure() {
     return {.name = "topology",
             .summary = "spread of the contacts, triangles, loops, clusters, percolation",
-            .run = run,
+            .run = run_topology,
             .options = {contact_tolerance_option()}};
 }
 

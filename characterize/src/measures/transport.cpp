@@ -15,7 +15,7 @@ void add_value(const DirectionalValue& value, const std::string& name, const std
     result.add("transport/" + name + "/grid_error", value.grid_error, "1", "error of the mean by the finite size of the voxels");
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_transport(const MeasureInput& input) {
     const Transport found = if_applicable([&] {
         return measure_transport(
             input.packing(), {.voxels_per_radius = input.number("voxels-per-radius"), .most_voxels = input.number("most-voxels")},
@@ -44,7 +44,7 @@ MeasureResult run(const MeasureInput& input) {
 Measure transport_measure() {
     return {.name = "transport",
             .summary = "formation factor, geodesic tortuosity and permeability of the pores, on a grid of voxels",
-            .run = run,
+            .run = run_transport,
             .options = {{"voxels-per-radius", "1", "voxels of transport per mean radius", 3, 1, 100},
                         {"most-voxels", "1", "transport takes coarser voxels where there would be more than this", 2e6, 1e3, 1e9}},
             .by_default = false};

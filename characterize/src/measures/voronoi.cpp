@@ -77,7 +77,7 @@ void add_free_volumes(const Eigen::VectorXd& volumes, const VoronoiDistribution&
     }
 }
 
-MeasureResult run(const MeasureInput& input) {
+MeasureResult run_voronoi(const MeasureInput& input) {
     const VoronoiCells& cells = input.voronoi_cells();
     const Eigen::VectorXd volumes = certain_volumes(cells);
     require_applicable(volumes.size() >= 2, "fewer than two particles have a certain Voronoi cell");
@@ -104,7 +104,7 @@ MeasureResult run(const MeasureInput& input) {
 }  // namespace
 
 Measure voronoi_measure() {
-    return {.name = "voronoi", .summary = "distribution of the Voronoi (power) cell volumes: width, gamma law", .run = run};
+    return {.name = "voronoi", .summary = "distribution of the Voronoi (power) cell volumes: width, gamma law", .run = run_voronoi};
 }
 
 }  // namespace coagula::characterize

@@ -15,11 +15,11 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr std::uint64_t error_seed = 20122;
+constexpr std::uint64_t seed_of_pores = 20122;
 constexpr std::uint64_t missed_seed = 20123;
 constexpr std::uint64_t place_seed = 20124;
-constexpr Index least_particles_drawn = 1000;  ///< so that what is drawn scatters less than the structures
-constexpr Axis error_axis{0.02, 0.9, 5};       ///< standard deviation over the diameter
+constexpr Index least_particles_of_pores = 1000;  ///< so that what is drawn scatters less than the structures
+constexpr Axis pore_error_axis{0.02, 0.9, 5};     ///< standard deviation over the diameter
 constexpr LinearAxis share_axis{0, 0.1, 5};
 constexpr int radii = 201;
 constexpr double largest_pore = 4;  ///< in particle radii, where a curve ends; it is compared down to 0.01
@@ -66,7 +66,7 @@ void add_false_centres(Packing& packing, Index count, double radius, std::uint64
 }  // namespace
 
 Packing as_imaged(const Packing& packing, const ImageErrors& errors, std::uint64_t draw) {
-    const Eigen::Matrix3Xd found = with_errors(packing.positions, errors.plane, errors.axis, error_seed, draw);
+    const Eigen::Matrix3Xd found = with_errors(packing.positions, errors.plane, errors.axis, seed_of_pores, draw);
     const std::vector<Index> order = random_order(packing.size(), draw);
     const auto missed = static_cast<Index>(std::lround(errors.missed * static_cast<double>(packing.size())));
     const Index seen = packing.size() - missed;
@@ -92,7 +92,7 @@ const PoreCurve& Simulator::imaged_pores(const std::array<double, 4>& errors) {
         pores.probability =
             mean_over_structures("imaged pores", radii, {errors.begin(), errors.end()}, [&](const Packing& structure) {
                 progress_.update("simulating", 0.0, "pores in images");
-                const Index draws = 1 + least_particles_drawn / structure.size();
+                const Index draws = 1 + least_particles_of_pores / structure.size();
                 std::vector<double> mean(radii, 0.0);
                 for (Index draw = 0; draw < draws; ++draw) {
                     const PoreCurve one = measured_pores(as_imaged(structure, image, static_cast<std::uint64_t>(draw)));
@@ -122,8 +122,8 @@ double Simulator::change_in_images(const Settings& settings, double pore_radius,
     }
     double change = 0;
     if (plane > 0 || axis > 0) {
-        change += interpolate_nodes(error_axis, plane, axis, [&](int i, int j) {
-            return changed_by({error_axis.node(i), error_axis.node(j), 0, 0});
+        change += interpolate_nodes(pore_error_axis, plane, axis, [&](int i, int j) {
+            return changed_by({pore_error_axis.node(i), pore_error_axis.node(j), 0, 0});
         });
     }
     const auto at_share = [&](double share, const auto& errors) {

@@ -14,8 +14,8 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr std::uint64_t error_seed = 20120;
-constexpr Index least_particles_drawn = 4000;  ///< so that the errors that are drawn do not count beside those of an image
+constexpr std::uint64_t seed_of_shells = 20120;
+constexpr Index least_particles_of_shells = 4000;  ///< so that the errors that are drawn do not count beside those of an image
 
 /// The shell of a distance over the diameter; -1 beyond them.
 int shell_at(double distance) {
@@ -55,12 +55,12 @@ NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diame
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis) {
     const double diameter = 2 * mean_radius(packing);
     const bool sharp = sigma_plane == 0 && sigma_axis == 0;
-    const Index draws = sharp ? 1 : 1 + least_particles_drawn / packing.size();
+    const Index draws = sharp ? 1 : 1 + least_particles_of_shells / packing.size();
     Packing seen = packing;
     seen.radii.setConstant(diameter / 2);  // the shells are distances of centres, whatever the sizes
     std::vector<double> mean(shell_count, 0);
     for (Index draw = 0; draw < draws; ++draw) {
-        seen.positions = with_errors(packing.positions, sigma_plane, sigma_axis, error_seed, static_cast<std::uint64_t>(draw));
+        seen.positions = with_errors(packing.positions, sigma_plane, sigma_axis, seed_of_shells, static_cast<std::uint64_t>(draw));
         const ContactNetwork pairs = find_contacts(seen, shell_reach - 1);
         for (Index pair = 0; pair < pairs.size(); ++pair) {
             if (const int shell = shell_at(pairs.branch.col(pair).norm() / diameter); shell >= 0) {
@@ -79,7 +79,7 @@ std::vector<double> shells_about_free_places(const Packing& packing) {
     std::vector<double> mean(shell_count, 0);
     int free = 0;
     for (std::uint64_t number = 0; free < places && number < 100 * places; ++number) {
-        const auto u = random_uniform(error_seed, RandomPurpose::diagnosis, 1, number);
+        const auto u = random_uniform(seed_of_shells, RandomPurpose::diagnosis, 1, number);
         const Eigen::Array3d place = box * Eigen::Array3d(u[0], u[1], u[2]);
         std::vector<int> shells;
         bool taken = false;

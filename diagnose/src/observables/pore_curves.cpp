@@ -12,9 +12,9 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr double rarest = 0.01;          ///< probability; below, one largest pore decides
-constexpr double unstated_error = 2e-3;  ///< of a row
-constexpr double scatter_length = 6;     ///< over which curves of one structure stay on one side [particle radii]
+constexpr double rarest = 0.01;                   ///< probability; below, one largest pore decides
+constexpr double unstated_error_of_curve = 2e-3;  ///< of a row
+constexpr double scatter_length = 6;              ///< over which curves of one structure stay on one side [particle radii]
 
 /// The error of a row and the part of it that scatters as a whole.
 struct PoreError {
@@ -35,7 +35,7 @@ PoreError error_of(const Experiment& experiment, double probability, double stat
     if (std::isnan(stated)) {
         common = std::hypot(common, scatter_of_probability(expected, each));
     }
-    return {std::hypot(common, std::isnan(stated) ? unstated_error : stated), common};
+    return {std::hypot(common, std::isnan(stated) ? unstated_error_of_curve : stated), common};
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ namespace {
 constexpr Axis load_axis{0.05, 500, 9};
 constexpr double converged = 1e-4;
 constexpr int most_iterations = 60;
-constexpr int phases = 24;  ///< of a quarter of an oscillation
+constexpr int phases_of_quarter = 24;  ///< of a quarter of an oscillation
 
 /// Elongation of every bond by a unit shear strain (engineering, y-z) with the displacements found for it [m].
 Eigen::VectorXd overlaps_per_strain(const ContactNetwork& bonds, const Eigen::Matrix3Xd& displacement) {
@@ -116,9 +116,9 @@ double Simulator::contact_response(const Settings& settings, double amplitude) {
     }
     // Fundamental of the stress: 4/pi times the integral of G(gamma_0 sin x) sin^2 x over a quarter.
     double sum = 0;
-    for (int k = 0; k < phases; ++k) {
-        const double sine = std::sin(0.5 * std::numbers::pi * (k + 0.5) / phases);
-        sum += 2.0 / phases * sine * sine * contact_secant(settings, amplitude * sine);
+    for (int k = 0; k < phases_of_quarter; ++k) {
+        const double sine = std::sin(0.5 * std::numbers::pi * (k + 0.5) / phases_of_quarter);
+        sum += 2.0 / phases_of_quarter * sine * sine * contact_secant(settings, amplitude * sine);
     }
     return sum;
 }

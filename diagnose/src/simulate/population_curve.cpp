@@ -81,9 +81,9 @@ double level_of(const ArrayXd& places, const ArrayXd& values, const ArrayXd& noi
 }
 
 /// The mean of the structures' curves and how they differ from it.
-class Sample {
+class StructureSample {
 public:
-    Sample(const std::vector<double>& loads, const Eigen::MatrixXcd& structures);
+    StructureSample(const std::vector<double>& loads, const Eigen::MatrixXcd& structures);
     Eigen::MatrixXcd curve_and_errors() const;
 
 private:
@@ -101,7 +101,8 @@ private:
     Eigen::MatrixXd other_loss_;  ///< what each loses otherwise than by that
 };
 
-Sample::Sample(const std::vector<double>& loads, const Eigen::MatrixXcd& structures) : mean_(structures.rowwise().mean()) {
+StructureSample::StructureSample(const std::vector<double>& loads, const Eigen::MatrixXcd& structures)
+    : mean_(structures.rowwise().mean()) {
     const Index nodes = mean_.size();
     const Eigen::Map<const ArrayXd> load(loads.data(), nodes);
     ArrayXd last(nodes);
@@ -124,7 +125,7 @@ Sample::Sample(const std::vector<double>& loads, const Eigen::MatrixXcd& structu
 }
 
 /// Part of the modulus that is lost per logarithm of the load. Its noise goes with what is expected to break, not with what did.
-Smooth Sample::rates() const {
+Smooth StructureSample::rates() const {
     const ArrayXd rates = breaks_ / before_ / widths_;
     ArrayXd expected = breaks_;
     Smooth found;
@@ -136,7 +137,7 @@ Smooth Sample::rates() const {
 }
 
 /// Energy lost over what the broken bonds had stored.
-Smooth Sample::ratios() const {
+Smooth StructureSample::ratios() const {
     const ArrayXd stored = mean_square_ * breaks_;
     const auto breaking = stored > 1e-4;
     const ArrayXd divisor = breaking.select(stored, 1);
@@ -145,7 +146,7 @@ Smooth Sample::ratios() const {
     return smooth(places_, values, noise, level_of(places_, values, noise, ratio_amplitude), ratio_amplitude);
 }
 
-Eigen::VectorXcd Sample::curve(const ArrayXd& rates, const ArrayXd& ratios) const {
+Eigen::VectorXcd StructureSample::curve(const ArrayXd& rates, const ArrayXd& ratios) const {
     Eigen::VectorXcd found(rates.size());
     double left = 1;
     for (Index node = 0; node < rates.size(); ++node) {
@@ -156,7 +157,7 @@ Eigen::VectorXcd Sample::curve(const ArrayXd& rates, const ArrayXd& ratios) cons
     return found;
 }
 
-Eigen::MatrixXcd Sample::curve_and_errors() const {
+Eigen::MatrixXcd StructureSample::curve_and_errors() const {
     constexpr double step = 1e-3;
     const Smooth rate = rates();
     const Smooth ratio = ratios();
@@ -184,7 +185,7 @@ Eigen::MatrixXcd Sample::curve_and_errors() const {
 }  // namespace
 
 Eigen::MatrixXcd population_curve(const std::vector<double>& loads, const Eigen::MatrixXcd& structures) {
-    return structures.cols() < 2 ? structures : Sample(loads, structures).curve_and_errors();
+    return structures.cols() < 2 ? structures : StructureSample(loads, structures).curve_and_errors();
 }
 
 }  // namespace coagula::diagnose

@@ -11,7 +11,7 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr int phases = 96;  ///< of an oscillation; a multiple of 4
+constexpr int phases_of_oscillation = 96;  ///< of an oscillation; a multiple of 4
 
 }  // namespace
 
@@ -40,8 +40,8 @@ std::complex<double> Forward::third_harmonic(const Settings& given, const Observ
     }
     std::complex<double> first = 0;
     std::complex<double> third = 0;
-    for (int k = 0; k < phases; ++k) {
-        const double phase = 2 * std::numbers::pi * (k + 0.5) / phases;
+    for (int k = 0; k < phases_of_oscillation; ++k) {
+        const double phase = 2 * std::numbers::pi * (k + 0.5) / phases_of_oscillation;
         const double stress = std::sin(phase) * simulator_.contact_secant(settings, strain * std::sin(phase)) *
                               storage_while_breaking(settings, observation, bonds, phase);
         first += stress * std::complex<double>(std::sin(phase), std::cos(phase));

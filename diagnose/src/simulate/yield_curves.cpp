@@ -13,7 +13,7 @@ using Eigen::Index;
 namespace {
 
 /// Phases of the first quarter of an oscillation over which its mean is taken.
-constexpr int phases = 4;
+constexpr int strains_of_quarter = 4;
 /// Part of what bonds had carried that is missing while the strain has the sign at which they broke: where it turns, many of their
 /// contacts close again and push (eight structures of 200 particles: waveforms in steps of 1.5 critical strains).
 constexpr double missing = 0.8;
@@ -101,9 +101,9 @@ Eigen::VectorXcd YieldCurves::response(double from, double to) const {
     }
     const Eigen::VectorXcd after = at(to);
     Eigen::VectorXd growing = Eigen::VectorXd::Zero(after.size());
-    for (int k = 0; k < phases; ++k) {
-        const double sine = std::sin((k + 0.5) * std::numbers::pi / (2 * phases));
-        growing += 2 * sine * sine / phases * at(std::max(from, sine * to)).real();
+    for (int k = 0; k < strains_of_quarter; ++k) {
+        const double sine = std::sin((k + 0.5) * std::numbers::pi / (2 * strains_of_quarter));
+        growing += 2 * sine * sine / strains_of_quarter * at(std::max(from, sine * to)).real();
     }
     Eigen::VectorXcd response(after.size());
     response.real() = 0.5 * (before.real() + after.real()) - 0.5 * missing * (before.real() - growing);

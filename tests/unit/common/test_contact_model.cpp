@@ -131,7 +131,7 @@ void expect_refused(const ContactModel& model, const std::string& part) {
 
 TEST(ContactModel, RefusesValuesOutOfRange) {
     EXPECT_NO_THROW(check(full_model()));
-    EXPECT_NO_THROW(check({}));
+    EXPECT_NO_THROW(check(ContactModel{}));
     for (const ContactParameter& parameter : contact_parameters()) {
         ContactModel model = full_model();
         if (std::isfinite(parameter.low)) {

@@ -1,6 +1,7 @@
 // Structures of a recipe, and those that the diagnosis makes again, for tests.
 #pragma once
 
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/characterize/pore_sizes.hpp>
@@ -103,10 +104,6 @@ inline Diagnosis diagnose_by_recipe(const std::vector<Measurement>& tables) {
     DiagnosisOptions options;
     options.bootstrap = 399;
     return diagnose(experiment_of_recipe(tables), recipe().simulator, options);
-}
-
-inline bool in_set(const Diagnosis& found, const std::string& name) {
-    return std::find(found.credible_set.begin(), found.credible_set.end(), name) != found.credible_set.end();
 }
 
 }  // namespace coagula::diagnose

@@ -1,4 +1,5 @@
 // Dashpots and Maxwell elements in the contacts: their law, and sweeps of another structure by the frequency solver.
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 #include "simulate/forward.hpp"
 
@@ -114,10 +115,6 @@ Diagnosis diagnosis_of(const std::vector<Measurement>& tables) {
     DiagnosisOptions options;
     options.bootstrap = 399;
     return diagnose(experiment, simulator(), options);
-}
-
-bool in_set(const Diagnosis& found, const std::string& name) {
-    return std::count(found.credible_set.begin(), found.credible_set.end(), name) > 0;
 }
 
 const Packing& hidden() {

@@ -1,5 +1,6 @@
 // Effects hidden in the instrument, the sample's age, the contacts and the microscope: raw torque and angle, positions and steps of
 // time by formulas and solvers that the diagnosis does not use, for other structures; the diagnosis sees the table only.
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 #include "simulate/forward.hpp"
 
@@ -96,10 +97,6 @@ Diagnosis diagnose_tables(const std::vector<Measurement>& tables, Simulator& str
 
 Diagnosis diagnose_table(const Measurement& table, Simulator& structures = simulator()) {
     return diagnose_tables({table}, structures);
-}
-
-bool in_set(const Diagnosis& found, const std::string& name) {
-    return std::find(found.credible_set.begin(), found.credible_set.end(), name) != found.credible_set.end();
 }
 
 void expect_found(const Diagnosis& found, const std::string& name) {

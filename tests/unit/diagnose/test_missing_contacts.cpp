@@ -1,4 +1,5 @@
 // Contacts that are missing at random: the modulus that is left against effective-medium theory, and series of other structures.
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 #include "simulate/forward.hpp"
 #include "simulate/thinned_contacts.hpp"
@@ -154,10 +155,6 @@ Diagnosis diagnosis_of(const Measurement& table, double stiffness) {
     DiagnosisOptions options;
     options.bootstrap = 399;
     return diagnose(experiment, *known.simulator, options);
-}
-
-bool in_set(const Diagnosis& found, const std::string& name) {
-    return std::count(found.credible_set.begin(), found.credible_set.end(), name) > 0;
 }
 
 TEST(MissingContacts, AreInTheSetOfASeriesOfCoordinations) {

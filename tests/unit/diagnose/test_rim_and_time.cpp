@@ -16,7 +16,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double radius = 20e-3;
 constexpr double gap = 1e-3;
 

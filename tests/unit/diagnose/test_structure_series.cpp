@@ -1,5 +1,6 @@
 // Effects hidden in a structure series: moduli of structures of several coordinations, by the quasi-static solver, for other
 // structures with other seeds than those that the diagnosis knows.
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/diagnose/power.hpp>
@@ -16,11 +17,11 @@ namespace {
 /// The last rows, which are held out, are those of low coordination.
 const std::vector<double> coordinations{5.4, 5.0, 4.7, 4.4, 4.15};
 constexpr std::size_t structures_per_row = 2;
-constexpr double radius = 0.25e-6;
+constexpr double particle_radius = 0.25e-6;
 
 /// The structures that the diagnosis has, some for each row.
-struct Known {
-    Known(const std::string& name, std::vector<Index> sizes) : stored(name) {
+struct KnownSeries {
+    KnownSeries(const std::string& name, std::vector<Index> sizes) : stored(name) {
         std::vector<Packing> packings;
         std::vector<std::string> names;
         for (std::size_t row = 0; row < coordinations.size(); ++row) {
@@ -39,8 +40,8 @@ struct Known {
     std::optional<Simulator> simulator;
 };
 
-Known& known() {
-    static Known made("structure_series", {200});
+KnownSeries& known() {
+    static KnownSeries made("structure_series", {200});
     return made;
 }
 
@@ -85,7 +86,7 @@ Measurement series(const ContactModel& model, double tolerance, std::uint64_t se
     return made;
 }
 
-Diagnosis diagnose_series(const Measurement& table, Known& structures) {
+Diagnosis diagnose_series(const Measurement& table, KnownSeries& structures) {
     Experiment experiment;
     experiment.structure_groups = structures.groups;
     experiment.structure_sizes = structures.particles;
@@ -93,10 +94,6 @@ Diagnosis diagnose_series(const Measurement& table, Known& structures) {
     DiagnosisOptions options;
     options.bootstrap = 399;
     return diagnose(experiment, *structures.simulator, options);
-}
-
-bool in_set(const Diagnosis& found, const std::string& name) {
-    return std::find(found.credible_set.begin(), found.credible_set.end(), name) != found.credible_set.end();
 }
 
 ContactModel springs(double stiffness) {
@@ -109,7 +106,7 @@ TEST(StructureSeries, FindsNothingWhereNothingIsHidden) {
 
 TEST(StructureSeries, FindsTheBendingOfBonds) {
     ContactModel model = springs(40);
-    model.bending_stiffness = model.twisting_stiffness = 0.1 * 20 * radius * radius;
+    model.bending_stiffness = model.twisting_stiffness = 0.1 * 20 * particle_radius * particle_radius;
     const Diagnosis found = diagnose_series(series(model, 0.01, 2), known());
     EXPECT_TRUE(found.detected);
     EXPECT_TRUE(in_set(found, "bond-bending"));
@@ -146,7 +143,7 @@ TEST(StructureSeries, PlanSaysWhichBendingItCouldFind) {
     EXPECT_LT(bending.half.value, 0.3 * bending.range_high);
     const auto found = [&](double strength) {
         ContactModel model = springs(40);
-        model.bending_stiffness = model.twisting_stiffness = strength * 20 * radius * radius;
+        model.bending_stiffness = model.twisting_stiffness = strength * 20 * particle_radius * particle_radius;
         return diagnose_series(series(model, 0.01, 4), known()).detected;
     };
     EXPECT_TRUE(found(bending.range_high));

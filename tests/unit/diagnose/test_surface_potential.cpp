@@ -10,26 +10,26 @@
 namespace coagula::diagnose {
 namespace {
 
-constexpr double radius = 0.15e-6;  // at 15 mV a barrier of 3.4 kT, which is simulated in seconds
+constexpr double coagulated_radius = 0.15e-6;  // at 15 mV a barrier of 3.4 kT, which is simulated in seconds
 constexpr Index particles = 200;
 
 /// Van der Waals attraction of alumina in water and double layers of 10 nm.
 generators::PairPotential potential(double surface_potential) {
-    const generators::PairRadii radii{radius, radius};
+    const generators::PairRadii radii{coagulated_radius, coagulated_radius};
     const generators::DoubleLayer layer{
         .surface_potential = surface_potential, .debye_length = 1e-8, .relative_permittivity = 81, .temperature = 293};
     const double thermal = generators::boltzmann_constant * 293;
     return {{generators::HamakerAttraction(4.76e-20, radii), generators::LinearSuperposition(layer, radii)},
-            {4e5 * thermal / (radius * radius), 0.004 * radius}};
+            {4e5 * thermal / (coagulated_radius * coagulated_radius), 0.004 * coagulated_radius}};
 }
 
 /// Coagulated to a coordination of 4.6, from random positions.
 Packing coagulate(Index count, std::uint64_t seed, double surface_potential, double deviation) {
     const generators::SizeDistribution sizes{
-        .kind = generators::SizeKind::lognormal, .mean_radius = radius, .relative_deviation = deviation};
+        .kind = generators::SizeKind::lognormal, .mean_radius = coagulated_radius, .relative_deviation = deviation};
     const Packing start = generators::place_suspension(
         {.volume_fraction = 0.4,
-         .radii = deviation > 0 ? generators::draw_radii(sizes, count, seed) : Eigen::VectorXd::Constant(count, radius),
+         .radii = deviation > 0 ? generators::draw_radii(sizes, count, seed) : Eigen::VectorXd::Constant(count, coagulated_radius),
          .seed = seed});
     generators::BrownianOptions options;
     options.stop_coordination = 4.6;
@@ -61,7 +61,7 @@ Simulator& recipe_without_barrier() {
 
 Experiment experiment_with(const std::vector<Measurement>& tables) {
     Experiment experiment = experiment_of_recipe(tables);
-    experiment.sample.particle_radius = radius;
+    experiment.sample.particle_radius = coagulated_radius;
     experiment.recipe = {.generator = "brownian", .particles = particles, .surface_potential = 0, .seeds = {1, 2}};
     experiment.structure_sizes = {particles, particles};
     return experiment;
@@ -75,7 +75,8 @@ Settings at(double surface_potential) {
 
 TEST(SurfacePotential, ABarrierMakesStructuresMoreHeterogeneous) {
     const auto heterogeneity = [](double millivolt) {
-        return characterize::fit_degree_of_heterogeneity(characterize::measure_pores(coagulated(400, 5, 1e-3 * millivolt)), radius)
+        return characterize::fit_degree_of_heterogeneity(characterize::measure_pores(coagulated(400, 5, 1e-3 * millivolt)),
+                                                         coagulated_radius)
             .a;
     };
     EXPECT_GT(heterogeneity(15), heterogeneity(0) + 0.03);
@@ -83,12 +84,13 @@ TEST(SurfacePotential, ABarrierMakesStructuresMoreHeterogeneous) {
 
 TEST(SurfacePotential, PoresFollowThePotential) {
     Simulator& recipe = recipe_without_barrier();
-    const double none = recipe.exclusion_probability(Settings{}, radius);
-    const double high = recipe.exclusion_probability(at(0.015), radius);
-    EXPECT_NEAR(high, recipe.remade({.surface_potential = 0.015}).exclusion_probability(Settings{}, radius), 1e-12);
+    const double none = recipe.exclusion_probability(Settings{}, coagulated_radius);
+    const double high = recipe.exclusion_probability(at(0.015), coagulated_radius);
+    EXPECT_NEAR(high, recipe.remade({.surface_potential = 0.015}).exclusion_probability(Settings{}, coagulated_radius), 1e-12);
     EXPECT_GT(high, none + scatter_of_probability(none, 2 * particles));
     // Without a barrier there is nothing to feel.
-    EXPECT_EQ(recipe.exclusion_probability(at(0.001), radius), recipe.exclusion_probability(at(0.008), radius));
+    EXPECT_EQ(recipe.exclusion_probability(at(0.001), coagulated_radius),
+              recipe.exclusion_probability(at(0.008), coagulated_radius));
 }
 
 TEST(SurfacePotential, AppliesWhereStructuresCoagulate) {

@@ -1,4 +1,5 @@
 // Bonds that shear breaks and rest re-forms: the kinetic law, the history of the strain, and bonds that are drawn one by one.
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 #include "simulate/forward.hpp"
 
@@ -166,10 +167,6 @@ std::vector<Measurement> rest_and_repeat(double error, std::uint64_t seed) {
         }
     }
     return runs;
-}
-
-bool in_set(const Diagnosis& found, const std::string& name) {
-    return std::count(found.credible_set.begin(), found.credible_set.end(), name) > 0;
 }
 
 TEST(Thixotropy, IsNamedWhereItComesBackAtRest) {

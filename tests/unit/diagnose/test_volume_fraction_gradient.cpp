@@ -1,5 +1,6 @@
 // A sample that has settled between the plates: layers in series against sums over many of them, and gap series whose layers are
 // other structures, sheared by another solver.
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 #include "simulate/forward.hpp"
 #include "simulate/volume_fraction_gradient.hpp"
@@ -19,14 +20,14 @@ namespace {
 constexpr double coordination = 4.8;
 
 /// Structures of two volume fractions, four of each.
-struct Known {
+struct KnownFractions {
     std::vector<Packing> packings;
     std::vector<std::string> names;
     std::vector<double> fractions;
     StoredSimulations stored{"two_volume_fractions"};
     std::optional<Simulator> simulator;
 
-    Known() {
+    KnownFractions() {
         for (std::uint64_t k = 0; k < 8; ++k) {
             packings.push_back(structure(300, k % 4 + 1, coordination, k < 4 ? 0.35 : 0.45));
             names.push_back(std::to_string(k));
@@ -36,8 +37,8 @@ struct Known {
     }
 };
 
-Known& known() {
-    static Known made;
+KnownFractions& known_fractions() {
+    static KnownFractions made;
     return made;
 }
 
@@ -148,14 +149,14 @@ Experiment gap_series(double difference, const std::vector<double>& gaps, double
     made.sample.volume_fraction = 0.4;
     made.sample.particle_radius = 0.25e-6;
     made.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = nominal_gap};
-    made.structure_volume_fractions = known().fractions;
+    made.structure_volume_fractions = known_fractions().fractions;
     made.measurements = {table};
     return made;
 }
 
 std::vector<double> predicted(const Experiment& experiment, const Model& model) {
     const auto rows = observations_of(experiment);
-    const Eigen::VectorXd values = Forward(experiment, rows, *known().simulator).predict(model);
+    const Eigen::VectorXd values = Forward(experiment, rows, *known_fractions().simulator).predict(model);
     return {values.begin(), values.end()};
 }
 
@@ -206,11 +207,7 @@ TEST(VolumeFractionGradient, NeedsAGapAndStructuresOfTwoVolumeFractions) {
 Diagnosis diagnosis_of(double difference, const std::vector<double>& gaps, double error, std::uint64_t seed) {
     DiagnosisOptions options;
     options.bootstrap = 399;
-    return diagnose(gap_series(difference, gaps, error, seed), *known().simulator, options);
-}
-
-bool in_set(const Diagnosis& found, const std::string& name) {
-    return std::find(found.credible_set.begin(), found.credible_set.end(), name) != found.credible_set.end();
+    return diagnose(gap_series(difference, gaps, error, seed), *known_fractions().simulator, options);
 }
 
 std::vector<double> widening() {
@@ -288,11 +285,11 @@ TEST(Sedimentation, EndsAsTheGradientThatItLeadsTo) {
 TEST(Sedimentation, IsNamedWhereTheWiderGapFallsMore) {
     DiagnosisOptions options;
     options.bootstrap = 199;
-    const Diagnosis found = diagnose(settling_samples(0.03, 4), *known().simulator, options);
+    const Diagnosis found = diagnose(settling_samples(0.03, 4), *known_fractions().simulator, options);
     ASSERT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::named);
     EXPECT_EQ(found.credible_set, std::vector<std::string>{"sedimentation"});
-    EXPECT_FALSE(diagnose(settling_samples(0, 4), *known().simulator, options).detected);
+    EXPECT_FALSE(diagnose(settling_samples(0, 4), *known_fractions().simulator, options).detected);
 }
 
 }  // namespace

@@ -29,12 +29,12 @@ ContactModel stiff_joints() {
 
 /// Residual of K x = b with the tangent of the network as it is now.
 double error_of(const UpdatedFactor& factor, const ShearedNetwork& network, const Trial& trial, const Motion& load) {
-    return (ContactStiffness(network, trial) * factor.solve(load) - load).norm() / load.norm();
+    return (StiffnessOfContacts(network, trial) * factor.solve(load) - load).norm() / load.norm();
 }
 
 /// A load that no rigid translation sees.
 Motion some_load(const ShearedNetwork& network, const Trial& trial) {
-    return ContactStiffness(network, trial) * Motion::LinSpaced(6 * network.particles(), -1, 2).array().sin().matrix();
+    return StiffnessOfContacts(network, trial) * Motion::LinSpaced(6 * network.particles(), -1, 2).array().sin().matrix();
 }
 
 TEST(UpdatedFactor, FollowsBrokenBonds) {

@@ -8,9 +8,9 @@
 
 namespace coagula::mechanics {
 
-class ContactStiffness {
+class StiffnessOfContacts {
 public:
-    ContactStiffness(const ShearedNetwork& network, const Trial& trial);
+    StiffnessOfContacts(const ShearedNetwork& network, const Trial& trial);
 
     /// Minus the change of all forces and moments by a small motion.
     Motion operator*(const Motion& motion) const;

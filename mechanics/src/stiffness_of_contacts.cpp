@@ -1,4 +1,4 @@
-#include "contact_stiffness.hpp"
+#include "stiffness_of_contacts.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -32,7 +32,7 @@ Slope without_negative_directions(const Slope& matrix) {
 
 }  // namespace
 
-ContactStiffness::ContactStiffness(const ShearedNetwork& network, const Trial& trial) : particles_(network.particles()) {
+StiffnessOfContacts::StiffnessOfContacts(const ShearedNetwork& network, const Trial& trial) : particles_(network.particles()) {
     const auto slopes = network.linearise(trial);
     const auto& contacts = network.contacts();
     for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -51,7 +51,7 @@ ContactStiffness::ContactStiffness(const ShearedNetwork& network, const Trial& t
     groups_ = group_by_particle(pairs);
 }
 
-Motion ContactStiffness::operator*(const Motion& motion) const {
+Motion StiffnessOfContacts::operator*(const Motion& motion) const {
     return gather([&](const Link& link) -> Wrench {
         Wrench relative;
         relative << motion.segment<3>(6 * link.second) - motion.segment<3>(6 * link.first), motion.segment<3>(6 * link.first + 3),
@@ -60,12 +60,12 @@ Motion ContactStiffness::operator*(const Motion& motion) const {
     });
 }
 
-Motion ContactStiffness::strain_load() const {
+Motion StiffnessOfContacts::strain_load() const {
     return gather([](const Link& link) -> Wrench { return -link.slope.leftCols<3>() * link.strain_rate; });
 }
 
 template <class Change>
-Motion ContactStiffness::gather(const Change& change_of) const {
+Motion StiffnessOfContacts::gather(const Change& change_of) const {
     std::vector<Wrench> change(links_.size());
     const auto count = static_cast<Index>(links_.size());
 #pragma omp parallel for schedule(static)
@@ -94,18 +94,18 @@ Motion ContactStiffness::gather(const Change& change_of) const {
     return sum;
 }
 
-Slope ContactStiffness::part_of(const Link& link, Convex convex) {
+Slope StiffnessOfContacts::part_of(const Link& link, Convex convex) {
     const Slope part = 0.5 * (link.slope + link.slope.transpose());
     return link.bonded && convex != Convex::all ? part : without_negative_directions(part);
 }
 
-void ContactStiffness::for_each_part(Convex convex, const std::function<void(Index, const Slope&)>& visit) const {
+void StiffnessOfContacts::for_each_part(Convex convex, const std::function<void(Index, const Slope&)>& visit) const {
     for (const Link& link : links_) {
         visit(link.contact, part_of(link, convex));
     }
 }
 
-BlockMatrix ContactStiffness::symmetric_part(Convex convex) const {
+BlockMatrix StiffnessOfContacts::symmetric_part(Convex convex) const {
     static const Ends first = first_end();
     static const Ends second = second_end();
     std::vector<Slope> parts(links_.size());
