@@ -20,7 +20,8 @@ from pathlib import Path
 
 STRANGE = ["0", "-1", "5e-324", "-5e-324", "1e-300", "1e150", "-1e150", "1e300", "1.8e308", "nan", "inf"]
 STRANGE_COUNTS = ["0", "-1", "9223372036854775807", "-9223372036854775808", "1e300", "nan"]
-PATIENCE = 5  # seconds until Ctrl-C, and then until the call counts as hanging
+PATIENCE = 2  # seconds until Ctrl-C
+HANGING = 5  # seconds after that
 USUAL_PATIENCE = 120  # of a call as it is meant, on a busy machine
 MEMORY = 4 << 30
 
@@ -139,9 +140,9 @@ class Sweep:
         """Exit code, output and complaint; the code is None for a call that does not stop."""
         process = subprocess.Popen([self.program, *words, "--json", "--threads", "1"], cwd=self.folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=limit_memory)
-        for number in (signal.SIGINT, signal.SIGKILL):
+        for number, seconds in ((signal.SIGINT, patience), (signal.SIGKILL, HANGING)):
             try:
-                output, complaint = process.communicate(timeout=patience)
+                output, complaint = process.communicate(timeout=seconds)
                 return process.returncode, output, complaint
             except subprocess.TimeoutExpired:
                 process.send_signal(number)
