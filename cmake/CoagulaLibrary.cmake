@@ -23,8 +23,9 @@ function(coagula_warnings target)
   endif()
 endfunction()
 
-# coagula_unity(<target>): with COAGULA_UNITY its sources are compiled in batches. Names in their unnamed namespaces must then differ; sources
-# with the same names by design say SKIP_UNITY_BUILD_INCLUSION.
+# coagula_unity(<target>): with COAGULA_UNITY its sources are compiled in batches. Names in their unnamed namespaces must then differ from
+# each other and from names outside, which they would hide in the whole batch. Sources with the same names by design say
+# SKIP_UNITY_BUILD_INCLUSION.
 function(coagula_unity target)
   if(COAGULA_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)

@@ -20,7 +20,7 @@ const Packing& known() {
     return made;
 }
 
-Simulator& simulator() {
+Simulator& known_simulator() {
     static StoredSimulations stored("one_structure");
     static Simulator made({known()}, {"one"}, stored.results());
     return made;
@@ -85,7 +85,7 @@ double found_share(const PowerOptions& options, double springpot_over_spring, do
     for (int set = 1; set <= data_sets; ++set) {
         diagnosis.seed = static_cast<std::uint64_t>(set);
         const Experiment experiment = measured(truth, options.noise, diagnosis.seed);
-        found += diagnose(experiment, simulator(), diagnosis).p_value <= options.diagnosis.level ? 1 : 0;
+        found += diagnose(experiment, known_simulator(), diagnosis).p_value <= options.diagnosis.level ? 1 : 0;
     }
     return static_cast<double>(found) / data_sets;
 }
@@ -93,7 +93,7 @@ double found_share(const PowerOptions& options, double springpot_over_spring, do
 TEST(Power, AgreesWithDiagnosesOfDataMadeInAnotherWay) {
     PowerOptions options = options_for("contact-loss");
     options.noise.stated_phase = 0.02;  // with less, losses at the lower end of the prior are found more often than not
-    const Power power = find_power(planned(), simulator(), options);
+    const Power power = find_power(planned(), known_simulator(), options);
     ASSERT_EQ(power.causes.size(), 1U);
     const CausePower& loss = power.causes.front();
     EXPECT_EQ(loss.parameter, "springpot_over_spring");
@@ -114,7 +114,7 @@ TEST(Power, AgreesWithDiagnosesOfDataMadeInAnotherWay) {
 
 TEST(Power, SaysWhenNothingCanBeFound) {
     // One structure and a free stiffness: what scales all moduli alike leaves no trace.
-    const Power power = find_power(planned(), simulator(), options_for("bond-bending"));
+    const Power power = find_power(planned(), known_simulator(), options_for("bond-bending"));
     ASSERT_EQ(power.causes.size(), 1U);
     const CausePower& bending = power.causes.front();
     EXPECT_TRUE(std::isnan(bending.half.value));
@@ -129,9 +129,9 @@ TEST(Power, FindsWeakerCausesWithLessNoise) {
     experiment.instrument.geometry = Geometry::plate_plate;
     experiment.instrument.plate_radius = 0.0125;
     experiment.instrument.gap = 1e-3;
-    const double noisy = find_power(experiment, simulator(), options).causes.front().half.value;
+    const double noisy = find_power(experiment, known_simulator(), options).causes.front().half.value;
     options.noise.stated_relative = 0.015;
-    const double clean = find_power(experiment, simulator(), options).causes.front().half.value;
+    const double clean = find_power(experiment, known_simulator(), options).causes.front().half.value;
     EXPECT_NEAR(noisy / clean, 2, 0.4);  // the size of a linear effect that is found goes with the noise
 }
 
@@ -157,8 +157,8 @@ TEST(Power, OfWaveforms) {
     options.noise.stated_relative = 0.1;
     options.noise.stated_phase = 0.1;
     options.data_sets = 100;
-    const Power moduli = find_power(planned_sweep(false), simulator(), options);
-    const Power both = find_power(planned_sweep(true), simulator(), options);
+    const Power moduli = find_power(planned_sweep(false), known_simulator(), options);
+    const Power both = find_power(planned_sweep(true), known_simulator(), options);
     EXPECT_EQ(moduli.moduli, 20U);
     EXPECT_EQ(moduli.third_harmonics, 0U);
     EXPECT_EQ(both.moduli, 20U);
@@ -172,7 +172,7 @@ TEST(Power, NamingRunsAddUp) {
     PowerOptions options = options_for("ageing");
     options.data_sets = 40;
     options.diagnoses = 3;
-    const NamingRuns naming = find_power(planned(), simulator(), options).causes.front().naming;
+    const NamingRuns naming = find_power(planned(), known_simulator(), options).causes.front().naming;
     EXPECT_EQ(naming.runs, 3);
     EXPECT_EQ(naming.named + naming.tied + naming.misnamed + naming.none + naming.missed, 3);
     EXPECT_GE(naming.named + naming.tied, 2);
@@ -180,12 +180,12 @@ TEST(Power, NamingRunsAddUp) {
 
 TEST(Power, RefusesWhatPlansNothing) {
     Experiment experiment = planned();
-    EXPECT_THROW(find_power(experiment, simulator(), options_for("magic")), InputError);
+    EXPECT_THROW(find_power(experiment, known_simulator(), options_for("magic")), InputError);
     experiment.measurements[0].kind = MeasurementKind::coordinates;
-    EXPECT_THROW(find_power(experiment, simulator(), options_for("ageing")), InputError);
+    EXPECT_THROW(find_power(experiment, known_simulator(), options_for("ageing")), InputError);
     experiment = planned_sweep(true);
     experiment.measurements.erase(experiment.measurements.begin());  // third harmonics alone
-    EXPECT_THROW(find_power(experiment, simulator(), options_for("contact-nonlinearity")), InputError);
+    EXPECT_THROW(find_power(experiment, known_simulator(), options_for("contact-nonlinearity")), InputError);
 }
 
 TEST(Share, HasTheIntervalOfWilson) {
