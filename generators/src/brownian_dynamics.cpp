@@ -209,6 +209,10 @@ private:
     void resume() {
         if (control_.resume == nullptr) {
             observe();
+            const double coordination = sampler_.series().coordination.back();
+            require(!(coordination >= options_.stop_coordination),
+                    "the start has " + to_text(coordination) + " contacts per particle, but the stop coordination is " +
+                        to_text(options_.stop_coordination) + ": it must be higher than that of the start");
             return;
         }
         require(system_.steps() <= last_step_,

@@ -20,15 +20,15 @@ if "OMP_WAIT_POLICY" not in _os.environ:
     _os.environ.setdefault("GOMP_SPINCOUNT", "3000")
 
 from ._coagula import Bonds, InputError, Packing
-from ._calls import (calibrate, characterize, diagnose, find_contacts, fit_degree_of_heterogeneity, fit_power_law,
-                     generate_brownian, generate_vem, shear)
+from ._calls import (calibrate, characterize, compare_heterogeneity, diagnose, find_contacts, fit_degree_of_heterogeneity,
+                     fit_power_law, generate_brownian, generate_vem, shear)
 from ._files import ExistingFileError, MissingFileError, Structure, parse_quantity, read, write
 from ._results import Result
 from ._version import version as __version__
 
 __all__ = ["Bonds", "ExistingFileError", "InputError", "MissingFileError", "Packing", "Result", "Structure", "calibrate",
-           "characterize", "diagnose", "find_contacts", "fit_degree_of_heterogeneity", "fit_power_law", "generate_brownian",
-           "generate_vem", "parse_quantity", "read", "shear", "write"]
+           "characterize", "compare_heterogeneity", "diagnose", "find_contacts", "fit_degree_of_heterogeneity", "fit_power_law",
+           "generate_brownian", "generate_vem", "parse_quantity", "read", "shear", "write"]
 
 InputError.__doc__ = "Input that cannot be used, in one sentence: the object, the value and the rule."
 for _public in (Bonds, InputError, Packing, Result, Structure, MissingFileError, ExistingFileError):

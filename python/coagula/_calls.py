@@ -70,6 +70,19 @@ def characterize(packing, *, progress=None, threads=None, **options):
     return from_stage(stage, "Characterization")
 
 
+@documented("compare_heterogeneity", returns="Result", first=[
+    ("first", "Packing | Generated | Structure", REQUIRED, "A structure."),
+    ("second", "Packing | Generated | Structure", REQUIRED, "The other one."),
+    ("names", "Sequence[str]", ("first", "second"), "What the answer calls them.")])
+def compare_heterogeneity(first, second, names=("first", "second"), *, progress=None, threads=None, **options):
+    """Returns what `coagula characterize --compare` prints: .more_heterogeneous, .agreement, .verdict, .measures.pore_sizes ..."""
+    if isinstance(names, str) or len(names) != 2:
+        raise _coagula.InputError("names must be two texts, one for each structure")
+    found = _coagula.compare_heterogeneity(words("compare_heterogeneity", options, threads), [str(name) for name in names],
+                                           [packing_of(first), packing_of(second)], progress)
+    return from_json(json.loads(found), "Comparison")
+
+
 @contextlib.contextmanager
 def _model_file(model):
     """A contact model as the file that the program reads; parameters may be given as a dictionary."""

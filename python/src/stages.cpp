@@ -13,6 +13,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 
@@ -36,11 +37,20 @@ Verb in_memory(Verb verb, const std::set<std::string>& without) {
     return verb;
 }
 
+/// What `characterize --compare` does; nothing else goes with it.
+Verb comparison() {
+    Verb verb = in_memory(tools::characterize_verb(), {"compare", "only", "position-noise", "noise-replicas", "samples"});
+    verb.summary = "which of two structures is more heterogeneous, by three measures";
+    verb.notes.clear();
+    return verb;
+}
+
 const std::map<std::string, Verb>& verbs() {
     static const std::map<std::string, Verb> all = {
         {"generate_vem", in_memory(tools::generate_vem_verb(), {})},
         {"generate_brownian", in_memory(tools::generate_brownian_verb(), {"start", "potential-curve", "picture"})},
-        {"characterize", in_memory(tools::characterize_verb(), {})},
+        {"characterize", in_memory(tools::characterize_verb(), {"compare"})},
+        {"compare_heterogeneity", comparison()},
         {"shear", in_memory(tools::shear_verb(), {})},
         {"calibrate", in_memory(tools::calibrate_verb(), {})},
         {"fit_power_law", in_memory(tools::fit_power_law_verb(), {"a", "modulus", "standard-error", "modulus-unit"})},
@@ -140,6 +150,15 @@ std::shared_ptr<Stage> characterize(const Words& words, const std::string& call,
                           [&](const Progress& told) { return tools::characterize_packing(arguments, *packing, told); });
     stage->provenance = provenance(arguments, call, packing.get(), clock);
     return stage;
+}
+
+std::string compare_heterogeneity(const Words& words, const std::array<std::string, 2>& names,
+                                  const std::array<std::shared_ptr<Packing>, 2>& packings, const py::object& progress) {
+    const Arguments arguments = arguments_of("compare_heterogeneity", words);
+    const std::array<Packing, 2> values = {*packings[0], *packings[1]};
+    return run(progress, threads_of(arguments),
+               [&](const Progress& told) { return tools::compare_packings(arguments, names, values, told); })
+        .dump();
 }
 
 std::shared_ptr<Stage> shear(const Words& words, const std::string& call, const std::shared_ptr<Packing>& packing,
@@ -273,6 +292,7 @@ void define_stages(py::module_& module) {
     module.def("generate_vem", &generate_vem, "words"_a, "call"_a, "radii"_a, "progress"_a);
     module.def("generate_brownian", &generate_brownian, "words"_a, "call"_a, "radii"_a, "start"_a, "progress"_a);
     module.def("characterize", &characterize, "words"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("compare_heterogeneity", &compare_heterogeneity, "words"_a, "names"_a, "packings"_a, "progress"_a);
     module.def("shear", &shear, "words"_a, "call"_a, "packing"_a, "progress"_a);
     module.def("calibrate", &calibrate, "words"_a, "names"_a, "packings"_a, "progress"_a);
     module.def("fit_power_law", &fit_power_law, "words"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a);

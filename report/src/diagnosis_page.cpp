@@ -153,7 +153,9 @@ std::string causes(const Diagnosis& found) {
         "Probability of each cause, given the data, over its physical range. " +
         (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
         " The test of the base model, applied to the best cause, gives p = " + print_number(found.extended_p_value) + "." +
-        (found.remainder.detected ? " Something is left over: " + escaped(found.remainder.where) + "." : std::string{}) +
+        (found.remainder.detected ? (found.remainder.most ? " Most of it is left over: " : " Something is left over: ") +
+                                        escaped(found.remainder.where) + "."
+                                  : std::string{}) +
         (found.level_alone ? " A departure of the level alone says as much: what is taken for known of structure, particles or "
                              "instrument may be wrong as well."
                            : std::string{}));

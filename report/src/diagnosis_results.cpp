@@ -158,7 +158,8 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
         json["level_alone"] = diagnosis.level_alone;
         json["remainder"] = {{"detected", diagnosis.remainder.detected},
                              {"p_value", diagnosis.remainder.p_value},
-                             {"where", diagnosis.remainder.where}};
+                             {"where", diagnosis.remainder.where},
+                             {"most", diagnosis.remainder.most}};
         json["gain"] = {{"held_out", gain.held_out},
                         {"chosen", gain.chosen},
                         {"rmse_base", number(gain.rmse_base)},

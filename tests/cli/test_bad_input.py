@@ -128,6 +128,7 @@ class Coordinates(ProgramTest):
         self.refuse(GOOD_CSV, "--box", options=["--radius", "0.5um", "--box", "8K", "-o", "out.h5"])
         self.refuse(GOOD_CSV, "--box", options=["--radius", "0.5um", "--box", "8um,8um", "-o", "out.h5"])
         self.refuse(GOOD_CSV, "--length-unit", options=[*IMPORT, "--length-unit", "2V"])
+        self.refuse(GOOD_CSV, ["--length-unit", "the edge of one"], options=[*IMPORT, "--length-unit", "px"])
 
     def test_columns_without_unit(self):
         self.refuse(GOOD_CSV.replace(" [um]", ""), "length-unit")

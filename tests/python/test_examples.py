@@ -173,6 +173,17 @@ class OtherMethods(ModuleTest):
         fit = coagula.fit_degree_of_heterogeneity(measured.pore_curve.radius, measured.pore_curve.exclusion_probability, "0.25um")
         self.assertAlmostEqual(fit.a, measured.doh.a, delta=1e-9)
 
+    def test_comparison(self):
+        for name, seed in (("one.h5", 1), ("other.h5", 2)):
+            coagula.write(name, self.made(seed=seed))
+        one, other = coagula.read("one.h5"), coagula.read("other.h5")
+        printed = self.program("characterize", "one.h5", "other.h5", "--compare", "--seed", "3")
+        found = coagula.compare_heterogeneity(one, other, names=("one.h5", "other.h5"), seed=3)
+        self.assert_same(printed, found)
+        self.assertIn(found.agreement, ("all", "some", "none", "disagree"))
+        with self.assertRaisesRegex(coagula.InputError, "names must be two texts"):
+            coagula.compare_heterogeneity(one, other, names=("one.h5",))
+
     def test_each_measure_alone(self):
         made = self.made()
         for measure in ("coordination", "overlap", "doh"):

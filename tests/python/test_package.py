@@ -50,7 +50,7 @@ class Stubs(ModuleTest):
                                (coagula.characterize, "characterize"), (coagula.shear, "shear")):
             text = self.run_program(*verb.split(), "--help").stdout
             names = {name.replace("-", "_") for name in re.findall(r"^ +(?:-\w, )?--([\w-]+)", text, re.MULTILINE)}
-            elsewhere = {"json", "quiet", "help", "output", "force", "potential_curve", "picture"}
+            elsewhere = {"json", "quiet", "help", "output", "force", "potential_curve", "picture", "compare"}
             self.assertEqual(names - elsewhere - set(inspect.signature(function).parameters), set())
 
     @unittest.skipUnless(shutil.which("mypy", path="/usr/bin"), "mypy is not installed")

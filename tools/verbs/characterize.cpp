@@ -90,18 +90,22 @@ void check_comparison(const Arguments& arguments) {
     }
 }
 
-/// Two structures side by side; nothing is written into their files.
-void compare(const Arguments& arguments) {
-    const Stopwatch clock;
-    check_comparison(arguments);
-    const Progress progress = make_progress(arguments.flag("quiet"));
-    const std::array<std::string, 2> files = {arguments.inputs()[0], arguments.inputs()[1]};
-    const std::array<Packing, 2> packings = {io::read_structure(files[0]).packing, io::read_structure(files[1]).packing};
+characterize::HeterogeneityComparison compare(const Arguments& arguments, const std::array<std::string, 2>& names,
+                                              const std::array<Packing, 2>& packings, const Progress& progress) {
     const auto input = [&](const Packing& packing) {
         return characterize::MeasureInput(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
                                           progress);
     };
-    const auto comparison = characterize::compare_heterogeneity(input(packings[0]), input(packings[1]), files);
+    return characterize::compare_heterogeneity(input(packings[0]), input(packings[1]), names);
+}
+
+/// Two structures side by side; nothing is written into their files.
+void run_comparison(const Arguments& arguments) {
+    const Stopwatch clock;
+    check_comparison(arguments);
+    const std::array<std::string, 2> files = {arguments.inputs()[0], arguments.inputs()[1]};
+    const std::array<Packing, 2> packings = {io::read_structure(files[0]).packing, io::read_structure(files[1]).packing};
+    const auto comparison = compare(arguments, files, packings, make_progress(arguments.flag("quiet")));
     Json json = to_json(comparison, files);
     json["seconds"] = clock.seconds();
     report(arguments, json, table_of(comparison, files));
@@ -109,7 +113,7 @@ void compare(const Arguments& arguments) {
 
 void run(const Arguments& arguments) {
     if (arguments.flag("compare")) {
-        compare(arguments);
+        run_comparison(arguments);
         return;
     }
     const Stopwatch clock;
@@ -183,6 +187,11 @@ Findings characterize_packing(const Arguments& arguments, const Packing& packing
             .results = std::move(found.datasets),
             .fields = std::move(found.fields),
             .table = std::move(found.lines)};
+}
+
+Json compare_packings(const Arguments& arguments, const std::array<std::string, 2>& names, const std::array<Packing, 2>& packings,
+                      const Progress& progress) {
+    return to_json(compare(arguments, names, packings, progress), names);
 }
 
 Verb characterize_verb() {

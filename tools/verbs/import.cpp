@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 namespace coagula::tools {
 
@@ -38,8 +39,14 @@ io::TextFormat chosen_format(const Arguments& arguments) {
 
 /// "U" for all lengths, "UX,UY,UZ" for the axes, "UX,UY,UZ,UR" with that of the radius, each with its unit.
 void parse_length_units(const std::string& text, io::ImportOptions& options) {
+    const std::set<std::string> of_images = {"px", "pixel", "pixels", "vx", "voxel", "voxels"};
     std::vector<double> units;
     for (const std::string& part : split(text)) {
+        if (of_images.contains(part)) {
+            throw InputError("a length in " + part +
+                             " has no size of its own: give the edge of one, such as 0.1um, or those of the axes, "
+                             "such as 0.1um,0.1um,0.3um");
+        }
         units.push_back(parse_quantity(part, "m", physical::length));
     }
     if (units.size() == 1) {

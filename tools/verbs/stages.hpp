@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,10 @@ Generated generate_brownian(const Arguments& arguments, const std::optional<Pack
                             const Progress& progress);
 
 Findings characterize_packing(const Arguments& arguments, const Packing& packing, const Progress& progress);
+
+/// The object that `coagula characterize --compare` prints, without its time.
+Json compare_packings(const Arguments& arguments, const std::array<std::string, 2>& names, const std::array<Packing, 2>& packings,
+                      const Progress& progress);
 
 /// Response of the network that is bonded as the options say, and that network.
 struct Sheared {

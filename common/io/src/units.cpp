@@ -25,6 +25,8 @@ struct UnitSystem {
         if (!system) {
             throw std::runtime_error("the units database of UDUNITS-2 cannot be read (Debian package libudunits2-data)");
         }
+        const Unit degree(ut_get_unit_by_name(system.get(), "degree"), ut_free);
+        ut_map_name_to_unit("deg", UT_ASCII, degree.get());  // as rheologists write a cone angle
     }
     std::unique_ptr<ut_system, decltype(&ut_free_system)> system;
     std::mutex mutex;

@@ -148,15 +148,32 @@ std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
     return set;
 }
 
+/// Whether the best cause with a smooth departure on top leaves more than half of what the base model leaves.
+bool leaves_most(const Comparison& comparison, const Inference& inference) {
+    const ErrorModel& errors = inference.errors();
+    const auto misfit = [&](const Fit& fit, const SmoothRemainder* on_top) {
+        Prediction prediction = inference.forward().prediction(fit.model);
+        if (on_top != nullptr) {
+            prediction.values += on_top->departure;
+        }
+        const Eigen::VectorXd left = errors.residual(prediction);
+        return left.squaredNorm() - static_cast<double>(left.size());
+    };
+    const Compared& winner = comparison.all[comparison.winner];
+    const double left = winner.remainder ? misfit(winner.remainder->fit, &*winner.remainder) : misfit(winner.fit, nullptr);
+    const double chance = 3 * std::sqrt(2 * static_cast<double>(errors.data().values.size()));
+    return left > 0.5 * misfit(comparison.all.front().fit, nullptr) + chance;
+}
+
 /// Weight of "none of the catalogue": a smooth departure from the base model. A departure of the level alone has many causes, in
 /// the structure and in what is taken for known, and a value at the end of its range belongs to a cause that the catalogue does not
-/// have: there it counts as much as the best cause.
-double log_weight_of_none(const Comparison& comparison, const Priors& priors, bool level_alone) {
+/// have, as does most of the misfit where it is left: there it counts as much as the best cause.
+double log_weight_of_none(const Comparison& comparison, const Priors& priors, bool level_alone, bool leaves_most) {
     const Compared& winner = comparison.all[comparison.winner];
     const auto& ends = winner.fit.active_end;
     const bool at_end = std::find(ends.begin(), ends.end(), true) != ends.end();
     const double smooth = comparison.all.front().log_weight_with_remainder(priors);
-    return level_alone || at_end ? std::max(smooth, winner.log_total(priors)) : smooth;
+    return level_alone || at_end || leaves_most ? std::max(smooth, winner.log_total(priors)) : smooth;
 }
 
 /// Whether the base model with a stiffness that nobody knows explains as much as the best cause with the known one.
@@ -172,7 +189,7 @@ void rank_causes(const Comparison& comparison, const Inference& inference, const
     for (const Compared& one : comparison.all) {
         logarithms.push_back(&one == &base ? one.log_weight() : one.log_total(priors));
     }
-    logarithms.push_back(log_weight_of_none(comparison, priors, diagnosis.level_alone));
+    logarithms.push_back(log_weight_of_none(comparison, priors, diagnosis.level_alone, diagnosis.remainder.most));
     const std::vector<double> posterior = probabilities_of(std::move(logarithms));
     for (std::size_t k = 0; k < comparison.all.size(); ++k) {
         const Compared& one = comparison.all[k];
@@ -264,9 +281,11 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     const Compared& winner = comparison.all[comparison.winner];
     diagnosis.extended_p_value = comparison.p_value;
     diagnosis.level_alone = is_level_alone(inference, winner.fit);
+    diagnosis.remainder.p_value = comparison.p_value;
+    diagnosis.remainder.detected = comparison.p_value <= options.level;
+    diagnosis.remainder.most = diagnosis.remainder.detected && leaves_most(comparison, inference);
     rank_causes(comparison, inference, priors, diagnosis);
     diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
-    diagnosis.remainder = {.detected = comparison.p_value <= options.level, .p_value = comparison.p_value, .where = {}};
     if (diagnosis.remainder.detected) {
         diagnosis.remainder.where =
             place_of(*winner.remainder, data, inference.fitted(forward.prediction(winner.remainder->fit.model)));

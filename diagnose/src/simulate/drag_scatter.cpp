@@ -13,26 +13,29 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// tests/benchmark/drag_scatter.py measures what the next four constants state.
+// tests/benchmark/drag_scatter.py measures what the next constants state.
 constexpr double particles_of_scatter = 400;  ///< the variance goes as one over their number
-constexpr double least_scatter = 0.03;        ///< of the logarithm, where all particles are dragged along
-constexpr double largest_scatter = 1.5;       ///< added to that, where the slowest motions still follow
-constexpr double decades = 1.1;               ///< over which errors are alike: exp(-(distance / decades)^2 / 2)
+constexpr double least_scatter = 0.02;        ///< of the logarithm, where all particles are dragged along
+constexpr double slow_scatter = 0.12;         ///< added to that at a reduced drag of 1e-3, and more where it is less
+constexpr double largest_scatter = 1.7;       ///< added at most, where the slowest motions still follow
+constexpr double decades = 2.2;               ///< over which errors are alike
 /// As much as the stated scale weighs: other coordinations scatter by up to 1.4 times that.
 constexpr double stated_degrees = 6;
-constexpr double least_share = 0.01;  ///< of the largest eigenvalue, which an error must have to count
+constexpr double least_share = 1e-4;  ///< of the largest eigenvalue, which an error must have to count
 
 /// Standard deviation of the logarithm of the reduced viscosity of one structure.
 ArrayXd stated_scatter(const ArrayXd& drags, double particles) {
-    const ArrayXd slow = 0.1 * (drags / 1e-3).pow(-0.35);
+    const ArrayXd slow = slow_scatter * (drags / 1e-3).pow(-0.35);
     return std::sqrt(particles_of_scatter / particles) * (least_scatter + slow.min(largest_scatter));
 }
 
+/// Matern's of order 3/2: 0.94, 0.81 and 0.53 over half a decade, one and two. A smoother one would have shapes of the curve known
+/// that are not.
 MatrixXd correlation(const ArrayXd& drags) {
     const ArrayXd places = drags.log10() / decades;
     const Index count = places.size();
-    const Eigen::ArrayXXd distance = places.replicate(1, count) - places.transpose().replicate(count, 1);
-    return (-0.5 * distance.square()).exp();
+    const Eigen::ArrayXXd distance = std::sqrt(3.0) * (places.replicate(1, count) - places.transpose().replicate(count, 1)).abs();
+    return (1 + distance) * (-distance).exp();
 }
 
 }  // namespace

@@ -208,6 +208,7 @@ TEST(BrownianDynamics, StopsAtTheCoordination) {
     EXPECT_GE(run.coordination, 1);
     EXPECT_LT(run.coordination, 1.4);
     EXPECT_LT(run.series.coordination[run.series.coordination.size() - 2], 1);
+    EXPECT_THROW(simulate_brownian(run.packing, dlvo(0), options), std::invalid_argument);  // is there already
 }
 
 TEST(BrownianDynamics, MovesUnequalParticles) {

@@ -30,7 +30,9 @@ TEST(Units, ReadsNumbersWithUnits) {
     EXPECT_EQ(parse_quantity("4 MPa", "Pa"), 4e6);
     EXPECT_EQ(parse_quantity("7", "1"), 7);
     EXPECT_EQ(parse_quantity("12 %", "1"), 0.12);
-    EXPECT_DOUBLE_EQ(parse_quantity("180 degrees", "rad"), 3.14159265358979323846);
+    for (const char* text : {"180 degrees", "180 deg", "180deg", "180 °", "180°"}) {
+        EXPECT_DOUBLE_EQ(parse_quantity(text, "rad"), 3.14159265358979323846) << text;
+    }
 }
 
 TEST(Units, KnowsTheMolarWhereAConcentrationIsAsked) {

@@ -94,6 +94,7 @@ struct Remainder {
     bool detected = false;  ///< p_value is not above the level of the test
     double p_value = 1;     ///< of the test, applied to that model
     std::string where;      ///< a sentence; empty where nothing is left over
+    bool most = false;      ///< with a smooth departure on top the model still leaves more than half of the base model's misfit
 };
 
 /// Predictions of a row by models that were fitted without the held-out rows [Pa].
