@@ -65,6 +65,7 @@ set(coagula_slow_tests
   "cli[.]install[.].*"
   "cli[.]kills[.].*"
   "cli[.]materials[.]SmoothMaterial[.]inertia_of_a_stiff_tool"
+  "cli[.]materials[.]RealExports[.](wormlike_micelles|yielding_and_recovery).*"
   "cli[.]option_sweep"
   "mechanics_validation[.].*"
   "examples[.].*"

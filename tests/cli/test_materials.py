@@ -232,6 +232,36 @@ class RealExports(Tables):
         self.assertTrue(inertia["low"] < 25.7e-6 < inertia["high"], inertia)
 
 
+    SMOOTH = '[material]\nkind = "smooth"\n\n[instrument]\ngeometry = "plate-plate"\nplate_radius = "12.5 mm"\ngap = "1 mm"\n\n'
+
+    def of_sections(self, file, kind, sections):
+        """@param sections: numbers of sections with the rows that are used."""
+        shutil.copy(Path(os.environ["COAGULA_DATASETS"]) / file, self.folder / "export")
+        return self.diagnosis(self.SMOOTH + "".join(
+            f'[[measurement]]\nkind = "{kind}"\nfile = "export"\ntable = {section}\nsample = "gel"\nrun_order = {section}\nrows = {rows}\n\n'
+            for section, rows in sections))
+
+    def test_wormlike_micelles_break_down_above_30_per_second(self):
+        """The source reads jumps of G' at the end of the sweeps, which are most likely the inertia of the tool."""
+        haake = lambda name, rows: self.of_sections(f"haake_rheowin_pt/{name}", "frequency-sweep", [(2, [1, rows])])
+        sucrose = haake("Sac50-2 conj   09.13.48 2018-03-14.txt", 28)
+        self.assertEqual((sucrose["verdict"], sucrose["credible_set"]), ("named", ["tool-inertia"]))
+        urea = haake("Ur5-2 conjunto   20.45.21 2018-02-28.txt", 37)
+        self.assertTrue(all("tool-inertia" in cause for cause in urea["credible_set"]), urea["credible_set"])
+        self.assertIn("to 62.8 rad/s", urea["remainder"]["where"])
+        water = haake("Agua3 Conj   13.38.27 2018-03-01.txt", 28)  # no cause makes G' jump up and down again
+        self.assertIn("none of the catalogue", water["credible_set"])
+        self.assertIn("at angular frequency 29.2 rad/s to 62.8 rad/s", water["remainder"]["where"])
+
+    def test_yielding_and_recovery_four_times_is_none_of_the_catalogue(self):
+        """Between the sections the gel yields at 500 %: one loss, which the catalogue has, leaves most of it."""
+        found = self.of_sections("deforest_hydrogels/PXP_N1.csv", "time-sweep",
+                                 [(5, [1, 80, 8]), *((section, [1, 600, 30]) for section in (6, 8, 10, 12, 14))])
+        self.assertTrue(found["detected"])
+        self.assertIn("none of the catalogue", found["credible_set"])
+        self.assertTrue(found["remainder"]["most"])
+
+
 class FlowCurves(Tables):
     """Viscosity against shear rate in steady flow."""
 
