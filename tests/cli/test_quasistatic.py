@@ -100,6 +100,8 @@ class Quasistatic(ProgramTest):
         refuse("--amplitudes: '-1' is out of range", "--amplitudes", "-1:1e-2:10")
         self.write("model.toml", 'normal_viscosity = "1 mN.s/m"\n')
         refuse("dashpot", "--model", "model.toml")
+        self.write("model.toml", 'young_modulus = "70 GPa"\npoisson_ratio = 0.25\n')
+        refuse("stiffness at rest", "--model", "model.toml")
 
 
 if __name__ == "__main__":

@@ -294,6 +294,17 @@ Table table_of(const std::vector<Test>& tests, bool sweep) {
     return table;
 }
 
+/// Equilibria of contacts that have no stiffness to begin with are not found but in lattices.
+void check_stiffness_at_rest(const Arguments& arguments, const ContactModel& model) {
+    const bool hertzian = !std::isnan(model.young_modulus) && std::isnan(model.work_of_adhesion);
+    const bool unloaded = std::isnan(model.prestress) || model.prestress == 0;
+    if (hertzian && unloaded && arguments.text("rest-length") == "found") {
+        throw InputError("--method quasistatic needs contacts with a stiffness at rest, and those of " + arguments.text("model") +
+                         ", by Hertz's law and unstressed as found, have none: give work_of_adhesion or prestress, or use "
+                         "--method dem");
+    }
+}
+
 }  // namespace
 
 std::vector<Option> quasistatic_options() {
@@ -311,6 +322,7 @@ Findings quasistatic_response(const Arguments& arguments, const Packing& packing
     if (sweep && arguments.has("ramp")) {
         throw InputError("--amplitudes and --ramp exclude each other");
     }
+    check_stiffness_at_rest(arguments, model);
     const std::vector<double> amplitudes = sweep ? amplitudes_of(arguments) : std::vector<double>{};
     const std::vector<Test> tests = run_or_resume(arguments, packing, model, progress, [&](Test& test, const Progress& part) {
         if (sweep) {
