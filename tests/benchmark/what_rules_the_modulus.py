@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """What rules the modulus of a network at equal volume fraction: heterogeneity, coordination, or what else?
 
-    tests/benchmark/what_rules_the_modulus.py build/bin/coagula FOLDER
+    tests/benchmark/what_rules_the_modulus.py build/bin/coagula FOLDER [SHEAR_STIFFNESS]
 
 makes structures by void expansion (several numbers of voids) and by Brownian dynamics (several surface potentials) to the same coordination
 numbers, measures and shears them, and asks (1) which measures explain G' over all structures, with errors from structures that the fit has not
-seen, and (2) how much of the difference between the two generators at equal heterogeneity and coordination each measure accounts for. Needs
-numpy. What is in the folder already is used.
+seen, (2) how much of the difference between the two generators at equal heterogeneity and coordination each measure accounts for, and (3) whether
+the heterogeneity still matters at equal coordination and one measure more. Needs numpy; with gnuplot it draws FOLDER/what_rules.png. The values of
+all structures go to FOLDER/structures.csv. What is in the folder already is used. SHEAR_STIFFNESS: of a particle [N/m], 10 when not given; the
+normal one is 100.
 """
 
 import concurrent.futures
+import csv
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -39,6 +43,7 @@ VARIABLES = {  # name: how it follows from the JSON object of characterize
     "rings of 4": lambda c: c["rings"]["per_particle"][4],
     "rings of 5": lambda c: c["rings"]["per_particle"][5],
 }
+CARRIED = "energy in shear springs"  # not a measure of the structure: how it carries the load
 BASE = ("heterogeneity a", "coordination C")
 
 
@@ -64,10 +69,10 @@ def generate(program, path, generator, parameter, coordination, seed):
             "--sample-interval", "0.05ms", *common)
 
 
-def measure(program, folder, structure):
+def measure(program, folder, structure, shear_stiffness):
     name = "_".join(str(round(part, 3)) for part in structure[1:])
     path = folder / f"{structure[0]}_{name}.h5"
-    known = path.with_suffix(".json")
+    known = path.with_suffix(".json" if shear_stiffness == "10" else f".{shear_stiffness}.json")
     if not known.exists():
         if not path.exists():
             try:
@@ -76,9 +81,12 @@ def measure(program, folder, structure):
                 print(f"{path.stem} left out: {error.stderr.strip()}", file=sys.stderr)
                 return None
         found = run(program, "characterize", path, "--only", ",".join(MEASURES), "--json", "--force", "-o", path.with_suffix(".measured"))
-        response = run(program, "shear", path, "--json", "--force", "-o", path.with_suffix(".sheared"))
+        response = run(program, "shear", path, "--shear-stiffness", shear_stiffness, "--json", "--force", "-o",
+                       known.with_suffix(".sheared"))
         row = {name: of(found) for name, of in VARIABLES.items()}
         row["G"] = response["storage_modulus"]["mean"] / 1e6
+        row["affine G"] = response["affine_modulus"] / 1e6
+        row[CARRIED] = response["load_structure"]["mean"]["shear_spring_share"]
         known.write_text(json.dumps(row))
     return json.loads(known.read_text())
 
@@ -126,7 +134,8 @@ def table(rows, groups, brownian):
     others = [name for name in VARIABLES if name not in BASE]
     print(f"{len(rows)} structures of {PARTICLES} particles, {int(brownian.sum())} of them Brownian; G' {moduli.min():.2f} .. {moduli.max():.2f} MPa")
     print("\nvariance of G' explained in structures left out (per recipe), and rms error there")
-    for names in [(name,) for name in VARIABLES] + [BASE] + [(*BASE, name) for name in others]:
+    pairs = [("coordination C", name) for name in VARIABLES if name != "coordination C"]
+    for names in [(name,) for name in (*VARIABLES, CARRIED)] + pairs + [(*BASE, name) for name in others]:
         residuals = unseen_residuals(design(rows, names), moduli, groups)
         print(f"  {' + '.join(names):62s} {100 * explained(residuals, moduli):5.0f} %   {numpy.sqrt(numpy.mean(residuals**2)):.3f} MPa")
     reference, resampled = offsets(rows, BASE, brownian, moduli)
@@ -139,17 +148,73 @@ def table(rows, groups, brownian):
         mean, rms = transfer(rows, names, brownian, moduli)
         print(f"  {name or '(a and C only)':30s} {left:7.3f} +- {draws.std():.3f} MPa   {100 * (1 - left / reference):5.0f} % "
               f"({100 * numpy.quantile(share, 0.05):.0f} to {100 * numpy.quantile(share, 0.95):.0f})   {mean:7.3f}, {rms:.3f} MPa")
+    heterogeneity(rows, moduli)
+
+
+def heterogeneity(rows, moduli):
+    """Slope of G' along a at equal values of other measures, with the spread of resampled ones."""
+    print("\nG' by a at equal C and one measure more, MPa per 0.1 of a; correlation of that measure with a at equal C")
+    generator = numpy.random.default_rng(2)
+    at_equal = lambda name: (lambda value: value - design(rows, BASE[1:]) @ fit(design(rows, BASE[1:]), value))(design(rows, (name,))[:, 1])
+    for name in (None, *(name for name in VARIABLES if name not in BASE)):
+        matrix = design(rows, BASE if name is None else (*BASE, name))
+        draws = [generator.integers(len(rows), size=len(rows)) for _ in range(RESAMPLES)]
+        slopes = [fit(matrix[draw], moduli[draw])[1] / 10 for draw in draws]
+        alike = "" if name is None else f"   {numpy.corrcoef(at_equal(BASE[0]), at_equal(name))[0, 1]:5.2f}"
+        print(f"  {name or '(C only)':30s} {fit(matrix, moduli)[1] / 10:7.3f} +- {numpy.std(slopes):.3f}{alike}")
+
+
+FIGURE = """set terminal pngcairo size 1100,430 font 'DejaVu Sans,11'
+set output 'what_rules.png'
+set datafile separator ','
+set multiplot layout 1,2
+set ylabel "G' (MPa)"
+set key top left
+set yrange [0:2.4]
+set palette defined (4.5 '#7fc3e8', 4.9 '#08306b')
+set cbrange [4.45:4.95]
+set cblabel 'coordination C'
+set xlabel 'degree of heterogeneity a'
+plot 'figure.csv' using ($1 == 0 ? $2 : NaN):4:3 with points pt 7 palette title 'void expansion', \\
+  '' using ($1 == 1 ? $2 : NaN):4:3 with points pt 8 ps 1.2 lw 1.5 palette title 'Brownian'
+set xlabel "G' from C and triangles per particle (MPa), recipe left out"
+set xrange [0:2.4]
+plot x with lines lc 'gray' notitle, 'figure.csv' using ($1 == 0 ? $5 : NaN):4:3 with points pt 7 palette notitle, \\
+  '' using ($1 == 1 ? $5 : NaN):4:3 with points pt 8 ps 1.2 lw 1.5 palette notitle
+"""
+
+
+def draw(rows, groups, brownian, folder):
+    moduli = numpy.array([row["G"] for row in rows])
+    predicted = moduli - unseen_residuals(design(rows, ("coordination C", "triangles per particle")), moduli, groups)
+    columns = (brownian, [row["heterogeneity a"] for row in rows], [row["coordination C"] for row in rows], moduli, predicted)
+    numpy.savetxt(folder / "figure.csv", numpy.column_stack(columns), delimiter=",")
+    if shutil.which("gnuplot"):
+        subprocess.run(["gnuplot"], input=FIGURE, text=True, cwd=folder, check=True)
+
+
+def keep(structures, rows, folder):
+    """All values as a table."""
+    names = ["G", *VARIABLES, "affine G", CARRIED]
+    with open(folder / "structures.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["generator", "parameter", "target C", "seed", *names])
+        writer.writerows([*structure, *(f"{row[name]:.6g}" for name in names)] for structure, row in zip(structures, rows))
 
 
 def main():
-    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    program, folder, shear_stiffness = sys.argv[1], pathlib.Path(sys.argv[2]), (*sys.argv[3:], "10")[0]
     folder.mkdir(parents=True, exist_ok=True)
     every = list(structures())
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        rows = list(pool.map(lambda structure: measure(program, folder, structure), every))
+        rows = list(pool.map(lambda structure: measure(program, folder, structure, shear_stiffness), every))
     made = [(structure, row) for structure, row in zip(every, rows) if row is not None]
-    table([row for _, row in made], [structure[:3] for structure, _ in made],
-          numpy.array([float(structure[0] == "brownian") for structure, _ in made]))
+    found = [row for _, row in made]
+    groups = [structure[:3] for structure, _ in made]
+    brownian = numpy.array([float(structure[0] == "brownian") for structure, _ in made])
+    keep([structure for structure, _ in made], found, folder)
+    table(found, groups, brownian)
+    draw(found, groups, brownian, folder)
 
 
 if __name__ == "__main__":
