@@ -33,7 +33,7 @@ OnGrid measure_on(const Packing& packing, const VoxelGrid& grid, const Progress&
     OnGrid found;
     for (int axis = 0; axis < 3; ++axis) {
         const double spacing = grid.edge[axis];
-        const Eigen::ArrayXd potential = solver.solve(axis, spacing, tolerance);
+        const Eigen::ArrayXf potential = solver.solve(axis, spacing, tolerance);
         const double power = ConductionSolver::power(conductances, potential, axis, spacing);
         // The power is a minimum: its derivative is that at the potential as it is.
         found.conductivity[axis] = power / volume;
