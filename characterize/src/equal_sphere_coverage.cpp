@@ -1,4 +1,4 @@
-#include "ball_orthoscheme.hpp"
+#include "arc_terms.hpp"
 #include "coverage.hpp"
 
 #include <vector>
@@ -86,28 +86,29 @@ private:
         const std::array<double, 2> signs = {sign(edge.height[0]), sign(edge.height[1])};
         const bool cancel = signs[0] + signs[1] == 0;
         const Index begin = cancel ? std::min(last[0], last[1]) : grid_.first_above(d1);
-        for (Index k = begin; k < std::max(last[0], last[1]); ++k) {
-            const double times = (k < last[0] ? signs[0] : 0.0) + (k < last[1] ? signs[1] : 0.0);
-            arcs_[k] += times * sum_arc_terms(edge, weight, grid_[k], d1);
+        const Index end = std::max(last[0], last[1]);
+        if (begin >= end) {
+            return;
         }
-    }
-
-    static double sum_arc_terms(const EdgeGeometry& edge, const std::array<double, 3>& weight, double rho, double d1) {
-        const double half_chord = std::sqrt(std::max(0.0, (rho - d1) * (rho + d1)));
-        double sum = 0;
+        ArcSides sides{.weight = weight, .d1 = d1};
         for (std::size_t k = 0; k < 3; ++k) {
-            if (weight[k] != 0) {
-                const EdgeSide& side = edge.sides[k];
-                sum += weight[k] * arc_term(side.first_distance, std::abs(side.foot_distance), rho, half_chord);
-            }
+            sides.a[k] = edge.sides[k].first_distance;
+            sides.b[k] = std::abs(edge.sides[k].foot_distance);
         }
-        return sum;
+        const auto blocks = static_cast<int>((end - begin + arc_block - 1) / arc_block);
+        terms_.resize(std::max(terms_.size(), static_cast<std::size_t>(blocks * arc_block)));
+        sum_arc_terms(sides, grid_[begin], grid_.step, blocks, terms_.data());
+        for (Index k = begin; k < end; ++k) {
+            const double times = (k < last[0] ? signs[0] : 0.0) + (k < last[1] ? signs[1] : 0.0);
+            arcs_[k] += times * terms_[static_cast<std::size_t>(k - begin)];
+        }
     }
 
     RadialGrid grid_;
     Eigen::Matrix3Xd coefficients_;  ///< of 1, rho^2, rho^3: changes at each radius
     Eigen::VectorXd arcs_;
-    double cells_ = 0;  ///< volume of the whole orthoschemes
+    double cells_ = 0;           ///< volume of the whole orthoschemes
+    std::vector<double> terms_;  ///< scratch
 };
 
 /// Some of the edges around the cells of one block.
