@@ -50,13 +50,6 @@ Eigen::MatrixXd rows_where(Eigen::MatrixXd matrix, const std::vector<bool>& pinn
     return matrix;
 }
 
-/// Moves the unknowns that are not pinned so that |A x| becomes least, with iterative refinement.
-void relax(const RigidityMatrix& matrix, const CholeskyFactor& factor, const std::vector<bool>& pinned, Eigen::MatrixXd& x) {
-    for (int k = 0; k < refinements; ++k) {
-        x -= factor.solve(rows_where(matrix.apply_transposed(matrix.apply(x)), pinned, false));
-    }
-}
-
 double largest_ratio(const Eigen::MatrixXd& numerator, const Eigen::MatrixXd& denominator) {
     return denominator.cols() == 0 ? 0.0 : (numerator.colwise().norm().array() / denominator.colwise().norm().array()).maxCoeff();
 }
@@ -69,7 +62,7 @@ struct SoftMotions {
     double smallest() const { return value.size() > 0 ? value[value.size() - 1] : unset; }
 };
 
-SoftMotions softest(const RigidityMatrix& matrix, const NullSpace& space, std::uint64_t seed) {
+SoftMotions softest(const SparseMap& matrix, const NullSpace& space, std::uint64_t seed) {
     const Index free = std::count(space.pinned.begin(), space.pinned.end(), false);
     const Index count = std::min<Index>(inverse_vectors, free);
     Eigen::MatrixXd x = rows_where(random_matrix(matrix.unknowns(), count, Draw::inverse_iteration, seed), space.pinned, false);
@@ -101,7 +94,7 @@ std::vector<Index> spanning_unknowns(const Eigen::MatrixXd& vectors, const std::
 /// Chooses what to pin.
 class RankDecision {
 public:
-    RankDecision(const RigidityMatrix& matrix, const RigidityOptions& options)
+    RankDecision(const SparseMap& matrix, const RigidityOptions& options)
         : matrix_(matrix), options_(options), order_(matrix.elimination_order()) {
         const double memory = 2 * order_.predicted_memory();
         if (memory > options.memory_limit) {
@@ -180,6 +173,9 @@ private:
     /// shows in random combinations of its columns (Halko, Martinsson and Tropp, SIAM Rev. 53 (2011) 217), squared nowhere.
     /// Returns whether some were unpinned.
     bool unpin_independent(NullSpace& space) const {
+        if (std::none_of(space.pinned.begin(), space.pinned.end(), [](bool is_pinned) { return is_pinned; })) {
+            return false;
+        }
         for (int sketch = first_sketch;; sketch *= 2) {
             Eigen::MatrixXd x =
                 rows_where(random_matrix(matrix_.unknowns(), sketch, Draw::sketch, options_.seed), space.pinned, true);
@@ -211,25 +207,35 @@ private:
         }
     }
 
-    const RigidityMatrix& matrix_;
+    const SparseMap& matrix_;
     const RigidityOptions& options_;
     EliminationOrder order_;
 };
 
 }  // namespace
 
-NullSpace find_null_space(const RigidityMatrix& matrix, const RigidityOptions& options, const Progress& progress) {
-    if (matrix.contacts() == 0) {
-        NullSpace all;
-        all.dimension = matrix.unknowns();
-        all.pinned.assign(static_cast<std::size_t>(all.dimension), true);
-        all.motions = random_matrix(all.dimension, options.random_motions, Draw::motions, options.seed);
-        return all;
+void relax(const SparseMap& matrix, const CholeskyFactor& factor, const std::vector<bool>& pinned, Eigen::MatrixXd& x) {
+    for (int k = 0; k < refinements; ++k) {
+        x -= factor.solve(rows_where(matrix.apply_transposed(matrix.apply(x)), pinned, false));
     }
+}
+
+Eigen::MatrixXd random_motions(Index unknowns, const RigidityOptions& options) {
+    return random_matrix(unknowns, options.random_motions, Draw::motions, options.seed);
+}
+
+NullSpace whole_space(Index unknowns, const RigidityOptions& options) {
+    NullSpace all;
+    all.dimension = unknowns;
+    all.pinned.assign(static_cast<std::size_t>(all.dimension), true);
+    all.motions = random_motions(unknowns, options);
+    return all;
+}
+
+NullSpace find_null_space(const SparseMap& matrix, const RigidityOptions& options, const Progress& progress) {
     NullSpace space = RankDecision(matrix, options).run(progress);
     space.dimension = std::count(space.pinned.begin(), space.pinned.end(), true);
-    space.motions =
-        rows_where(random_matrix(matrix.unknowns(), options.random_motions, Draw::motions, options.seed), space.pinned, true);
+    space.motions = rows_where(random_motions(matrix.unknowns(), options), space.pinned, true);
     relax(matrix, *space.factor, space.pinned, space.motions);
     space.largest_zero = largest_ratio(matrix.apply(space.motions), space.motions);
     return space;
