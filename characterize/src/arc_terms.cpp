@@ -21,17 +21,24 @@ constexpr std::array<double, 11> series = {-0.3333333333333333,   0.199999999999
                                            -0.0909090457530649,   0.07692183125376892, -0.06664510525508936, 0.05858140904866328,
                                            -0.050854078345894844, 0.03923044778479309, -0.019175404711104932};
 
-/// atan(p / q) for p, q >= 0, without branches: tan(x - pi / 4) = (tan x - 1) / (tan x + 1), tan(x - pi / 2) = -1 / tan x.
-COAGULA_INLINE double arctangent(double p, double q) {
+/// atan(p / q) for p, q >= 0 as offset + atan(upper / lower), without branches: tan(x - pi / 4) = (tan x - 1) / (tan x + 1),
+/// tan(x - pi / 2) = -1 / tan x.
+struct ReducedArc {
+    double offset, upper, lower;
+};
+
+COAGULA_INLINE ReducedArc reduce_arc(double p, double q) {
     constexpr double eighth = std::numbers::sqrt2 - 1;  // tan(pi / 8)
     constexpr double three_eighths = std::numbers::sqrt2 + 1;
     constexpr double quarter_turn = std::numbers::pi / 2;
+    constexpr double least = 1e-150;  // 0 / 0 is 0
     const bool is_middle = p > eighth * q;
     const bool is_steep = p > three_eighths * q;
-    const double upper = is_steep ? -q : (is_middle ? p - q : p);
-    const double lower = is_steep ? p : (is_middle ? p + q : q);
-    const double offset = is_steep ? quarter_turn : (is_middle ? quarter_turn / 2 : 0.0);
-    const double z = upper / std::max(lower, 1e-300);  // 0 / 0 is 0
+    return {is_steep ? quarter_turn : (is_middle ? quarter_turn / 2 : 0.0), is_steep ? -q : (is_middle ? p - q : p),
+            std::max(least, is_steep ? p : (is_middle ? p + q : q))};
+}
+
+COAGULA_INLINE double finish_arc(double offset, double z) {
     const double square = z * z;
     double sum = series[10];
     for (int k = 9; k >= 0; --k) {
@@ -40,35 +47,39 @@ COAGULA_INLINE double arctangent(double p, double q) {
     return offset + (z + z * square * sum);
 }
 
-/// The same as arc_term of ball_orthoscheme.hpp.
-COAGULA_INLINE void add_side(double a, double b, double weight, const double* rho, const double* half_chord, double* sum) {
-    for (int k = 0; k < arc_block; ++k) {
-        const double theta = arctangent(half_chord[k], b);
-        const double psi = arctangent(a * half_chord[k], b * rho[k]);
+/// The same as arc_term of ball_orthoscheme.hpp, with one division for both angles.
+COAGULA_INLINE void add_side(double a, double b, double weight, const double* __restrict rho, const double* __restrict half_chord,
+                             int count, double* __restrict sum) {
+    for (int k = 0; k < count; ++k) {
+        const ReducedArc theta = reduce_arc(half_chord[k], b);
+        const ReducedArc psi = reduce_arc(a * half_chord[k], b * rho[k]);
+        const double inverse = 1 / (theta.lower * psi.lower);
         const double square = rho[k] * rho[k];
-        const double term = a * b * half_chord[k] / 6 - theta * a * (3 * square - a * a) / 6 + psi * square * rho[k] / 3;
-        sum[k] += weight * term;
+        const double first = finish_arc(theta.offset, theta.upper * psi.lower * inverse) * a * (3 * square - a * a) * (-1.0 / 6);
+        const double second = finish_arc(psi.offset, psi.upper * theta.lower * inverse) * square * rho[k] * (1.0 / 3);
+        sum[k] += weight * (a * b * half_chord[k] * (1.0 / 6) + first + second);
     }
 }
 
 }  // namespace
 
 COAGULA_VARIANTS void sum_arc_terms(const ArcSides& sides, double start, double step, int blocks, double* sum) {
-    alignas(64) double rho[arc_block];
-    alignas(64) double half_chord[arc_block];
-    alignas(64) double total[arc_block];
-    for (int block = 0; block < blocks; ++block) {
-        for (int k = 0; k < arc_block; ++k) {
-            rho[k] = start + step * (block * arc_block + k);
-            half_chord[k] = std::sqrt(std::max(0.0, (rho[k] - sides.d1) * (rho[k] + sides.d1)));
-            total[k] = 0;
+    constexpr int most = 8 * arc_block;
+    alignas(64) double rho[most];
+    alignas(64) double half_chord[most];
+    for (int begin = 0; begin < blocks * arc_block; begin += most) {
+        const int count = std::min(most, blocks * arc_block - begin);
+        for (int k = 0; k < count; ++k) {
+            rho[k] = start + step * static_cast<double>(begin + k);
+            const double squared = (rho[k] - sides.d1) * (rho[k] + sides.d1);
+            half_chord[k] = std::sqrt(squared > 0 ? squared : 0.0);
         }
+        std::fill_n(sum + begin, count, 0.0);
         for (std::size_t side = 0; side < 3; ++side) {
             if (sides.weight[side] != 0) {
-                add_side(sides.a[side], sides.b[side], sides.weight[side], rho, half_chord, total);
+                add_side(sides.a[side], sides.b[side], sides.weight[side], rho, half_chord, count, sum + begin);
             }
         }
-        std::copy_n(total, arc_block, sum + block * arc_block);
     }
 }
 

@@ -15,7 +15,8 @@ namespace {
 constexpr double first_shift = 1e-12;     // of the factor that names the candidates; stiffness of a contact is 1
 constexpr double first_threshold = 1e-5;  // pivots below it make a candidate
 constexpr double last_threshold = 1e-1;
-constexpr int first_sketch = 16;  // random combinations that decide the rank
+constexpr double guessed_threshold = 1e-11;  // a pivot below it may be none but for rounding
+constexpr int first_sketch = 16;             // random combinations that decide the rank
 constexpr int last_sketch = 256;
 constexpr int refinements = 2;
 constexpr int inverse_iterations = 4;
@@ -104,8 +105,23 @@ public:
         }
     }
 
-    NullSpace run(const Progress& progress) {
+    NullSpace run(const std::vector<bool>& guess, const Progress& progress) {
         progress.update("rank of the rigidity matrix", 0.0);
+        if (!guess.empty()) {
+            try {
+                NullSpace space;
+                space.pinned = guess;
+                space.factor = factorise(space.pinned);
+                if (space.factor->pivots_below(guessed_threshold) == 0) {
+                    progress.update("rank of the rigidity matrix", 0.2);
+                    unpin_surplus(space);
+                    progress.update("rank of the rigidity matrix", 0.4);
+                    exchange(space);
+                    return space;
+                }
+            } catch (const NotPositiveDefinite&) {  // something moves that was not guessed
+            }
+        }
         const Eigen::VectorXd pivots = first_pivots();
         for (double threshold = first_threshold; threshold <= last_threshold; threshold *= 10) {
             NullSpace space;
@@ -131,6 +147,10 @@ private:
     /// Too many unknowns are pinned: finds out which.
     void decide(NullSpace& space) const {
         space.factor = factorise(space.pinned);
+        unpin_surplus(space);
+    }
+
+    void unpin_surplus(NullSpace& space) const {
         if (unpin_independent(space)) {
             space.factor = factorise(space.pinned);
         }
@@ -232,8 +252,9 @@ NullSpace whole_space(Index unknowns, const RigidityOptions& options) {
     return all;
 }
 
-NullSpace find_null_space(const SparseMap& matrix, const RigidityOptions& options, const Progress& progress) {
-    NullSpace space = RankDecision(matrix, options).run(progress);
+NullSpace find_null_space(const SparseMap& matrix, const std::vector<bool>& guess, const RigidityOptions& options,
+                          const Progress& progress) {
+    NullSpace space = RankDecision(matrix, options).run(guess, progress);
     space.dimension = std::count(space.pinned.begin(), space.pinned.end(), true);
     space.motions = rows_where(random_motions(matrix.unknowns(), options), space.pinned, true);
     relax(matrix, *space.factor, space.pinned, space.motions);

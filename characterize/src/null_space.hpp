@@ -18,7 +18,9 @@ struct NullSpace {
 };
 
 /// Options as those of measure_rigidity. A matrix of zeros is none of these: see whole_space.
-NullSpace find_null_space(const SparseMap& matrix, const RigidityOptions& options, const Progress& progress);
+/// @param guess of what to pin: spares the factor that tells where to look, if nothing is missing. Empty: none.
+NullSpace find_null_space(const SparseMap& matrix, const std::vector<bool>& guess, const RigidityOptions& options,
+                          const Progress& progress);
 
 /// That of a matrix without rows.
 NullSpace whole_space(Index unknowns, const RigidityOptions& options);

@@ -1,5 +1,6 @@
 #include <coagula/characterize/rigidity.hpp>
 
+#include "local_motions.hpp"
 #include "null_space.hpp"
 #include "rigid_clusters.hpp"
 #include "rigidity_matrix.hpp"
@@ -129,8 +130,9 @@ bool measure_by_self_stress(const RigidityMatrix& matrix, const RigidityOptions&
 /// The same by way of the floppy motions, which tell rigid clusters apart, too.
 void measure_by_motions(const Packing& packing, const ContactNetwork& contacts, const RigidityMatrix& matrix,
                         const RigidityOptions& options, const Progress& progress, Rigidity& result) {
-    const NullSpace space =
-        matrix.contacts() > 0 ? find_null_space(matrix, options, progress) : whole_space(matrix.unknowns(), options);
+    const NullSpace space = matrix.contacts() > 0
+                                ? find_null_space(matrix, guess_pinned(matrix, !packing.cell.is_periodic()), options, progress)
+                                : whole_space(matrix.unknowns(), options);
     result.rank = matrix.unknowns() - space.dimension;
     result.largest_zero = space.largest_zero;
     result.smallest_nonzero = space.smallest_nonzero;

@@ -49,7 +49,7 @@ std::optional<SelfStress> find_self_stress(const RigidityMatrix& matrix, const R
     for_states.random_motions = 1;
     NullSpace space;
     try {
-        space = find_null_space(loads, for_states, progress);
+        space = find_null_space(loads, std::vector<bool>(static_cast<std::size_t>(loads.unknowns()), false), for_states, progress);
     } catch (const std::runtime_error&) {  // too many states, or stiffness that fades
         return {};
     }
