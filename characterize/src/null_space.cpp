@@ -15,14 +15,15 @@ namespace {
 constexpr double first_shift = 1e-12;     // of the factor that names the candidates; stiffness of a contact is 1
 constexpr double first_threshold = 1e-5;  // pivots below it make a candidate
 constexpr double last_threshold = 1e-1;
-constexpr double guessed_threshold = 1e-11;  // a pivot below it may be none but for rounding
-constexpr int first_sketch = 16;             // random combinations that decide the rank
+constexpr Index most_sought = 64;  // motions for which the best unknowns are sought, instead of those with small pivots
+constexpr int shifted_iterations = 2;
+constexpr int first_sketch = 16;  // random combinations that decide the rank
 constexpr int last_sketch = 256;
 constexpr int refinements = 2;
 constexpr int inverse_iterations = 4;
 constexpr int inverse_vectors = 12;
 constexpr int most_exchanges = 8;
-constexpr double well_conditioned = 1e-4;  // singular values above it do not harm
+constexpr double well_conditioned = 2e-5;  // singular values above it do not harm
 
 /// What random numbers are drawn for; different ones never share a number.
 enum class Draw : std::uint64_t { sketch, inverse_iteration, motions };
@@ -107,26 +108,10 @@ public:
 
     NullSpace run(const std::vector<bool>& guess, const Progress& progress) {
         progress.update("rank of the rigidity matrix", 0.0);
-        if (!guess.empty()) {
-            try {
-                NullSpace space;
-                space.pinned = guess;
-                space.factor = factorise(space.pinned);
-                if (space.factor->pivots_below(guessed_threshold) == 0) {
-                    progress.update("rank of the rigidity matrix", 0.2);
-                    unpin_surplus(space);
-                    progress.update("rank of the rigidity matrix", 0.4);
-                    exchange(space);
-                    return space;
-                }
-            } catch (const NotPositiveDefinite&) {  // something moves that was not guessed
-            }
-        }
-        const Eigen::VectorXd pivots = first_pivots();
+        const Pivots pivots = first_pivots(guess);
         for (double threshold = first_threshold; threshold <= last_threshold; threshold *= 10) {
             NullSpace space;
-            space.pinned.resize(static_cast<std::size_t>(pivots.size()));
-            std::transform(pivots.begin(), pivots.end(), space.pinned.begin(), [=](double p) { return p < threshold; });
+            space.pinned = threshold == first_threshold ? pivots.best : pivots.below(threshold, guess);
             try {
                 progress.update("rank of the rigidity matrix", 0.2);
                 decide(space);
@@ -174,19 +159,50 @@ private:
         space.smallest_nonzero = soft.smallest();
     }
 
+    /// What a factor with a small shift tells.
+    struct Pivots {
+        Eigen::VectorXd value;   ///< of each unknown
+        std::vector<bool> best;  ///< the guessed unknowns and as many more as have pivots below first_threshold
+
+        std::vector<bool> below(double threshold, const std::vector<bool>& guess) const {
+            std::vector<bool> pinned(guess.size());
+            std::transform(value.begin(), value.end(), guess.begin(), pinned.begin(),
+                           [=](double pivot, bool is_guessed) { return is_guessed || pivot < threshold; });
+            return pinned;
+        }
+    };
+
     /// A column that depends on those eliminated before has a pivot of shift |x|^2, x the null vector that it makes with them.
-    Eigen::VectorXd first_pivots() const {
-        const std::vector<bool> nothing(static_cast<std::size_t>(matrix_.unknowns()), false);
-        const CholeskyFactor factor(matrix_.gram(first_shift, nothing), order_);
+    Pivots first_pivots(const std::vector<bool>& guess) const {
+        const CholeskyFactor factor(matrix_.gram(first_shift, guess), order_);
         const std::vector<int> unknown = factor.permutation();
-        Eigen::VectorXd pivots(matrix_.unknowns());
+        Pivots pivots{Eigen::VectorXd(matrix_.unknowns()), {}};
         factor.for_each_supernode([&](const CholeskyFactor::SupernodeView& node) {
             for (int column = 0; column < node.columns; ++column) {
                 const double root = node.value[static_cast<std::ptrdiff_t>(column) * (node.rows + 1)];
-                pivots[unknown[static_cast<std::size_t>(node.first_column + column)]] = root * root;
+                pivots.value[unknown[static_cast<std::size_t>(node.first_column + column)]] = root * root;
             }
         });
+        pivots.best = pivots.below(first_threshold, guess);
+        const Index missing =
+            std::count(pivots.best.begin(), pivots.best.end(), true) - std::count(guess.begin(), guess.end(), true);
+        if (missing > 0 && missing <= most_sought) {
+            pivots.best = guess;
+            for (const Index column : spanning_unknowns(shifted_softest(factor, guess, missing), guess, false)) {
+                pivots.best[static_cast<std::size_t>(column)] = true;
+            }
+        }
         return pivots;
+    }
+
+    /// The motions of least stiffness; the shift makes those without any stand out by many orders of magnitude.
+    Eigen::MatrixXd shifted_softest(const CholeskyFactor& factor, const std::vector<bool>& pinned, Index count) const {
+        Eigen::MatrixXd x = rows_where(random_matrix(matrix_.unknowns(), count, Draw::motions, options_.seed), pinned, false);
+        for (int k = 0; k < shifted_iterations; ++k) {
+            const Eigen::HouseholderQR<Eigen::MatrixXd> qr(factor.solve(x));
+            x = qr.householderQ() * Eigen::MatrixXd::Identity(matrix_.unknowns(), count);
+        }
+        return x;
     }
 
     /// The part R of the pinned columns that is orthogonal to all others tells how many of them are independent after all. Its rank

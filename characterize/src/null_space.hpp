@@ -18,7 +18,7 @@ struct NullSpace {
 };
 
 /// Options as those of measure_rigidity. A matrix of zeros is none of these: see whole_space.
-/// @param guess of what to pin: spares the factor that tells where to look, if nothing is missing. Empty: none.
+/// @param guess of what to pin, one for each unknown: the better the guess, the better conditioned is what is left.
 NullSpace find_null_space(const SparseMap& matrix, const std::vector<bool>& guess, const RigidityOptions& options,
                           const Progress& progress);
 
