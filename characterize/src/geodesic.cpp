@@ -68,11 +68,10 @@ class FastMarching {
 public:
     FastMarching(const VoxelGrid& grid, const std::vector<double>& distances, int axis)
         : grid_(grid),
-          open_(distances),
           axis_(static_cast<std::size_t>(axis)),
-          time_(distances.size(), infinity),
-          final_(distances.size(), infinity),
+          time_(distances.size()),
           front_(grid.edge.minCoeff() / bins_per_voxel) {
+        std::transform(distances.begin(), distances.end(), time_.begin(), [](double d) { return d > 0 ? -infinity : infinity; });
         std::int32_t stride = 1;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int32_t count = grid.count[static_cast<Index>(k)];
@@ -89,16 +88,16 @@ public:
         for_plane(0, [&](std::int32_t voxel) { offer(voxel, edge_[axis_] / 2); });
         while (!front_.is_empty()) {
             const auto [time, number] = front_.pop();
-            double& known = final_[static_cast<std::size_t>(number)];
-            if (known == infinity) {
+            double& known = time_[static_cast<std::size_t>(number)];
+            if (known < 0) {
                 known = time;
                 pass_on(voxel_at(number));
             }
         }
         double sum = 0, count = 0;
         for_plane(grid_.count[static_cast<Index>(axis_)] - 1, [&](std::int32_t voxel) {
-            const double time = final_[static_cast<std::size_t>(voxel)];
-            if (time < infinity) {
+            const double time = time_[static_cast<std::size_t>(voxel)];
+            if (time > 0 && time < infinity) {
                 sum += time + edge_[axis_] / 2;
                 count += 1;
             }
@@ -139,9 +138,9 @@ private:
     }
 
     void offer(std::int32_t voxel, double time) {
-        const auto k = static_cast<std::size_t>(voxel);
-        if (open_[k] > 0 && time < time_[k]) {
-            time_[k] = time;
+        double& known = time_[static_cast<std::size_t>(voxel)];
+        if (time < -known) {
+            known = -time;
             front_.push(time, voxel);
         }
     }
@@ -153,8 +152,7 @@ private:
                     continue;
                 }
                 const Voxel other = moved(voxel, axis, side);
-                const auto k = static_cast<std::size_t>(other.number);
-                if (open_[k] > 0 && final_[k] == infinity) {
+                if (time_[static_cast<std::size_t>(other.number)] < 0) {
                     offer(other.number, arrival(other));
                 }
             }
@@ -171,7 +169,11 @@ private:
 
     double final_time(const Voxel& voxel, std::size_t axis, std::size_t side) const {
         const std::int32_t distance = step(voxel, axis, side);
-        return distance == none ? infinity : final_[static_cast<std::size_t>(voxel.number + distance)];
+        if (distance == none) {
+            return infinity;
+        }
+        const double time = time_[static_cast<std::size_t>(voxel.number + distance)];
+        return time > 0 ? time : infinity;
     }
 
     /// Of second order where the voxel behind the neighbour is earlier still, (3 t - 4 t1 + t2) / (2 edge); else of first order.
@@ -210,12 +212,11 @@ private:
     }
 
     const VoxelGrid& grid_;
-    const std::vector<double>& open_;
     std::size_t axis_;
     std::array<double, 3> edge_{};
     std::array<std::array<std::vector<std::int32_t>, 2>, 3> step_;
-    std::vector<double> time_;   // earliest so far
-    std::vector<double> final_;  // of the voxels that the front has passed; else infinity
+    /// Arrival of the front. Negative: the earliest one so far, or -infinity, of a voxel that it has not passed; infinite: closed.
+    std::vector<double> time_;
     Front front_;
 };
 
