@@ -20,7 +20,7 @@ namespace coagula::characterize {
 
 namespace {
 
-constexpr int blas_threads = 1;  // fixed: the bits of a factor depend on it
+constexpr int blas_threads = 2;  // fixed: the bits of a factor depend on it
 
 void check(const Packing& packing, const ContactNetwork& contacts, const RigidityOptions& options) {
     coagula::check(packing);
