@@ -47,6 +47,11 @@ COAGULA_INLINE double finish_arc(double offset, double z) {
     return offset + (z + z * square * sum);
 }
 
+COAGULA_INLINE double arctangent(double p, double q) {
+    const ReducedArc arc = reduce_arc(p, q);
+    return finish_arc(arc.offset, arc.upper / arc.lower);
+}
+
 /// The same as arc_term of ball_orthoscheme.hpp, with one division for both angles.
 COAGULA_INLINE void add_side(double a, double b, double weight, const double* __restrict rho, const double* __restrict half_chord,
                              int count, double* __restrict sum) {
@@ -62,6 +67,22 @@ COAGULA_INLINE void add_side(double a, double b, double weight, const double* __
 }
 
 }  // namespace
+
+COAGULA_VARIANTS OrthoschemeAngles orthoscheme_angles(const ArcSides& sides, const std::array<double, 2>& heights) {
+    std::array<double, 8> a{}, b{}, c{};
+    for (std::size_t k = 0; k < 6; ++k) {
+        a[k] = sides.a[k / 2];
+        b[k] = sides.b[k / 2];
+        c[k] = heights[k % 2];
+    }
+    OrthoschemeAngles angles;
+    for (std::size_t k = 0; k < 8; ++k) {
+        angles.d2[k] = std::sqrt(a[k] * a[k] + b[k] * b[k] + c[k] * c[k]);
+        angles.phi[k] = arctangent(c[k], b[k]);
+        angles.psi[k] = arctangent(a[k] * c[k], b[k] * angles.d2[k]);
+    }
+    return angles;
+}
 
 COAGULA_VARIANTS void sum_arc_terms(const ArcSides& sides, double start, double step, int blocks, double* sum) {
     constexpr int most = 8 * arc_block;
