@@ -53,8 +53,9 @@ COAGULA_INLINE double arctangent(double p, double q) {
 }
 
 /// The same as arc_term of ball_orthoscheme.hpp, with one division for both angles.
-COAGULA_INLINE void add_side(double a, double b, double weight, const double* __restrict rho, const double* __restrict half_chord,
-                             int count, double* __restrict sum) {
+COAGULA_INLINE void add_side(double a, double b, double weight, const double* rho, const double* half_chord,
+                             int count, double* sum) {
+#pragma omp simd
     for (int k = 0; k < count; ++k) {
         const ReducedArc theta = reduce_arc(half_chord[k], b);
         const ReducedArc psi = reduce_arc(a * half_chord[k], b * rho[k]);
@@ -69,17 +70,21 @@ COAGULA_INLINE void add_side(double a, double b, double weight, const double* __
 }  // namespace
 
 COAGULA_VARIANTS OrthoschemeAngles orthoscheme_angles(const ArcSides& sides, const std::array<double, 2>& heights) {
-    std::array<double, 8> a{}, b{}, c{};
+    alignas(64) double a[8] = {}, b[8] = {}, c[8] = {};
     for (std::size_t k = 0; k < 6; ++k) {
         a[k] = sides.a[k / 2];
         b[k] = sides.b[k / 2];
         c[k] = heights[k % 2];
     }
     OrthoschemeAngles angles;
-    for (std::size_t k = 0; k < 8; ++k) {
-        angles.d2[k] = std::sqrt(a[k] * a[k] + b[k] * b[k] + c[k] * c[k]);
-        angles.phi[k] = arctangent(c[k], b[k]);
-        angles.psi[k] = arctangent(a[k] * c[k], b[k] * angles.d2[k]);
+    double* d2 = angles.d2.data();
+    double* phi = angles.phi.data();
+    double* psi = angles.psi.data();
+#pragma omp simd
+    for (int k = 0; k < 8; ++k) {
+        d2[k] = std::sqrt(a[k] * a[k] + b[k] * b[k] + c[k] * c[k]);
+        phi[k] = arctangent(c[k], b[k]);
+        psi[k] = arctangent(a[k] * c[k], b[k] * d2[k]);
     }
     return angles;
 }
@@ -90,12 +95,13 @@ COAGULA_VARIANTS void sum_arc_terms(const ArcSides& sides, double start, double 
     alignas(64) double half_chord[most];
     for (int begin = 0; begin < blocks * arc_block; begin += most) {
         const int count = std::min(most, blocks * arc_block - begin);
+#pragma omp simd
         for (int k = 0; k < count; ++k) {
             rho[k] = start + step * static_cast<double>(begin + k);
             const double squared = (rho[k] - sides.d1) * (rho[k] + sides.d1);
             half_chord[k] = std::sqrt(squared > 0 ? squared : 0.0);
         }
-        std::fill_n(sum + begin, count, 0.0);
+        std::fill_n(sum + begin, static_cast<std::size_t>(count), 0.0);
         for (std::size_t side = 0; side < 3; ++side) {
             if (sides.weight[side] != 0) {
                 add_side(sides.a[side], sides.b[side], sides.weight[side], rho, half_chord, count, sum + begin);
