@@ -1,4 +1,4 @@
-#include "ball_orthoscheme.hpp"
+#include "arc_terms.hpp"
 #include "coverage.hpp"
 
 #include <vector>
@@ -22,17 +22,25 @@ public:
 
     /// Adds the orthoschemes of the counted sites around one edge. The two sites of a side see mirror images.
     void add(const EdgeGeometry& edge, const std::array<int, 3>& counted) {
-        std::array<double, 3> weight{};
+        ArcSides sides;
         for (std::size_t k = 0; k < 3; ++k) {
             const EdgeSide& side = edge.sides[k];
             const int sites = counted[static_cast<std::size_t>(side.first)] + counted[static_cast<std::size_t>(side.second)];
-            weight[k] = sites * sign(side.foot_distance);
-            if (weight[k] != 0) {
-                add_polynomials(side.first_distance, std::abs(side.foot_distance), edge.height[0], weight[k]);
-                add_polynomials(side.first_distance, std::abs(side.foot_distance), edge.height[1], weight[k]);
+            sides.a[k] = side.first_distance;
+            sides.b[k] = std::abs(side.foot_distance);
+            sides.weight[k] = sites * sign(side.foot_distance);
+        }
+        sides.d1 = std::sqrt(sides.a[0] * sides.a[0] + sides.b[0] * sides.b[0]);
+        const std::array<double, 2> heights = {std::abs(edge.height[0]), std::abs(edge.height[1])};
+        const OrthoschemeAngles angles = orthoscheme_angles(sides, heights);
+        for (std::size_t k = 0; k < 6; ++k) {
+            const double weight = sides.weight[k / 2] * sign(edge.height[k % 2]);
+            if (weight != 0) {
+                add_polynomials(sides.a[k / 2], sides.b[k / 2] * heights[k % 2], angles.d2[k], angles.phi[k], angles.psi[k],
+                                weight);
             }
         }
-        add_arcs(edge, weight);
+        add_arcs(edge, sides);
     }
 
     void add(const RadialSums& other) {
@@ -55,18 +63,10 @@ public:
     }
 
 private:
-    void add_polynomials(double a, double b, double height, double weight) {
-        const double c = std::abs(height);
-        weight *= sign(height);
-        if (weight == 0) {
-            return;
-        }
-        const double d2 = std::sqrt(a * a + b * b + c * c);
-        const double phi = std::atan2(c, b);
-        const double psi = std::atan2(a * c, b * d2);
+    void add_polynomials(double a, double bc, double d2, double phi, double psi, double weight) {
         const Eigen::Vector3d within_cone(0, 0, (phi - psi) / 3);
         const Eigen::Vector3d cut_by_plane(-phi * a * a * a / 6, phi * a / 2, -psi / 3);
-        const Eigen::Vector3d whole(a * b * c / 6, 0, 0);
+        const Eigen::Vector3d whole(a * bc / 6, 0, 0);
         coefficients_.col(0) += weight * within_cone;
         coefficients_.col(grid_.first_above(a)) += weight * (cut_by_plane - within_cone);
         coefficients_.col(grid_.first_above(d2)) += weight * (whole - cut_by_plane);
@@ -75,39 +75,33 @@ private:
 
     /// The arc terms do not depend on the heights, and d1 is the same for the three sides: ends on opposite sides of the plane of
     /// the sites cancel up to the smaller d2.
-    void add_arcs(const EdgeGeometry& edge, const std::array<double, 3>& weight) {
-        const double first_distance = edge.sides[0].first_distance;
-        const double squared_d1 = first_distance * first_distance + edge.sides[0].foot_distance * edge.sides[0].foot_distance;
-        const double d1 = std::sqrt(squared_d1);
+    void add_arcs(const EdgeGeometry& edge, const ArcSides& sides) {
+        const double squared_d1 = sides.a[0] * sides.a[0] + sides.b[0] * sides.b[0];
         std::array<Index, 2> last{};
         for (std::size_t which = 0; which < 2; ++which) {
             last[which] = grid_.first_above(std::sqrt(squared_d1 + edge.height[which] * edge.height[which]));
         }
         const std::array<double, 2> signs = {sign(edge.height[0]), sign(edge.height[1])};
         const bool cancel = signs[0] + signs[1] == 0;
-        const Index begin = cancel ? std::min(last[0], last[1]) : grid_.first_above(d1);
-        for (Index k = begin; k < std::max(last[0], last[1]); ++k) {
+        const Index begin = cancel ? std::min(last[0], last[1]) : grid_.first_above(sides.d1);
+        const Index end = std::max(last[0], last[1]);
+        if (begin >= end) {
+            return;
+        }
+        const auto blocks = static_cast<int>((end - begin + arc_block - 1) / arc_block);
+        terms_.resize(std::max(terms_.size(), static_cast<std::size_t>(blocks * arc_block)));
+        sum_arc_terms(sides, grid_[begin], grid_.step, blocks, terms_.data());
+        for (Index k = begin; k < end; ++k) {
             const double times = (k < last[0] ? signs[0] : 0.0) + (k < last[1] ? signs[1] : 0.0);
-            arcs_[k] += times * sum_arc_terms(edge, weight, grid_[k], d1);
+            arcs_[k] += times * terms_[static_cast<std::size_t>(k - begin)];
         }
-    }
-
-    static double sum_arc_terms(const EdgeGeometry& edge, const std::array<double, 3>& weight, double rho, double d1) {
-        const double half_chord = std::sqrt(std::max(0.0, (rho - d1) * (rho + d1)));
-        double sum = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (weight[k] != 0) {
-                const EdgeSide& side = edge.sides[k];
-                sum += weight[k] * arc_term(side.first_distance, std::abs(side.foot_distance), rho, half_chord);
-            }
-        }
-        return sum;
     }
 
     RadialGrid grid_;
     Eigen::Matrix3Xd coefficients_;  ///< of 1, rho^2, rho^3: changes at each radius
     Eigen::VectorXd arcs_;
-    double cells_ = 0;  ///< volume of the whole orthoschemes
+    double cells_ = 0;           ///< volume of the whole orthoschemes
+    std::vector<double> terms_;  ///< scratch
 };
 
 /// Some of the edges around the cells of one block.

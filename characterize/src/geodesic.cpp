@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <queue>
+#include <utility>
 
 namespace coagula::characterize {
 
@@ -11,68 +12,148 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Voxels by arrival time, earliest first, and those of equal time by number. Only those due next are kept as a heap; the others
+/// wait in bins of equal width.
+class Front {
+public:
+    using Entry = std::pair<double, std::int32_t>;  // time, voxel
+
+    explicit Front(double width) : inverse_width_(1 / width) {}
+
+    void push(double time, std::int32_t voxel) {
+        const auto bin = static_cast<std::size_t>(time * inverse_width_);
+        if (bin < next_) {
+            due_.push_back({time, voxel});
+            std::push_heap(due_.begin(), due_.end(), std::greater<>());
+            return;
+        }
+        if (bin >= later_.size()) {
+            later_.resize(bin + 1);
+        }
+        later_[bin].push_back({time, voxel});
+    }
+
+    bool is_empty() {
+        while (due_.empty() && next_ < later_.size()) {
+            due_ = std::move(later_[next_]);
+            later_[next_] = {};
+            std::make_heap(due_.begin(), due_.end(), std::greater<>());
+            ++next_;
+        }
+        return due_.empty();
+    }
+
+    /// Not of an empty front: ask first.
+    Entry pop() {
+        std::pop_heap(due_.begin(), due_.end(), std::greater<>());
+        const Entry entry = due_.back();
+        due_.pop_back();
+        return entry;
+    }
+
+private:
+    double inverse_width_;
+    std::size_t next_ = 0;  // the first bin that waits
+    std::vector<Entry> due_;
+    std::vector<std::vector<Entry>> later_;
+};
+
+/// A voxel and its place along the axes.
+struct Voxel {
+    std::int32_t number;
+    std::array<int, 3> place;
+};
+
 class FastMarching {
 public:
     FastMarching(const VoxelGrid& grid, const std::vector<double>& distances, int axis)
-        : grid_(grid), open_(distances), axis_(axis), time_(distances.size(), infinity), final_(distances.size(), 0) {
-        stride_ = {1, grid.count[0], static_cast<Index>(grid.count[0]) * grid.count[1]};
+        : grid_(grid),
+          axis_(static_cast<std::size_t>(axis)),
+          time_(distances.size()),
+          front_(grid.edge.minCoeff() / bins_per_voxel) {
+        std::transform(distances.begin(), distances.end(), time_.begin(), [](double d) { return d > 0 ? -infinity : infinity; });
+        std::int32_t stride = 1;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t count = grid.count[static_cast<Index>(k)];
+            edge_[k] = grid.edge[static_cast<Index>(k)];
+            step_[k][0].assign(static_cast<std::size_t>(count), -stride);
+            step_[k][1].assign(static_cast<std::size_t>(count), stride);
+            step_[k][0].front() = k == axis_ ? none : (count - 1) * stride;
+            step_[k][1].back() = k == axis_ ? none : -(count - 1) * stride;
+            stride *= count;
+        }
     }
 
     double mean_path() {
-        for (Index voxel = 0; voxel < grid_.voxels(); ++voxel) {
-            if (place_of(voxel, axis_) == 0) {
-                offer(voxel, grid_.edge[axis_] / 2);
-            }
-        }
-        while (!front_.empty()) {
-            const auto [time, voxel] = front_.top();
-            front_.pop();
-            if (final_[static_cast<std::size_t>(voxel)] == 0) {
-                final_[static_cast<std::size_t>(voxel)] = 1;
-                pass_on(voxel);
+        for_plane(0, [&](std::int32_t voxel) { offer(voxel, edge_[axis_] / 2); });
+        while (!front_.is_empty()) {
+            const auto [time, number] = front_.pop();
+            double& known = time_[static_cast<std::size_t>(number)];
+            if (known < 0) {
+                known = time;
+                pass_on(voxel_at(number));
             }
         }
         double sum = 0, count = 0;
-        for (Index voxel = 0; voxel < grid_.voxels(); ++voxel) {
+        for_plane(grid_.count[static_cast<Index>(axis_)] - 1, [&](std::int32_t voxel) {
             const double time = time_[static_cast<std::size_t>(voxel)];
-            if (place_of(voxel, axis_) == grid_.count[axis_] - 1 && time < infinity) {
-                sum += time + grid_.edge[axis_] / 2;
+            if (time > 0 && time < infinity) {
+                sum += time + edge_[axis_] / 2;
                 count += 1;
             }
-        }
+        });
         return count > 0 ? sum / count : infinity;
     }
 
 private:
-    int place_of(Index voxel, int axis) const {
-        return static_cast<int>(voxel / stride_[static_cast<std::size_t>(axis)] % grid_.count[axis]);
+    static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
+    static constexpr double bins_per_voxel = 16;
+
+    Voxel voxel_at(std::int32_t number) const {
+        const int row = number / grid_.count[0];
+        return {number, {number - row * grid_.count[0], row % grid_.count[1], row / grid_.count[1]}};
     }
 
-    /// The next voxel along an axis, or -1 beyond the first and last plane.
-    Index neighbour(Index voxel, int axis, int side) const {
-        const int place = place_of(voxel, axis);
-        const int count = grid_.count[axis];
-        const Index stride = stride_[static_cast<std::size_t>(axis)];
-        if (place + side >= 0 && place + side < count) {
-            return voxel + side * stride;
-        }
-        return axis == axis_ ? -1 : voxel - side * (count - 1) * stride;
-    }
-
-    void offer(Index voxel, double time) {
-        const auto k = static_cast<std::size_t>(voxel);
-        if (open_[k] > 0 && time < time_[k]) {
-            time_[k] = time;
-            front_.push({time, voxel});
+    /// Calls visit(number) for the voxels of one layer across the axis, in the order of their numbers.
+    template <class Visit>
+    void for_plane(int layer, Visit&& visit) const {
+        for (std::int32_t voxel = 0; voxel < grid_.voxels(); ++voxel) {
+            if (voxel_at(voxel).place[axis_] == layer) {
+                visit(voxel);
+            }
         }
     }
 
-    void pass_on(Index voxel) {
-        for (int axis = 0; axis < 3; ++axis) {
-            for (const int side : {-1, 1}) {
-                const Index other = neighbour(voxel, axis, side);
-                if (other >= 0 && final_[static_cast<std::size_t>(other)] == 0 && open_[static_cast<std::size_t>(other)] > 0) {
-                    offer(other, arrival(other));
+    /// How far the number of the next voxel along an axis is; none beyond the first and last layer.
+    std::int32_t step(const Voxel& voxel, std::size_t axis, std::size_t side) const {
+        return step_[axis][side][static_cast<std::size_t>(voxel.place[axis])];
+    }
+
+    Voxel moved(Voxel voxel, std::size_t axis, std::size_t side) const {
+        const int last = grid_.count[static_cast<Index>(axis)] - 1;
+        int& place = voxel.place[axis];
+        voxel.number += step(voxel, axis, side);
+        place = side == 0 ? (place == 0 ? last : place - 1) : (place == last ? 0 : place + 1);
+        return voxel;
+    }
+
+    void offer(std::int32_t voxel, double time) {
+        double& known = time_[static_cast<std::size_t>(voxel)];
+        if (time < -known) {
+            known = -time;
+            front_.push(time, voxel);
+        }
+    }
+
+    void pass_on(const Voxel& voxel) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t side = 0; side < 2; ++side) {
+                if (step(voxel, axis, side) == none) {
+                    continue;
+                }
+                const Voxel other = moved(voxel, axis, side);
+                if (time_[static_cast<std::size_t>(other.number)] < 0) {
+                    offer(other.number, arrival(other));
                 }
             }
         }
@@ -86,19 +167,23 @@ private:
         bool operator<(const Upwind& other) const { return time < other.time; }
     };
 
-    double final_time(Index voxel) const {
-        return voxel >= 0 && final_[static_cast<std::size_t>(voxel)] != 0 ? time_[static_cast<std::size_t>(voxel)] : infinity;
+    double final_time(const Voxel& voxel, std::size_t axis, std::size_t side) const {
+        const std::int32_t distance = step(voxel, axis, side);
+        if (distance == none) {
+            return infinity;
+        }
+        const double time = time_[static_cast<std::size_t>(voxel.number + distance)];
+        return time > 0 ? time : infinity;
     }
 
     /// Of second order where the voxel behind the neighbour is earlier still, (3 t - 4 t1 + t2) / (2 edge); else of first order.
-    Upwind upwind(Index voxel, int axis) const {
-        const double inverse = 1 / (grid_.edge[axis] * grid_.edge[axis]);
+    Upwind upwind(const Voxel& voxel, std::size_t axis) const {
+        const double inverse = 1 / (edge_[axis] * edge_[axis]);
         Upwind best;
-        for (const int side : {-1, 1}) {
-            const Index next = neighbour(voxel, axis, side);
-            const double near = final_time(next);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const double near = final_time(voxel, axis, side);
             if (near < best.time) {
-                const double far = final_time(neighbour(next, axis, side));
+                const double far = final_time(moved(voxel, axis, side), axis, side);
                 best = far <= near ? Upwind{near + (near - far) / 3, 2.25 * inverse} : Upwind{near, inverse};
             }
         }
@@ -106,7 +191,7 @@ private:
     }
 
     /// Solves sum_axis ((t - t_axis) / edge)^2 = 1 over the earlier neighbours.
-    double arrival(Index voxel) const {
+    double arrival(const Voxel& voxel) const {
         std::array<Upwind, 3> earlier = {upwind(voxel, 0), upwind(voxel, 1), upwind(voxel, 2)};
         std::sort(earlier.begin(), earlier.end());
         double a = 0, b = 0, c = -1, found = infinity;
@@ -127,13 +212,12 @@ private:
     }
 
     const VoxelGrid& grid_;
-    const std::vector<double>& open_;
-    int axis_;
-    std::array<Index, 3> stride_;
+    std::size_t axis_;
+    std::array<double, 3> edge_{};
+    std::array<std::array<std::vector<std::int32_t>, 2>, 3> step_;
+    /// Arrival of the front. Negative: the earliest one so far, or -infinity, of a voxel that it has not passed; infinite: closed.
     std::vector<double> time_;
-    std::vector<char> final_;
-    using Entry = std::pair<double, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front_;
+    Front front_;
 };
 
 }  // namespace

@@ -15,13 +15,15 @@ namespace {
 constexpr double first_shift = 1e-12;     // of the factor that names the candidates; stiffness of a contact is 1
 constexpr double first_threshold = 1e-5;  // pivots below it make a candidate
 constexpr double last_threshold = 1e-1;
+constexpr Index most_sought = 64;  // motions for which the best unknowns are sought, instead of those with small pivots
+constexpr int shifted_iterations = 2;
 constexpr int first_sketch = 16;  // random combinations that decide the rank
 constexpr int last_sketch = 256;
 constexpr int refinements = 2;
 constexpr int inverse_iterations = 4;
 constexpr int inverse_vectors = 12;
 constexpr int most_exchanges = 8;
-constexpr double well_conditioned = 1e-4;  // singular values above it do not harm
+constexpr double well_conditioned = 2e-5;  // singular values above it do not harm
 
 /// What random numbers are drawn for; different ones never share a number.
 enum class Draw : std::uint64_t { sketch, inverse_iteration, motions };
@@ -50,13 +52,6 @@ Eigen::MatrixXd rows_where(Eigen::MatrixXd matrix, const std::vector<bool>& pinn
     return matrix;
 }
 
-/// Moves the unknowns that are not pinned so that |A x| becomes least, with iterative refinement.
-void relax(const RigidityMatrix& matrix, const CholeskyFactor& factor, const std::vector<bool>& pinned, Eigen::MatrixXd& x) {
-    for (int k = 0; k < refinements; ++k) {
-        x -= factor.solve(rows_where(matrix.apply_transposed(matrix.apply(x)), pinned, false));
-    }
-}
-
 double largest_ratio(const Eigen::MatrixXd& numerator, const Eigen::MatrixXd& denominator) {
     return denominator.cols() == 0 ? 0.0 : (numerator.colwise().norm().array() / denominator.colwise().norm().array()).maxCoeff();
 }
@@ -69,7 +64,7 @@ struct SoftMotions {
     double smallest() const { return value.size() > 0 ? value[value.size() - 1] : unset; }
 };
 
-SoftMotions softest(const RigidityMatrix& matrix, const NullSpace& space, std::uint64_t seed) {
+SoftMotions softest(const SparseMap& matrix, const NullSpace& space, std::uint64_t seed) {
     const Index free = std::count(space.pinned.begin(), space.pinned.end(), false);
     const Index count = std::min<Index>(inverse_vectors, free);
     Eigen::MatrixXd x = rows_where(random_matrix(matrix.unknowns(), count, Draw::inverse_iteration, seed), space.pinned, false);
@@ -101,7 +96,7 @@ std::vector<Index> spanning_unknowns(const Eigen::MatrixXd& vectors, const std::
 /// Chooses what to pin.
 class RankDecision {
 public:
-    RankDecision(const RigidityMatrix& matrix, const RigidityOptions& options)
+    RankDecision(const SparseMap& matrix, const RigidityOptions& options)
         : matrix_(matrix), options_(options), order_(matrix.elimination_order()) {
         const double memory = 2 * order_.predicted_memory();
         if (memory > options.memory_limit) {
@@ -111,13 +106,12 @@ public:
         }
     }
 
-    NullSpace run(const Progress& progress) {
+    NullSpace run(const std::vector<bool>& guess, const Progress& progress) {
         progress.update("rank of the rigidity matrix", 0.0);
-        const Eigen::VectorXd pivots = first_pivots();
+        const Pivots pivots = first_pivots(guess);
         for (double threshold = first_threshold; threshold <= last_threshold; threshold *= 10) {
             NullSpace space;
-            space.pinned.resize(static_cast<std::size_t>(pivots.size()));
-            std::transform(pivots.begin(), pivots.end(), space.pinned.begin(), [=](double p) { return p < threshold; });
+            space.pinned = threshold == first_threshold ? pivots.best : pivots.below(threshold, guess);
             try {
                 progress.update("rank of the rigidity matrix", 0.2);
                 decide(space);
@@ -138,6 +132,10 @@ private:
     /// Too many unknowns are pinned: finds out which.
     void decide(NullSpace& space) const {
         space.factor = factorise(space.pinned);
+        unpin_surplus(space);
+    }
+
+    void unpin_surplus(NullSpace& space) const {
         if (unpin_independent(space)) {
             space.factor = factorise(space.pinned);
         }
@@ -161,25 +159,59 @@ private:
         space.smallest_nonzero = soft.smallest();
     }
 
+    /// What a factor with a small shift tells.
+    struct Pivots {
+        Eigen::VectorXd value;   ///< of each unknown
+        std::vector<bool> best;  ///< the guessed unknowns and as many more as have pivots below first_threshold
+
+        std::vector<bool> below(double threshold, const std::vector<bool>& guess) const {
+            std::vector<bool> pinned(guess.size());
+            std::transform(value.begin(), value.end(), guess.begin(), pinned.begin(),
+                           [=](double pivot, bool is_guessed) { return is_guessed || pivot < threshold; });
+            return pinned;
+        }
+    };
+
     /// A column that depends on those eliminated before has a pivot of shift |x|^2, x the null vector that it makes with them.
-    Eigen::VectorXd first_pivots() const {
-        const std::vector<bool> nothing(static_cast<std::size_t>(matrix_.unknowns()), false);
-        const CholeskyFactor factor(matrix_.gram(first_shift, nothing), order_);
+    Pivots first_pivots(const std::vector<bool>& guess) const {
+        const CholeskyFactor factor(matrix_.gram(first_shift, guess), order_);
         const std::vector<int> unknown = factor.permutation();
-        Eigen::VectorXd pivots(matrix_.unknowns());
+        Pivots pivots{Eigen::VectorXd(matrix_.unknowns()), {}};
         factor.for_each_supernode([&](const CholeskyFactor::SupernodeView& node) {
             for (int column = 0; column < node.columns; ++column) {
                 const double root = node.value[static_cast<std::ptrdiff_t>(column) * (node.rows + 1)];
-                pivots[unknown[static_cast<std::size_t>(node.first_column + column)]] = root * root;
+                pivots.value[unknown[static_cast<std::size_t>(node.first_column + column)]] = root * root;
             }
         });
+        pivots.best = pivots.below(first_threshold, guess);
+        const Index missing =
+            std::count(pivots.best.begin(), pivots.best.end(), true) - std::count(guess.begin(), guess.end(), true);
+        if (missing > 0 && missing <= most_sought) {
+            pivots.best = guess;
+            for (const Index column : spanning_unknowns(shifted_softest(factor, guess, missing), guess, false)) {
+                pivots.best[static_cast<std::size_t>(column)] = true;
+            }
+        }
         return pivots;
+    }
+
+    /// The motions of least stiffness; the shift makes those without any stand out by many orders of magnitude.
+    Eigen::MatrixXd shifted_softest(const CholeskyFactor& factor, const std::vector<bool>& pinned, Index count) const {
+        Eigen::MatrixXd x = rows_where(random_matrix(matrix_.unknowns(), count, Draw::motions, options_.seed), pinned, false);
+        for (int k = 0; k < shifted_iterations; ++k) {
+            const Eigen::HouseholderQR<Eigen::MatrixXd> qr(factor.solve(x));
+            x = qr.householderQ() * Eigen::MatrixXd::Identity(matrix_.unknowns(), count);
+        }
+        return x;
     }
 
     /// The part R of the pinned columns that is orthogonal to all others tells how many of them are independent after all. Its rank
     /// shows in random combinations of its columns (Halko, Martinsson and Tropp, SIAM Rev. 53 (2011) 217), squared nowhere.
     /// Returns whether some were unpinned.
     bool unpin_independent(NullSpace& space) const {
+        if (std::none_of(space.pinned.begin(), space.pinned.end(), [](bool is_pinned) { return is_pinned; })) {
+            return false;
+        }
         for (int sketch = first_sketch;; sketch *= 2) {
             Eigen::MatrixXd x =
                 rows_where(random_matrix(matrix_.unknowns(), sketch, Draw::sketch, options_.seed), space.pinned, true);
@@ -211,25 +243,36 @@ private:
         }
     }
 
-    const RigidityMatrix& matrix_;
+    const SparseMap& matrix_;
     const RigidityOptions& options_;
     EliminationOrder order_;
 };
 
 }  // namespace
 
-NullSpace find_null_space(const RigidityMatrix& matrix, const RigidityOptions& options, const Progress& progress) {
-    if (matrix.contacts() == 0) {
-        NullSpace all;
-        all.dimension = matrix.unknowns();
-        all.pinned.assign(static_cast<std::size_t>(all.dimension), true);
-        all.motions = random_matrix(all.dimension, options.random_motions, Draw::motions, options.seed);
-        return all;
+void relax(const SparseMap& matrix, const CholeskyFactor& factor, const std::vector<bool>& pinned, Eigen::MatrixXd& x) {
+    for (int k = 0; k < refinements; ++k) {
+        x -= factor.solve(rows_where(matrix.apply_transposed(matrix.apply(x)), pinned, false));
     }
-    NullSpace space = RankDecision(matrix, options).run(progress);
+}
+
+Eigen::MatrixXd random_motions(Index unknowns, const RigidityOptions& options) {
+    return random_matrix(unknowns, options.random_motions, Draw::motions, options.seed);
+}
+
+NullSpace whole_space(Index unknowns, const RigidityOptions& options) {
+    NullSpace all;
+    all.dimension = unknowns;
+    all.pinned.assign(static_cast<std::size_t>(all.dimension), true);
+    all.motions = random_motions(unknowns, options);
+    return all;
+}
+
+NullSpace find_null_space(const SparseMap& matrix, const std::vector<bool>& guess, const RigidityOptions& options,
+                          const Progress& progress) {
+    NullSpace space = RankDecision(matrix, options).run(guess, progress);
     space.dimension = std::count(space.pinned.begin(), space.pinned.end(), true);
-    space.motions =
-        rows_where(random_matrix(matrix.unknowns(), options.random_motions, Draw::motions, options.seed), space.pinned, true);
+    space.motions = rows_where(random_motions(matrix.unknowns(), options), space.pinned, true);
     relax(matrix, *space.factor, space.pinned, space.motions);
     space.largest_zero = largest_ratio(matrix.apply(space.motions), space.motions);
     return space;

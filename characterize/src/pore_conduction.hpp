@@ -9,10 +9,11 @@
 
 namespace coagula::characterize {
 
-/// Conductances between the voxels of a periodic grid and the next along each axis.
+/// Conductances between the voxels of a periodic grid and the next along each axis. In single precision: the open fractions that
+/// they follow from are far less certain, and memory is what the solver waits for.
 struct FaceConductances {
     Eigen::Array3i count;
-    std::array<Eigen::ArrayXd, 3> of_face;
+    std::array<Eigen::ArrayXf, 3> of_face;
 };
 
 /// Of voxels with open faces, for a liquid of unit conductivity.
@@ -23,20 +24,21 @@ public:
     explicit ConductionSolver(FaceConductances conductances);
 
     /// The periodic part u of the potential x + u under a unit gradient along one axis.
-    /// @param spacing of the voxels along that axis. @param tolerance of the residual, relative.
-    Eigen::ArrayXd solve(int axis, double spacing, double tolerance) const;
+    /// @param spacing of the voxels along that axis. @param tolerance of the potential in the norm of the power, relative: that of
+    /// the power itself is its square.
+    Eigen::ArrayXf solve(int axis, double spacing, double tolerance) const;
 
     /// Power sum g (drop)^2 under that potential.
-    static double power(const FaceConductances& conductances, const Eigen::ArrayXd& potential, int axis, double spacing);
+    static double power(const FaceConductances& conductances, const Eigen::ArrayXf& potential, int axis, double spacing);
 
 private:
     /// One grid of the hierarchy; the next has voxels twice as large.
     struct Level {
         FaceConductances conductances;
-        Eigen::ArrayXd inverse_diagonal;  ///< 0 for voxels without an open face
+        Eigen::ArrayXf inverse_diagonal;  ///< 0 for voxels without an open face
     };
 
-    Eigen::ArrayXd precondition(std::size_t level, const Eigen::ArrayXd& residual) const;
+    Eigen::ArrayXf precondition(std::size_t level, const Eigen::ArrayXf& residual) const;
 
     std::vector<Level> levels_;
 };

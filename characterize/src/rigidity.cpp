@@ -1,9 +1,11 @@
 #include <coagula/characterize/rigidity.hpp>
 
+#include "local_motions.hpp"
 #include "null_space.hpp"
 #include "rigid_clusters.hpp"
 #include "rigidity_matrix.hpp"
 #include "selected_inverse.hpp"
+#include "self_stress.hpp"
 
 #include <coagula/characterize/coordination.hpp>
 #include <coagula/common/blas_threads.hpp>
@@ -18,7 +20,7 @@ namespace coagula::characterize {
 
 namespace {
 
-constexpr int blas_threads = 1;  // fixed: the bits of a factor depend on it
+constexpr int blas_threads = 2;  // fixed: the bits of a factor depend on it
 
 void check(const Packing& packing, const ContactNetwork& contacts, const RigidityOptions& options) {
     coagula::check(packing);
@@ -52,11 +54,25 @@ Eigen::MatrixXd leverage(const RigidityMatrix& matrix, const SelectedInverse& in
     return sum;
 }
 
+/// From the redundancy of each contact.
+void share_redundancies(const ContactNetwork& contacts, Index freedoms, Index rows, Rigidity& result) {
+    result.particle_redundancy = Eigen::VectorXd::Zero(contacts.particles);
+    result.particle_freedom = Eigen::VectorXd::Constant(contacts.particles, static_cast<double>(freedoms));
+    result.trace_defect = std::abs(result.contact_redundancy.sum() - static_cast<double>(result.self_stresses));
+    result.contact_redundancy = result.contact_redundancy.cwiseMax(0.0);  // rounding errors
+    result.normal_redundancy = result.normal_redundancy.cwiseMax(0.0);
+    for (Index contact = 0; contact < contacts.size(); ++contact) {
+        const double half = 0.5 * result.contact_redundancy[contact];
+        for (int end = 0; end < 2; ++end) {
+            result.particle_redundancy[contacts.ends(end, contact)] += half;
+            result.particle_freedom[contacts.ends(end, contact)] += half - 0.5 * static_cast<double>(rows);
+        }
+    }
+}
+
 void find_redundancies(const RigidityMatrix& matrix, const NullSpace& space, const ContactNetwork& contacts, Rigidity& result) {
     result.contact_redundancy = Eigen::VectorXd::Zero(contacts.size());
     result.normal_redundancy = Eigen::VectorXd::Zero(contacts.size());
-    result.particle_redundancy = Eigen::VectorXd::Zero(contacts.particles);
-    result.particle_freedom = Eigen::VectorXd::Constant(contacts.particles, static_cast<double>(matrix.freedoms()));
     if (contacts.size() == 0) {
         return;
     }
@@ -69,28 +85,14 @@ void find_redundancies(const RigidityMatrix& matrix, const NullSpace& space, con
         const Eigen::Vector3d normal = contacts.branch.col(contact).normalized();
         result.normal_redundancy[contact] = rows == 1 ? redundancy(0, 0) : normal.dot(redundancy * normal);
     }
-    result.trace_defect = std::abs(result.contact_redundancy.sum() - static_cast<double>(result.self_stresses));
-    result.contact_redundancy = result.contact_redundancy.cwiseMax(0.0);  // rounding errors
-    result.normal_redundancy = result.normal_redundancy.cwiseMax(0.0);
-    for (Index contact = 0; contact < contacts.size(); ++contact) {
-        const double half = 0.5 * result.contact_redundancy[contact];
-        for (int end = 0; end < 2; ++end) {
-            result.particle_redundancy[contacts.ends(end, contact)] += half;
-            result.particle_freedom[contacts.ends(end, contact)] += half - 0.5 * static_cast<double>(matrix.rows_per_contact());
-        }
-    }
 }
 
-void count_modes(const Packing& packing, const ContactNetwork& contacts, const RigidityMatrix& matrix, const NullSpace& space,
-                 Rigidity& result) {
+void count_modes(const Packing& packing, const ContactNetwork& contacts, const RigidityMatrix& matrix, Rigidity& result) {
     result.unknowns = matrix.unknowns();
     result.constraints = matrix.constraints();
-    result.rank = result.unknowns - space.dimension;
     result.self_stresses = result.constraints - result.rank;
     result.rigid_motions = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(rigid_motions(packing, matrix)).rank();
-    result.floppy_modes = space.dimension - result.rigid_motions;
-    result.largest_zero = space.largest_zero;
-    result.smallest_nonzero = space.smallest_nonzero;
+    result.floppy_modes = result.unknowns - result.rank - result.rigid_motions;
     const Eigen::VectorXi left = prune_rattlers(contacts);
     result.rattlers = (left.array() < 0).count();
     Index removed = 0;
@@ -111,6 +113,36 @@ void share_self_stress(const ContactNetwork& contacts, Rigidity& result) {
     }
 }
 
+/// Rank, checks and redundancies by way of the states of self-stress; whether there are few enough.
+bool measure_by_self_stress(const RigidityMatrix& matrix, const RigidityOptions& options, const Progress& progress,
+                            Rigidity& result) {
+    const std::optional<SelfStress> found = find_self_stress(matrix, options, progress);
+    if (!found) {
+        return false;
+    }
+    result.rank = matrix.constraints() - found->dimension;
+    result.largest_zero = found->largest_zero;
+    result.smallest_nonzero = found->smallest_nonzero;
+    result.contact_redundancy = result.normal_redundancy = found->redundancy;
+    return true;
+}
+
+/// The same by way of the floppy motions, which tell rigid clusters apart, too.
+void measure_by_motions(const Packing& packing, const ContactNetwork& contacts, const RigidityMatrix& matrix,
+                        const RigidityOptions& options, const Progress& progress, Rigidity& result) {
+    const NullSpace space = matrix.contacts() > 0
+                                ? find_null_space(matrix, guess_pinned(matrix, !packing.cell.is_periodic()), options, progress)
+                                : whole_space(matrix.unknowns(), options);
+    result.rank = matrix.unknowns() - space.dimension;
+    result.largest_zero = space.largest_zero;
+    result.smallest_nonzero = space.smallest_nonzero;
+    progress.update("local redundancy", 0.6);
+    find_redundancies(matrix, space, contacts, result);
+    if (options.bonds == Bonds::normal_and_shear) {
+        result.rigid = find_rigid_clusters(packing, contacts, space.motions, options.rigid_tolerance);
+    }
+}
+
 }  // namespace
 
 Rigidity measure_rigidity(const Packing& packing, const ContactNetwork& contacts, const RigidityOptions& options,
@@ -118,13 +150,14 @@ Rigidity measure_rigidity(const Packing& packing, const ContactNetwork& contacts
     check(packing, contacts, options);
     const BlasThreads threads(blas_threads);
     const RigidityMatrix matrix(packing, contacts, options.bonds);
-    const NullSpace space = find_null_space(matrix, options, progress);
     Rigidity result;
-    count_modes(packing, contacts, matrix, space, result);
-    progress.update("local redundancy", 0.6);
-    find_redundancies(matrix, space, contacts, result);
+    const bool is_loose = options.bonds == Bonds::central && matrix.contacts() > 0 && matrix.constraints() < matrix.unknowns();
+    if (!is_loose || !measure_by_self_stress(matrix, options, progress, result)) {
+        measure_by_motions(packing, contacts, matrix, options, progress, result);
+    }
+    count_modes(packing, contacts, matrix, result);
+    share_redundancies(contacts, matrix.freedoms(), matrix.rows_per_contact(), result);
     if (options.bonds == Bonds::normal_and_shear) {
-        result.rigid = find_rigid_clusters(packing, contacts, space.motions, options.rigid_tolerance);
         share_self_stress(contacts, result);
     }
     return result;

@@ -22,6 +22,22 @@ RigidityMatrix::End end_matrix(Bonds bonds, double sign, double arm, const Eigen
     return end;
 }
 
+/// @param pairs of blocks that share an entry: first <= second.
+EliminationOrder order_of(Index blocks, std::vector<std::pair<Index, Index>> pairs, Index block_size) {
+    for (Index k = 0; k < blocks; ++k) {
+        pairs.emplace_back(k, k);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    std::vector<Index> start(static_cast<std::size_t>(blocks) + 1, 0);
+    std::vector<Index> row;
+    for (const auto& [column, other] : pairs) {
+        row.push_back(other);
+        start[static_cast<std::size_t>(column) + 1] = static_cast<Index>(row.size());
+    }
+    return {start, row, static_cast<int>(block_size), Ordering::nested_dissection};
+}
+
 }  // namespace
 
 RigidityMatrix::RigidityMatrix(const Packing& packing, const ContactNetwork& contacts, Bonds bonds)
@@ -92,22 +108,58 @@ Eigen::SparseMatrix<double> RigidityMatrix::gram(double shift, const std::vector
 }
 
 EliminationOrder RigidityMatrix::elimination_order() const {
-    std::vector<std::pair<Index, Index>> pairs;  // column, row
-    for (Index k = 0; k < particles_; ++k) {
-        pairs.emplace_back(k, k);
-    }
+    std::vector<std::pair<Index, Index>> pairs;
     for (Index contact = 0; contact < contacts(); ++contact) {
         pairs.emplace_back(std::minmax<Index>(particle(contact, 0), particle(contact, 1)));
     }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    std::vector<Index> start(static_cast<std::size_t>(particles_) + 1, 0);
-    std::vector<Index> row;
-    for (const auto& [column, other] : pairs) {
-        row.push_back(other);
-        start[static_cast<std::size_t>(column) + 1] = static_cast<Index>(row.size());
+    return order_of(particles_, std::move(pairs), freedoms_);
+}
+
+LoadMatrix::LoadMatrix(const RigidityMatrix& motion) : motion_(motion), touches_(static_cast<std::size_t>(motion.particles())) {
+    for (Index contact = 0; contact < motion.contacts(); ++contact) {
+        for (int end = 0; end < 2; ++end) {
+            touches_[static_cast<std::size_t>(motion.particle(contact, end))].push_back({contact, end});
+        }
     }
-    return {start, row, static_cast<int>(freedoms_), Ordering::nested_dissection};
+}
+
+Eigen::SparseMatrix<double> LoadMatrix::gram(double shift, const std::vector<bool>& pinned) const {
+    const Index rows = motion_.rows_per_contact();
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index unknown = 0; unknown < unknowns(); ++unknown) {
+        const auto place = static_cast<int>(unknown);
+        entries.emplace_back(place, place, pinned[static_cast<std::size_t>(unknown)] ? 1.0 : shift);
+    }
+    for (const std::vector<Touch>& touches : touches_) {
+        for (const Touch& one : touches) {
+            for (const Touch& other : touches) {
+                const RigidityMatrix::End& end = motion_.end(one.contact, one.end);
+                const Eigen::MatrixXd block = end * motion_.end(other.contact, other.end).transpose();
+                for (Index entry = 0; entry < rows * rows; ++entry) {
+                    const Index row = rows * one.contact + entry % rows;
+                    const Index column = rows * other.contact + entry / rows;
+                    if (row >= column && !pinned[static_cast<std::size_t>(row)] && !pinned[static_cast<std::size_t>(column)]) {
+                        entries.emplace_back(static_cast<int>(row), static_cast<int>(column), block(entry % rows, entry / rows));
+                    }
+                }
+            }
+        }
+    }
+    Eigen::SparseMatrix<double> lower(unknowns(), unknowns());
+    lower.setFromTriplets(entries.begin(), entries.end());
+    return lower;
+}
+
+EliminationOrder LoadMatrix::elimination_order() const {
+    std::vector<std::pair<Index, Index>> pairs;
+    for (const std::vector<Touch>& touches : touches_) {
+        for (std::size_t one = 0; one < touches.size(); ++one) {
+            for (std::size_t other = one + 1; other < touches.size(); ++other) {
+                pairs.emplace_back(touches[one].contact, touches[other].contact);
+            }
+        }
+    }
+    return order_of(motion_.contacts(), std::move(pairs), motion_.rows_per_contact());
 }
 
 Eigen::MatrixXd rigid_motions(const Packing& packing, const RigidityMatrix& matrix) {

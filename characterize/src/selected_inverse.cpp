@@ -22,6 +22,7 @@ namespace {
 constexpr double zero = 0;
 constexpr double one = 1;
 constexpr double minus_one = -1;
+constexpr int panel_columns = 192;
 
 std::size_t area(int rows, int columns) {
     return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
@@ -55,32 +56,62 @@ void SelectedInverse::copy_pattern(const CholeskyFactor& factor) {
     }
 }
 
-/// @param scratch for Y, Z_RR and L_JJ^-1.
+/// Columns are taken in panels from the last to the first, so that a wide node costs no more than its share of the factor times
+/// two.
+/// @param scratch for Z_RR, and Y and L_JJ^-1 of a panel.
 void SelectedInverse::invert(const Node& node, const double* factor, std::vector<double>& scratch) {
-    const int n = node.columns;
-    const int below = node.rows - n;
-    scratch.resize(std::max(scratch.size(), area(below, n) + area(below, below) + area(n, n)));
-    double* y = scratch.data();
-    double* ancestors = y + area(below, n);
-    double* inverse = ancestors + area(below, below);
-    double* z = values_.data() + node.value_start;
+    const int below = node.rows - node.columns;
+    const auto panel = static_cast<std::size_t>(panel_columns);
+    const std::size_t needed = area(below, below) + area(node.rows, panel_columns) + panel * panel;
+    scratch.resize(std::max(scratch.size(), needed));
+    gather(node, scratch.data());
+    for (int end = node.columns; end > 0;) {
+        const int begin = (end - 1) / panel_columns * panel_columns;
+        invert_panel(node, begin, end, factor, scratch);
+        end = begin;
+    }
+}
+
+/// The rows below the panel are K, the node's later columns, and R: Z_KJ = -(Z_KK Y_K + Z_RK^T Y_R), Z_RJ = -(Z_RK Y_K + Z_RR Y_R).
+void SelectedInverse::invert_panel(const Node& node, int begin, int end, const double* factor, std::vector<double>& scratch) {
+    const int ld = node.rows;
+    const int n = end - begin;
+    const int later = node.columns - end;
+    const int below = node.rows - node.columns;
+    const int rest = later + below;
+    const double* ancestors = scratch.data();
+    double* y = scratch.data() + area(below, below);
+    double* inverse = y + area(node.rows, panel_columns);
+    const double* l = factor + area(ld, begin) + begin;
+    double* z = values_.data() + node.value_start + area(ld, begin) + begin;
 
     std::fill(inverse, inverse + area(n, n), 0.0);
     for (int k = 0; k < n; ++k) {
         inverse[area(n + 1, k)] = 1;
+        std::copy_n(l + area(ld, k) + n, rest, y + area(rest, k));
     }
-    dtrsm_("L", "L", "N", "N", &n, &n, &one, factor, &node.rows, inverse, &n);
-    dgemm_("T", "N", &n, &n, &n, &one, inverse, &n, inverse, &n, &zero, z, &node.rows);
-    if (below == 0) {
+    dtrsm_("L", "L", "N", "N", &n, &n, &one, l, &ld, inverse, &n);
+    dgemm_("T", "N", &n, &n, &n, &one, inverse, &n, inverse, &n, &zero, z, &ld);
+    if (rest == 0) {
         return;
     }
-    for (int k = 0; k < n; ++k) {
-        std::copy_n(factor + area(node.rows, k) + n, below, y + area(below, k));
+    dtrsm_("R", "L", "N", "N", &rest, &n, &one, l, &ld, y, &rest);
+    double* z_k = z + n;
+    double* z_r = z_k + later;
+    const double* y_r = y + later;
+    if (below > 0) {
+        dsymm_("L", "L", &below, &n, &minus_one, ancestors, &below, y_r, &rest, &zero, z_r, &ld);
     }
-    dtrsm_("R", "L", "N", "N", &below, &n, &one, factor, &node.rows, y, &below);
-    gather(node, ancestors);
-    dsymm_("L", "L", &below, &n, &minus_one, ancestors, &below, y, &below, &zero, z + n, &node.rows);
-    dgemm_("T", "N", &n, &n, &below, &minus_one, y, &below, z + n, &node.rows, &one, z, &node.rows);
+    if (later > 0) {
+        const double* z_kk = z + area(ld, n) + n;
+        const double* z_rk = z_kk + later;
+        dsymm_("L", "L", &later, &n, &minus_one, z_kk, &ld, y, &rest, &zero, z_k, &ld);
+        if (below > 0) {
+            dgemm_("T", "N", &later, &n, &below, &minus_one, z_rk, &ld, y_r, &rest, &one, z_k, &ld);
+            dgemm_("N", "N", &below, &n, &later, &minus_one, z_rk, &ld, y, &rest, &one, z_r, &ld);
+        }
+    }
+    dgemm_("T", "N", &n, &n, &rest, &minus_one, y, &rest, z_k, &ld, &one, z, &ld);
 }
 
 /// Lower triangle of Z_RR: every row of R below the first is in the pattern of the columns of R before it.

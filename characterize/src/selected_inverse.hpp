@@ -29,6 +29,7 @@ private:
 
     void copy_pattern(const CholeskyFactor& factor);
     void invert(const Node& node, const double* factor, std::vector<double>& scratch);
+    void invert_panel(const Node& node, int begin, int end, const double* factor, std::vector<double>& scratch);
     void gather(const Node& node, double* below) const;
 
     std::vector<Node> nodes_;

@@ -72,7 +72,10 @@ std::vector<double> surface_distances(const Packing& packing, const VoxelGrid& g
                 for (int x = low[0]; x <= high[0]; ++x) {
                     const double dx = (x + offset) * grid.edge[0] - centre[0];
                     double& least = distance[static_cast<std::size_t>(row + wrapped(x, grid.count[0]))];
-                    least = std::min(least, std::sqrt(dx * dx + dy * dy + dz * dz) - radius);
+                    const double squared = dx * dx + dy * dy + dz * dz;
+                    if (squared < (least + radius) * (least + radius)) {  // spares most of the roots
+                        least = std::min(least, std::sqrt(squared) - radius);
+                    }
                 }
             }
         }
@@ -89,10 +92,16 @@ OpenFaces open_faces(const VoxelGrid& grid, const std::vector<double>& corners, 
 #pragma omp parallel for schedule(static)
     for (int z = 0; z < n[2]; ++z) {
         for (int y = 0; y < n[1]; ++y) {
+            const int next_y = y + 1 == n[1] ? 0 : y + 1;
+            const int next_z = z + 1 == n[2] ? 0 : z + 1;
+            const std::array<const double*, 4> row = {&corners[static_cast<std::size_t>(grid.number(0, y, z))],
+                                                      &corners[static_cast<std::size_t>(grid.number(0, next_y, z))],
+                                                      &corners[static_cast<std::size_t>(grid.number(0, y, next_z))],
+                                                      &corners[static_cast<std::size_t>(grid.number(0, next_y, next_z))]};
             for (int x = 0; x < n[0]; ++x) {
+                const int next_x = x + 1 == n[0] ? 0 : x + 1;
                 const auto at = [&](int dx, int dy, int dz) {
-                    const Index corner = grid.number((x + dx) % n[0], (y + dy) % n[1], (z + dz) % n[2]);
-                    return corners[static_cast<std::size_t>(corner)] - growth;
+                    return row[static_cast<std::size_t>(dy + 2 * dz)][dx == 0 ? x : next_x] - growth;
                 };
                 const auto voxel = static_cast<std::size_t>(grid.number(x, y, z));
                 const double far = at(1, 1, 1);
