@@ -53,8 +53,8 @@ COAGULA_INLINE double arctangent(double p, double q) {
 }
 
 /// The same as arc_term of ball_orthoscheme.hpp, with one division for both angles.
-COAGULA_INLINE void add_side(double a, double b, double weight, const double* rho, const double* half_chord,
-                             int count, double* sum) {
+COAGULA_INLINE void add_side(double a, double b, double weight, const double* rho, const double* half_chord, int count,
+                             double* sum) {
 #pragma omp simd
     for (int k = 0; k < count; ++k) {
         const ReducedArc theta = reduce_arc(half_chord[k], b);
