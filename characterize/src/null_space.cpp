@@ -17,7 +17,8 @@ constexpr double first_threshold = 1e-5;  // pivots below it make a candidate
 constexpr double last_threshold = 1e-1;
 constexpr Index most_sought = 64;  // motions for which the best unknowns are sought, instead of those with small pivots
 constexpr int shifted_iterations = 2;
-constexpr int first_sketch = 16;  // random combinations that decide the rank
+constexpr double no_stiffness = 1e-8;  // |A x| of unit motions; exactly floppy ones come out near 1e-15
+constexpr int first_sketch = 16;       // random combinations that decide the rank
 constexpr int last_sketch = 256;
 constexpr int refinements = 2;
 constexpr int inverse_iterations = 4;
@@ -195,14 +196,15 @@ private:
         return pivots;
     }
 
-    /// The motions of least stiffness; the shift makes those without any stand out by many orders of magnitude.
+    /// Motions without stiffness, which the shift makes stand out by many orders of magnitude.
     Eigen::MatrixXd shifted_softest(const CholeskyFactor& factor, const std::vector<bool>& pinned, Index count) const {
         Eigen::MatrixXd x = rows_where(random_matrix(matrix_.unknowns(), count, Draw::motions, options_.seed), pinned, false);
         for (int k = 0; k < shifted_iterations; ++k) {
             const Eigen::HouseholderQR<Eigen::MatrixXd> qr(factor.solve(x));
             x = qr.householderQ() * Eigen::MatrixXd::Identity(matrix_.unknowns(), count);
         }
-        return x;
+        const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(matrix_.apply(x), Eigen::ComputeThinV);
+        return x * svd.matrixV().rightCols((svd.singularValues().array() < no_stiffness).count());
     }
 
     /// The part R of the pinned columns that is orthogonal to all others tells how many of them are independent after all. Its rank

@@ -77,7 +77,8 @@ struct Rigidity {
     RigidClusters rigid;  ///< empty for central bonds
 };
 
-/// Rank by sparse Cholesky factors of A^T A in which one unknown per zero mode is pinned; the choice is verified on A itself, so
+/// Rank by sparse Cholesky factors of A^T A (of A A^T for central forces where contacts are fewer than unknowns) in which one
+/// unknown per zero mode is pinned; the choice is verified on A itself, so
 /// that stiffness as small as `tolerance` squared is told from none. Local redundancies from the selected inverse: exact. Two
 /// particles belong to one rigid cluster if no random floppy motion moves one against the other as seen from a chain of particles
 /// up to two contacts apart. docs/measures.md#rigidity. The same bits for any number of threads. Throws std::invalid_argument when
