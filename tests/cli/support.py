@@ -12,6 +12,8 @@ from pathlib import Path
 
 PROGRAM = os.environ["COAGULA_PROGRAM"]
 PACKING = Path(os.environ["COAGULA_PACKING"])  # 500 particles, written by the test cli.packing
+MEASURED = Path(os.environ.get("COAGULA_MEASURED", PACKING))  # the same, characterized and sheared
+SMALL = ["generate", "vem", "--particles", "60", "--voids", "30", "--volume-fraction", "0.4", "--radius", "0.25um"]
 VEM = ["generate", "vem", "--particles", "500", "--voids", "250", "--volume-fraction", "0.4", "--radius", "0.25um"]
 
 
@@ -71,3 +73,6 @@ class ProgramTest(unittest.TestCase):
 
     def copy_of_packing(self, name="packing.h5"):
         return Path(shutil.copy(PACKING, self.folder / name))
+
+    def copy_of_measured(self, name="measured.h5"):
+        return Path(shutil.copy(MEASURED, self.folder / name))

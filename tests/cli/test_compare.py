@@ -6,10 +6,13 @@ from support import VEM, ProgramTest, checksum
 class Compare(ProgramTest):
     def setUp(self):
         super().setUp()
-        for name, voids in (("even.h5", "500"), ("uneven.h5", "60")):
-            self.succeed(*VEM[:5], voids, *VEM[6:], "--seed", "3", "-o", name)
+        self.copy_of_packing("even.h5")  # with 250 voids
+
+    def uneven(self):
+        self.succeed(*VEM[:5], "30", *VEM[6:], "--seed", "3", "-o", "uneven.h5")
 
     def test_fewer_voids_are_more_heterogeneous(self):
+        self.uneven()
         before = [checksum(self.folder / name) for name in ("even.h5", "uneven.h5")]
         found = self.succeed_json("characterize", "even.h5", "uneven.h5", "--compare")
         self.assertEqual(found["files"], ["even.h5", "uneven.h5"])
@@ -32,6 +35,7 @@ class Compare(ProgramTest):
         self.assertEqual([checksum(self.folder / name) for name in ("even.h5", "uneven.h5")], before)
 
     def test_table(self):
+        self.uneven()
         table = self.succeed("characterize", "even.h5", "uneven.h5", "--compare")
         for part in ("pore sizes", "voronoi volumes", "density fluctuations", "fit to P >= 0.1 only", "verdict", "uneven.h5 is more"):
             self.assertIn(part, table)
@@ -45,6 +49,7 @@ class Compare(ProgramTest):
         self.assertIn("not a fair comparison", self.succeed("characterize", "even.h5", "other.h5", "--compare"))
 
     def test_what_is_refused(self):
+        self.copy_of_packing("uneven.h5")
         self.fail_with(2, "characterize", "even.h5", "--compare", says="two files")
         self.fail_with(2, "characterize", "even.h5", "uneven.h5", says="--compare")
         self.fail_with(2, "characterize", "even.h5", "none.h5", "--compare", says="none.h5")

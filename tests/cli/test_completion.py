@@ -60,38 +60,40 @@ class Bash(ProgramTest):
 class Terminal(ProgramTest):
     """The shells as people use them: keys go in, the completed line is echoed."""
 
-    def type(self, shell, setup, keys, expected):
+    def type(self, shell, setup, *lines):
+        """@param lines: keys, and what is to be seen after them."""
         child, terminal = pty.fork()
         if child == 0:
             os.chdir(self.folder)
             environment = {"PATH": os.environ["PATH"], "TERM": "dumb", "PS1": "ready> ", "HOME": str(self.folder)}
             os.execvpe(shell[0], shell, environment)
         try:
-            echoed = self.echo(terminal, setup + "\n", "ready> ready> ")
-            echoed = self.echo(terminal, keys, expected)
+            self.echo(terminal, setup + "; echo set'' ''up\n", "set up")
+            for keys, expected in lines:
+                echoed = self.echo(terminal, keys, expected)
+                self.assertIn(expected, echoed)
+                os.write(terminal, b"\x15")  # Ctrl-U empties the line
         finally:
             os.close(terminal)
             os.waitpid(child, 0)
-        self.assertIn(expected, echoed)
 
     def echo(self, terminal, keys, expected):
         os.write(terminal, keys.encode())
-        text, end = "", time.monotonic() + (20 if expected != "ready> ready> " else 2)
+        text, end = "", time.monotonic() + 20
         while time.monotonic() < end and expected not in text:
             if select.select([terminal], [], [], 0.2)[0]:
                 text += re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|\x07|\r", "", os.read(terminal, 4096).decode(errors="replace"))
         return text
 
     def test_bash(self):
-        self.type(["bash", "--norc", "-i"], f"source <('{PROGRAM}' completion bash)", "coagula characterize --contact-tol\t", "--contact-tolerance ")
+        self.type(["bash", "--norc", "-i"], f"source <('{PROGRAM}' completion bash)", ("coagula characterize --contact-tol\t", "--contact-tolerance "))
 
     @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
     def test_zsh(self):
         self.write("_coagula", self.succeed("completion", "zsh"))
         setup = "PS1='ready> '; fpath=($PWD $fpath); autoload -Uz compinit; compinit -u -D"
-        self.type(["zsh", "-f", "-i"], setup, "coagula generate vem --target-c\t", "--target-coordination ")
-        self.type(["zsh", "-f", "-i"], setup, "coagula shear --method qua\t", "quasistatic ")
-        self.type(["zsh", "-f", "-i"], setup, "coagula char\t", "characterize ")
+        self.type(["zsh", "-f", "-i"], setup, ("coagula generate vem --target-c\t", "--target-coordination "),
+                  ("coagula shear --method qua\t", "quasistatic "), ("coagula char\t", "characterize "))
 
 
 class ManualPages(ProgramTest):

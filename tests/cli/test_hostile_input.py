@@ -7,7 +7,7 @@ import subprocess
 import unittest
 from xml.etree import ElementTree
 
-from support import PACKING, PROGRAM, VEM, ProgramTest
+from support import PACKING, PROGRAM, SMALL, VEM, ProgramTest
 
 CURVE = ["generate", "brownian", "--potential-curve", "--radius", "0.25um", "--surface-potential", "15mV"]
 HOSTILE = ["|touch broken; cat >.png", "a'.png", "a\nsystem('touch broken')\n.png", "`touch broken`.png", "$(touch broken).png",
@@ -31,8 +31,7 @@ class Pictures(ProgramTest):
         self.assertIn("<svg", old.read_text())
 
     def test_labels_are_only_text(self):
-        packing = self.copy_of_packing()
-        self.succeed("characterize", packing)
+        packing = self.copy_of_measured()
         for label in ("`touch broken`", "'\nsystem('touch broken')\n'", '"; system("touch broken"); "', "@broken{_1}^2\\n&<b>", "`5"):
             with self.subTest(label=label):
                 self.succeed("plot", packing, "--figure", "contacts", "--labels", label, "--force", "-o", "a.svg")
@@ -43,8 +42,7 @@ class Pictures(ProgramTest):
     def test_figures_take_any_name_of_a_file(self):
         for name in ["`touch broken`.h5", "a'$(touch broken).h5", 'a"b.h5']:
             with self.subTest(name=name):
-                packing = self.copy_of_packing(name)
-                self.succeed("characterize", packing)
+                packing = self.copy_of_measured(name)
                 self.succeed("plot", packing, packing, "--figure", "pore-curve", "--force", "-o", name + ".svg")
                 self.assertNotIn("broken", os.listdir(self.folder))
 
@@ -53,8 +51,8 @@ class Terminal(ProgramTest):
     def test_control_characters_are_not_shown(self):
         name = "a\x1b]0;owned\x07\nb\u009b2J.h5"
         complaint = self.fail_with(2, "info", name)
-        self.succeed(*VEM, "-o", name)
-        for shown in (complaint, self.succeed("info", name), self.succeed("characterize", name)):
+        self.copy_of_packing(name)
+        for shown in (complaint, self.succeed("info", name), self.succeed("characterize", name, "--only", "overlap")):
             self.assertNotRegex(shown, "[\x00-\x09\x0b-\x1f\x7f-\x9f]")
 
 
@@ -75,7 +73,7 @@ class Names(ProgramTest):
         self.write("e.toml", '[[measurement]]\nkind = "amplitude-sweep"\nfile = "e.csv"\n')
         self.write("e.csv", "strain [1],storage modulus [Pa]\n1e-5,500\n1e-4,490\n1e-3,470\n1e-2,400\n1e-1,300\n")
         self.fail_with(2, "diagnose", "e.toml", "-o", "a" * 300, says="too long")
-        self.succeed(*VEM, "-o", "a" * 247 + ".h5")
+        self.succeed(*SMALL, "-o", "a" * 247 + ".h5")
 
     def test_what_is_no_regular_file_is_not_waited_for(self):
         os.mkfifo(self.folder / "pipe")
@@ -127,7 +125,7 @@ class StandardOutput(ProgramTest):
     def test_a_full_disk_is_an_error(self):
         self.copy_of_packing()
         for words in (["--help"], ["--version"], ["shear", "--help"], ["info", "packing.h5"], ["info", "packing.h5", "--json"],
-                      [*VEM, "-o", "out.h5"]):
+                      [*SMALL, "-o", "out.h5"]):
             with open("/dev/full", "w") as full:
                 done = subprocess.run([PROGRAM, *words], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
             self.assertEqual(done.returncode, 1, words)

@@ -2,14 +2,14 @@
 
 import json
 
-from support import VEM, ProgramTest
+from support import SMALL, ProgramTest
 
 
 class OverStructures(ProgramTest):
     def made(self, seeds):
         names = [f"s{seed}.h5" for seed in seeds]
         for seed, name in zip(seeds, names):
-            self.succeed(*VEM[:3], "120", "--voids", "60", *VEM[6:], "--seed", seed, "-o", name)
+            self.succeed(*SMALL, "--seed", seed, "-o", name)
         return names
 
     def test_mean_and_standard_error(self):

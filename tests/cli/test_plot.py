@@ -9,7 +9,7 @@ import unittest
 from xml.etree import ElementTree
 
 import support
-from support import VEM, ProgramTest
+from support import SMALL, ProgramTest
 
 MEASURES = ["pore-curve", "contacts", "pair-correlation", "structure-factor", "neighbour-distances", "bond-angles", "bond-order", "rings",
             "local-redundancy", "voronoi", "density-fluctuations", "void-chords", "solid-chords", "surface", "mean-curvature",
@@ -21,16 +21,10 @@ FIGURES = [*MEASURES, "bond-forces", "frequency", "amplitude", "stress-strain", 
 
 @unittest.skipIf(shutil.which("gnuplot") is None, "needs gnuplot")
 class Plot(ProgramTest):
-    def measured(self, name="a.h5"):
-        path = self.copy_of_packing(name)
-        self.succeed("characterize", path)
-        self.succeed("shear", path)
-        return path
-
     def series_of(self, structure, name):
         """A small structure of another seed, characterized and sheared."""
-        self.succeed(*VEM[:3], "120", "--voids", "60", *VEM[6:], "--seed", structure, "-o", name)
-        self.succeed("characterize", name)
+        self.succeed(*SMALL, "--seed", structure, "-o", name)
+        self.succeed("characterize", name, "--only", "doh")
         self.succeed("shear", name)
         return name
 
@@ -49,7 +43,7 @@ class Plot(ProgramTest):
             self.assertIn("\n  " + name + " ", text)
 
     def test_a_curve_is_that_of_the_file(self):
-        path = self.measured()
+        path = self.copy_of_measured("a.h5")
         found = self.succeed_json("plot", path, "--figure", "pore-curve", "-o", "a.svg", "--data", "a.csv")
         results = json.loads(self.succeed("info", path, "--json"))["results"]
         radius = results["/characterization/pore_curve/radius"]["value"]
@@ -76,7 +70,7 @@ class Plot(ProgramTest):
             self.assertFalse(any("m-" in text for text in texts), texts)
 
     def test_size_and_units(self):
-        path = self.measured()
+        path = self.copy_of_measured("a.h5")
         found = self.succeed_json("plot", path, "--figure", "modulus-volume-fraction", "-o", "a.svg", "--width", "12cm", "--height", "80mm")
         self.assertAlmostEqual(found["width"], 0.12)
         root = ElementTree.parse(self.folder / "a.svg").getroot()
@@ -85,14 +79,14 @@ class Plot(ProgramTest):
         self.assertEqual(found["series"][0]["y"]["unit"], "Pa")
 
     def test_every_format(self):
-        path = self.measured()
+        path = self.copy_of_measured("a.h5")
         for name, begin in (("a.svg", b"<?xml"), ("a.png", b"\x89PNG"), ("a.pdf", b"%PDF")):
             self.succeed("plot", path, "--figure", "overview", "-o", name, "--resolution", "80")
             self.assertTrue((self.folder / name).read_bytes().startswith(begin), name)
 
     def test_several_files_share_a_figure(self):
-        first = self.measured()
-        second = self.measured("b.h5")
+        first = self.copy_of_measured("a.h5")
+        second = self.copy_of_measured("b.h5")
         for words, names in (([], ["a", "b"]), (["--labels", "slow & low,fast"], ["slow & low", "fast"])):
             found = self.succeed_json("plot", first, second, "--figure", "bond-forces", "--force", "-o", "a.svg", *words)
             self.assertEqual([series["name"] for series in found["series"]], names)
@@ -116,14 +110,14 @@ class Plot(ProgramTest):
         self.assertIn("standard error", self.succeed("plot", *names, "--figure", "modulus-heterogeneity", "--force", "-o", "a.svg"))
 
     def test_published_points(self):
-        path = self.measured()
+        path = self.copy_of_measured("a.h5")
         found = self.succeed_json("plot", path, "--figure", "modulus-heterogeneity", "--published", "-o", "a.svg", "--data", "a.csv")
         self.assertEqual([(s["name"], s["points"]) for s in found["series"]], [("VEM", 1), ("published VEM", 6), ("published BD", 5)])
         self.assertIn("published BD,degree of heterogeneity,0.373,shear modulus [Pa],480000,49000", (self.folder / "a.csv").read_text())
         self.fail_with(2, "plot", path, "--figure", "contacts", "--published", "-o", "b.svg", says="published")
 
     def test_tables(self):
-        path = self.measured()
+        path = self.copy_of_measured("a.h5")
         self.succeed("calibrate", path, "--steps", "3", "-o", "series.csv")
         found = self.succeed_json("plot", "series.csv", "--figure", "modulus-stiffness", "-o", "a.svg")
         self.assertEqual([s["points"] for s in found["series"] if s["name"]], [3])
@@ -148,7 +142,7 @@ class Plot(ProgramTest):
         self.succeed("plot", path.name, "--figure", "contacts", "-o", "a.svg")
 
     def test_what_is_wrong_is_said(self):
-        path = self.measured()
+        path = self.copy_of_measured("a.h5")
         figure = ["--figure", "contacts"]
         self.fail_with(2, "plot", path, "-o", "b.svg", says="--figure")
         self.fail_with(2, "plot", path, *figure, says="--output")
@@ -164,7 +158,7 @@ class Plot(ProgramTest):
         self.assertEqual((self.folder / "b.svg").read_text(), "precious")
 
     def test_without_gnuplot_nothing_is_written(self):
-        path = self.measured()
+        path = self.copy_of_measured("a.h5")
         environment = {**os.environ, "PATH": str(self.folder)}
         self.fail_with(1, "plot", path, "--figure", "contacts", "-o", "b.svg", says="gnuplot is not installed", env=environment)
 
@@ -173,9 +167,7 @@ class Plot(ProgramTest):
 class Paper(ProgramTest):
     def test_draws_what_can_be_drawn_and_says_what_is_missing(self):
         (self.folder / "made").mkdir()
-        path = shutil.copy(support.PACKING, self.folder / "made/a.h5")
-        self.succeed("characterize", path)
-        self.succeed("shear", path)
+        path = self.copy_of_measured("made/a.h5")
         found = self.succeed_json("plot", "made", "--paper", "-o", "figures")
         drawn = {figure["number"]: figure["drawn"] for figure in found["figures"]}
         self.assertEqual(drawn, {1: True, 2: True, 3: True, 4: False, 5: False, 6: True})
