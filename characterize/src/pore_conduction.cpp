@@ -217,7 +217,8 @@ Eigen::ArrayXf ConductionSolver::precondition(std::size_t level, const Eigen::Ar
 }
 
 Eigen::ArrayXf ConductionSolver::solve(int axis, double spacing, double tolerance) const {
-    const auto& [g, inverse_diagonal] = levels_.front();
+    const FaceConductances& g = levels_.front().conductances;
+    const Eigen::ArrayXf& inverse_diagonal = levels_.front().inverse_diagonal;
     const Eigen::ArrayXf diagonal = (inverse_diagonal > 0).select(inverse_diagonal.inverse(), 0.0F);
     Eigen::ArrayXf residual = flux_left(g, axis, spacing);
     Eigen::ArrayXf u = Eigen::ArrayXf::Zero(residual.size());
