@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Every numeric option of every verb, as --help lists them, at values that nobody means: 0, negative, tiny, huge, not a number, and the
 ends of its range. The program may refuse with a sentence, work, or run long and stop on Ctrl-C. A crash, a hang, a number that is
-missing from the results of a call that succeeds, or a file that a refused call leaves behind is a defect.
+missing from the results of a call that succeeds, or a file that a refused call leaves behind is a defect. A value that is out of the
+range of its option is given to the first call of a verb only.
 
     option_sweep.py PROGRAM [VERB ...]"""
 
@@ -174,6 +175,7 @@ class Sweep:
             shutil.rmtree(path) if path.is_dir() else path.unlink()
 
     def check(self, call, option=None, value=None):
+        """Whether the value may stand in any call."""
         words = call.split()
         if option:
             hidden = WITHOUT.get(option.name, "")
@@ -195,16 +197,17 @@ class Sweep:
                 self.defects.append(f"{' '.join(words)}: {what}")
                 print(self.defects[-1], flush=True)
         self.clean()
+        return option is None or code != 2 or not re.match(rf"coagula: --{option.name}: \S+ is (out of range|not a )", complaint)
 
     def verb(self, name):
         for option in options_of(self.program, name):
             if option.name == "threads":
                 continue
+            values = option.values
             for call in [METHODS[option.method]] if option.method and name == "shear" else CALLS[name]:
                 if call not in self.usual:
                     self.check(call)
-                for value in option.values:
-                    self.check(call, option, value)
+                values = [value for value in values if self.check(call, option, value)]
 
 
 def verbs_of(program):

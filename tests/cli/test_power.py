@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from support import ProgramTest
+from support import VEM, ProgramTest
 
 PLAN = """[sample]
 particle_radius = "0.25 um"
@@ -24,7 +24,7 @@ QUICK = ("--data-sets", "40", "--diagnoses", "1", "--causes", "contact-loss,bond
 class Power(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.copy_of_packing()
+        self.succeed(*VEM[:3], "120", "--voids", "60", *VEM[6:], "-o", "packing.h5")
         self.write("plan.toml", PLAN)
 
     def test_strengths_from_which_on_a_cause_is_found(self):

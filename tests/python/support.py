@@ -14,7 +14,7 @@ import coagula
 
 PROGRAM = os.environ["COAGULA_PROGRAM"]
 DATASETS = Path(os.environ["COAGULA_DATASETS"])
-VEM = {"particles": 300, "voids": 150, "volume_fraction": 0.4, "radius": "0.25um", "seed": 1}
+VEM = {"particles": 200, "voids": 100, "volume_fraction": 0.4, "radius": "0.25um", "seed": 1}
 # Of a call of the program, not of the result.
 OF_THE_CALL = {"output", "seconds", "notes", "report", "extended_model"}
 

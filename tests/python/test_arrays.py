@@ -25,7 +25,7 @@ class Views(ModuleTest):
 
     def test_packing(self):
         packing = self.made().packing
-        self.assertEqual(packing.positions.shape, (300, 3))
+        self.assertEqual(packing.positions.shape, (200, 3))
         self.assert_view(packing.positions, packing.positions, packing)
         self.assert_view(packing.radii, packing.radii, packing)
         with self.assertRaises(ValueError):
@@ -51,7 +51,7 @@ class Views(ModuleTest):
         for path in ("elastic_tensor", "per_particle/nonaffine_displacement_xy", "load_structure/xy/bonds/normal_force"):
             again = {entry[0]: entry[1] for entry in response._stage.entries}[path]
             self.assert_view(response[path], again, response._stage)
-        self.assertEqual(response.per_particle.nonaffine_displacement_xy.shape, (300, 3))
+        self.assertEqual(response.per_particle.nonaffine_displacement_xy.shape, (200, 3))
         np.testing.assert_allclose(response.elastic_tensor, response.elastic_tensor.T, rtol=1e-9, atol=1)
 
     def test_views_outlive_their_owners(self):

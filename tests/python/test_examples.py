@@ -153,7 +153,7 @@ class OtherMethods(ModuleTest):
         self.assert_same(said, found)
 
     def test_calibration(self):
-        for name, voids in (("a.h5", 150), ("b.h5", 75)):
+        for name, voids in (("a.h5", 100), ("b.h5", 50)):
             coagula.write(name, self.made(voids=voids))
         structures = [coagula.read(name) for name in ("a.h5", "b.h5")]
         said = self.program("calibrate", "a.h5", "b.h5", "--from", "60N/m", "--steps", "3", "--measured", "1MPa,1.2MPa")
