@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from support import ProgramTest
+from support import VEM, ProgramTest
 
 MODEL = """normal_springpot_stiffness = 12
 normal_springpot_time = 0.15915494309189535
@@ -32,7 +32,7 @@ sample = "one"
 class Diagnosis(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.copy_of_packing()
+        self.succeed(*VEM[:3], "200", "--voids", "100", *VEM[6:], "-o", "packing.h5")
         self.write("experiment.toml", EXPERIMENT)
 
     def sweep_of(self, *words):

@@ -10,7 +10,7 @@ volume_fraction = 0.4
 
 [structures]
 {structures}
-particles = 200
+particles = {particles}
 seeds = [1, 2]
 """
 
@@ -23,8 +23,8 @@ sample = "{name}"
 
 
 class Recipe(ProgramTest):
-    def experiment(self, structures, kind, *tables, radius=0.25):
-        self.write("experiment.toml", EXPERIMENT.format(structures=structures, radius=radius) +
+    def experiment(self, structures, kind, *tables, radius=0.25, particles=200):
+        self.write("experiment.toml", EXPERIMENT.format(structures=structures, radius=radius, particles=particles) +
                    "".join(TABLE.format(kind=kind, name=name) for name in tables))
 
     def test_sizes_hidden_in_coordinates_are_found(self):
@@ -32,7 +32,7 @@ class Recipe(ProgramTest):
             self.succeed("generate", "vem", "--particles", "600", "--volume-fraction", "0.4", "--radius", "0.25um", "--size-distribution",
                          "normal:0.15", "--seed", seed, "--quiet", "-o", f"hidden{seed}.h5")
             self.succeed("export", f"hidden{seed}.h5", "--format", "csv", "-o", f"hidden{seed}.csv")
-        self.experiment('generator = "vem"\nvoids = 100', "coordinates", "hidden31", "hidden32")
+        self.experiment('generator = "vem"\nvoids = 60', "coordinates", "hidden31", "hidden32", particles=120)
         words = ("diagnose", "experiment.toml", "-o", "results", "--force", "--causes", "polydispersity,localisation-error", "--bootstrap", "299")
         found = self.succeed_json(*words)
         self.assertTrue(found["detected"])
@@ -51,13 +51,13 @@ class Recipe(ProgramTest):
     def test_a_pore_curve_of_coagulated_structures(self):
         """Small particles, whose barrier at 15 mV is low. The sample coagulated as the recipe says."""
         for seed in ("7", "8"):
-            self.succeed("generate", "brownian", "--particles", "200", "--volume-fraction", "0.4", "--radius", "0.1um", "--surface-potential",
+            self.succeed("generate", "brownian", "--particles", "150", "--volume-fraction", "0.4", "--radius", "0.1um", "--surface-potential",
                          "0mV", "--stop-coordination", "4.69", "--seed", seed, "--quiet", "-o", "sample.h5", "--force")
             exact = self.succeed_json("characterize", "sample.h5", "--only", "pores", "--radii", "40", "-o", "pores.h5", "--force")
             curve = exact["pore_curve"]
             self.write(f"pores{seed}.csv", "pore_radius [m],exclusion_probability\n" +
                        "".join(f"{r},{p}\n" for r, p in zip(curve["radius"], curve["exclusion_probability"])))
-        self.experiment('generator = "brownian"\nsurface_potential = "0 mV"', "pore-curve", "pores7", "pores8", radius=0.1)
+        self.experiment('generator = "brownian"\nsurface_potential = "0 mV"', "pore-curve", "pores7", "pores8", radius=0.1, particles=150)
         found = self.succeed_json("diagnose", "experiment.toml", "-o", "results", "--bootstrap", "299")
         self.assertEqual(found["verdict"], "no-discrepancy")
         self.assertEqual({row["observable"] for row in found["rows"]}, {"exclusion_probability"})

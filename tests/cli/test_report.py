@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import h5py
 
-from support import ProgramTest
+from support import VEM, ProgramTest
 from test_diagnosis import EXPERIMENT, MODEL
 
 EMPTY = {"meta", "br"}  # elements without an end
@@ -59,7 +59,7 @@ class Page(HTMLParser):
 class Report(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.copy_of_packing()
+        self.succeed(*VEM[:3], "150", "--voids", "75", *VEM[6:], "-o", "packing.h5")
         self.write("experiment.toml", EXPERIMENT.replace("hidden loss", 'Loss & <gel>'))
 
     def measured(self, loss=True):

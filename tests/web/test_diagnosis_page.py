@@ -6,7 +6,7 @@ import math
 import unittest
 
 from browser import Browser, needs_browser
-from support import ProgramTest
+from support import VEM, ProgramTest
 
 EXPERIMENT = """title = "Loss & <b>gel</b></script>"
 
@@ -40,7 +40,7 @@ class DiagnosisPage(ProgramTest):
     def setUp(self):
         """Moduli of a structure with a loss of the form G'' = 0.1 G', which several causes can explain."""
         super().setUp()
-        self.copy_of_packing()
+        self.succeed(*VEM[:3], "150", "--voids", "75", *VEM[6:], "-o", "packing.h5")
         self.write("experiment.toml", EXPERIMENT)
         found = self.succeed_json("shear", "packing.h5", "-o", "swept.h5", "--frequency-sweep", "0.1Hz:100Hz:12")
         lines = ["frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]"]
