@@ -9,5 +9,6 @@ if(coagula_first)
   list(REMOVE_ITEM coagula_discovered ${coagula_first})
   set_tests_properties(${coagula_discovered} PROPERTIES FIXTURES_REQUIRED simulations)
   set_tests_properties(${coagula_first} PROPERTIES FIXTURES_SETUP simulations
-    ENVIRONMENT_MODIFICATION "COAGULA_PROCESSOR_LIMIT=set:0;GOMP_SPINCOUNT=set:3000")
+    ENVIRONMENT_MODIFICATION
+      "OMP_THREAD_LIMIT=set:1;OMP_NUM_THREADS=set:1;OPENBLAS_NUM_THREADS=set:1;COAGULA_PROCESSOR_LIMIT=set:0")
 endif()
