@@ -6,7 +6,7 @@
 makes structures by void expansion (several numbers of voids) and by Brownian dynamics (several surface potentials) to the same coordination
 numbers, measures and shears them, and asks (1) which measures explain G' over all structures, with errors from structures that the fit has not
 seen, (2) how much of the difference between the two generators at equal heterogeneity and coordination each measure accounts for, and (3) whether
-the heterogeneity still matters at equal coordination and one measure more. Needs numpy; with gnuplot it draws FOLDER/what_rules.png. The values of
+the heterogeneity still matters at equal coordination and one measure more. Needs numpy; with gnuplot it draws FOLDER/what_rules_SHEAR_STIFFNESS.png. The values of
 all structures go to FOLDER/structures.csv. What is in the folder already is used. SHEAR_STIFFNESS: of a particle [N/m], 10 when not given; the
 normal one is 100.
 """
@@ -165,32 +165,32 @@ def heterogeneity(rows, moduli):
 
 
 FIGURE = """set terminal pngcairo size 1100,430 font 'DejaVu Sans,11'
-set output 'what_rules.png'
+set output 'PREFIX.png'
 set datafile separator ','
 set multiplot layout 1,2
 set ylabel "G' (MPa)"
 set key top left
-set yrange [0:2.4]
+set yrange [0:*]
 set palette defined (4.5 '#7fc3e8', 4.9 '#08306b')
 set cbrange [4.45:4.95]
 set cblabel 'coordination C'
 set xlabel 'degree of heterogeneity a'
-plot 'figure.csv' using ($1 == 0 ? $2 : NaN):4:3 with points pt 7 palette title 'void expansion', \\
+plot 'PREFIX.csv' using ($1 == 0 ? $2 : NaN):4:3 with points pt 7 palette title 'void expansion', \\
   '' using ($1 == 1 ? $2 : NaN):4:3 with points pt 8 ps 1.2 lw 1.5 palette title 'Brownian'
 set xlabel "G' from C and triangles per particle (MPa), recipe left out"
-set xrange [0:2.4]
-plot x with lines lc 'gray' notitle, 'figure.csv' using ($1 == 0 ? $5 : NaN):4:3 with points pt 7 palette notitle, \\
+set xrange [0:*]
+plot x with lines lc 'gray' notitle, 'PREFIX.csv' using ($1 == 0 ? $5 : NaN):4:3 with points pt 7 palette notitle, \\
   '' using ($1 == 1 ? $5 : NaN):4:3 with points pt 8 ps 1.2 lw 1.5 palette notitle
 """
 
 
-def draw(rows, groups, brownian, folder):
+def draw(rows, groups, brownian, prefix):
     moduli = numpy.array([row["G"] for row in rows])
     predicted = moduli - unseen_residuals(design(rows, ("coordination C", "triangles per particle")), moduli, groups)
     columns = (brownian, [row["heterogeneity a"] for row in rows], [row["coordination C"] for row in rows], moduli, predicted)
-    numpy.savetxt(folder / "figure.csv", numpy.column_stack(columns), delimiter=",")
+    numpy.savetxt(prefix.with_suffix(".csv"), numpy.column_stack(columns), delimiter=",")
     if shutil.which("gnuplot"):
-        subprocess.run(["gnuplot"], input=FIGURE, text=True, cwd=folder, check=True)
+        subprocess.run(["gnuplot"], input=FIGURE.replace("PREFIX", prefix.name), text=True, cwd=prefix.parent, check=True)
 
 
 def keep(structures, rows, folder):
@@ -214,7 +214,7 @@ def main():
     brownian = numpy.array([float(structure[0] == "brownian") for structure, _ in made])
     keep([structure for structure, _ in made], found, folder)
     table(found, groups, brownian)
-    draw(found, groups, brownian, folder)
+    draw(found, groups, brownian, folder / f"what_rules_{shear_stiffness}")
 
 
 if __name__ == "__main__":
