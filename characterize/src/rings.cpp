@@ -217,19 +217,24 @@ Eigen::VectorXd Rings::count() const {
     return count;
 }
 
-Rings measure_rings(const ContactNetwork& contacts, int largest) {
+Rings measure_rings(const ContactNetwork& contacts, int largest, const Progress& progress) {
     require(largest >= 3 && largest <= 12, "the largest size of rings must be from 3 to 12");
     const Walker walker(contacts);
     const Neighbourhoods near(walker, largest / 2 - 1);
     Rings rings;
     rings.largest = largest;
     rings.per_particle.resize(largest + 1, contacts.particles);
+    constexpr Index batches = 32;
+    for (Index batch = 0; batch < batches; ++batch) {
+        progress.update("rings", static_cast<double>(batch) / batches);
+        const Index end = (batch + 1) * contacts.particles / batches;
 #pragma omp parallel
-    {
-        std::vector<std::vector<int>> seen(static_cast<std::size_t>(contacts.particles));
-#pragma omp for schedule(dynamic, 64)
-        for (Index particle = 0; particle < contacts.particles; ++particle) {
-            rings.per_particle.col(particle) = RingSearch(walker, near, largest, seen).run(static_cast<std::int32_t>(particle));
+        {
+            std::vector<std::vector<int>> seen(static_cast<std::size_t>(contacts.particles));
+#pragma omp for schedule(dynamic, 8)
+            for (Index particle = batch * contacts.particles / batches; particle < end; ++particle) {
+                rings.per_particle.col(particle) = RingSearch(walker, near, largest, seen).run(static_cast<std::int32_t>(particle));
+            }
         }
     }
     return rings;

@@ -1,12 +1,6 @@
 #include "voxel_rows.hpp"
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define COAGULA_VARIANTS __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#define COAGULA_INLINE inline __attribute__((always_inline))
-#else
-#define COAGULA_VARIANTS
-#define COAGULA_INLINE inline
-#endif
+#include <coagula/common/vector_variants.hpp>
 
 namespace coagula::characterize {
 

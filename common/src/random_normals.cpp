@@ -1,17 +1,12 @@
 // Normal numbers in bulk. The loops run over blocks of particles and hold no calls and no branches, so that the compiler turns them
 // into vector instructions; without fused multiply-add every variant gives the same bits.
 #include <coagula/common/random.hpp>
+#include <coagula/common/vector_variants.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define COAGULA_VARIANTS __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#else
-#define COAGULA_VARIANTS
-#endif
 
 namespace coagula {
 

@@ -80,7 +80,7 @@ def main():
     generator = numpy.random.default_rng(1)
     lost = []
     print("structure                 contacts in triangles   G' left without 2 % of them   without 2 % of the others")
-    for path in sorted(folder.glob(f"*_{coordination}_*.sheared")):
+    for path in sorted(folder.glob(f"*_{coordination}_?.sheared")):
         whole = network(path)
         modulus = shear_modulus(*whole)
         stated = json.loads(path.with_suffix(".json").read_text())["G"]

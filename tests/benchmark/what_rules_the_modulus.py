@@ -6,9 +6,9 @@
 makes structures by void expansion (several numbers of voids) and by Brownian dynamics (several surface potentials) to the same coordination
 numbers, measures and shears them, and asks (1) which measures explain G' over all structures, with errors from structures that the fit has not
 seen, (2) how much of the difference between the two generators at equal heterogeneity and coordination each measure accounts for, and (3) whether
-the heterogeneity still matters at equal coordination and one measure more. Needs numpy; with gnuplot it draws FOLDER/what_rules_SHEAR_STIFFNESS.png. The values of
-all structures go to FOLDER/structures.csv. What is in the folder already is used. SHEAR_STIFFNESS: of a particle [N/m], 10 when not given; the
-normal one is 100.
+the heterogeneity still matters at equal coordination and one measure more. Needs numpy; with gnuplot it draws
+FOLDER/what_rules_SHEAR_STIFFNESS.png. The values of all structures go to FOLDER/structures_SHEAR_STIFFNESS.csv. What is in the folder already is
+used. SHEAR_STIFFNESS: of a particle [N/m], 10 when not given; the normal one is 100.
 """
 
 import concurrent.futures
@@ -193,10 +193,10 @@ def draw(rows, groups, brownian, prefix):
         subprocess.run(["gnuplot"], input=FIGURE.replace("PREFIX", prefix.name), text=True, cwd=prefix.parent, check=True)
 
 
-def keep(structures, rows, folder):
+def keep(structures, rows, path):
     """All values as a table."""
     names = ["G", *VARIABLES, "affine G", CARRIED]
-    with open(folder / "structures.csv", "w", newline="", encoding="utf-8") as file:
+    with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(["generator", "parameter", "target C", "seed", *names])
         writer.writerows([*structure, *(f"{row[name]:.6g}" for name in names)] for structure, row in zip(structures, rows))
@@ -212,7 +212,7 @@ def main():
     found = [row for _, row in made]
     groups = [structure[:3] for structure, _ in made]
     brownian = numpy.array([float(structure[0] == "brownian") for structure, _ in made])
-    keep([structure for structure, _ in made], found, folder)
+    keep([structure for structure, _ in made], found, folder / f"structures_{shear_stiffness}.csv")
     table(found, groups, brownian)
     draw(found, groups, brownian, folder / f"what_rules_{shear_stiffness}")
 

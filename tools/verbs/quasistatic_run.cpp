@@ -300,8 +300,7 @@ void check_stiffness_at_rest(const Arguments& arguments, const ContactModel& mod
     const bool unloaded = std::isnan(model.prestress) || model.prestress == 0;
     if (hertzian && unloaded && arguments.text("rest-length") == "found") {
         throw InputError("--method quasistatic needs contacts with a stiffness at rest, and those of " + arguments.text("model") +
-                         ", by Hertz's law and unstressed as found, have none: give work_of_adhesion or prestress, or use "
-                         "--method dem");
+                         ", by Hertz's law and unstressed as found, have none: give work_of_adhesion, or use --method dem");
     }
 }
 

@@ -21,7 +21,7 @@ Eigen::VectorXd per_particle(const Eigen::VectorXd& sums) {
 
 MeasureResult run_rings(const MeasureInput& input) {
     const auto largest = static_cast<int>(input.count("largest-ring"));
-    const Rings rings = measure_rings(input.contacts(), largest);
+    const Rings rings = measure_rings(input.contacts(), largest, input.progress());
     Eigen::MatrixXd values(rings.per_particle.rows() + 1, rings.per_particle.cols());
     values << Eigen::RowVectorXd::Ones(values.cols()), rings.per_particle.cast<double>();
     const Eigen::VectorXd found = per_particle(sum_inner(input, values));

@@ -168,12 +168,12 @@ bool leaves_most(const Comparison& comparison, const Inference& inference) {
 /// Weight of "none of the catalogue": a smooth departure from the base model. A departure of the level alone has many causes, in
 /// the structure and in what is taken for known, and a value at the end of its range belongs to a cause that the catalogue does not
 /// have, as does most of the misfit where it is left: there it counts as much as the best cause.
-double log_weight_of_none(const Comparison& comparison, const Priors& priors, bool level_alone, bool leaves_most) {
+double log_weight_of_none(const Comparison& comparison, const Priors& priors, bool level_alone, bool most_is_left) {
     const Compared& winner = comparison.all[comparison.winner];
     const auto& ends = winner.fit.active_end;
     const bool at_end = std::find(ends.begin(), ends.end(), true) != ends.end();
     const double smooth = comparison.all.front().log_weight_with_remainder(priors);
-    return level_alone || at_end || leaves_most ? std::max(smooth, winner.log_total(priors)) : smooth;
+    return level_alone || at_end || most_is_left ? std::max(smooth, winner.log_total(priors)) : smooth;
 }
 
 /// Whether the base model with a stiffness that nobody knows explains as much as the best cause with the known one.

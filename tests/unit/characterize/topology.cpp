@@ -118,6 +118,12 @@ TEST(Rings, RefuseImpossibleSizes) {
     EXPECT_THROW(measure_rings(contacts, 13), std::invalid_argument);
 }
 
+TEST(Rings, CanBeStopped) {
+    const ContactNetwork contacts = find_contacts(simple_cubic({2, 2, 2}, radius), 0.01);
+    const Progress stop([](std::string_view, double, std::string_view) { return false; });
+    EXPECT_THROW(measure_rings(contacts, 8, stop), Cancelled);
+}
+
 TEST(Topology, OfCrystals) {
     const Packing packing = face_centred({3, 3, 3}, radius);
     const Topology topology = measure_topology(packing, find_contacts(packing, 0.01));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/progress.hpp>
 
 #include <Eigen/Core>
 
@@ -20,6 +21,6 @@ struct Rings {
 /// O(N) for bounded contact numbers; grows like the number of particles within largest / 2 contacts squared.
 /// The distances are those through the network in space, so that a small periodic box counts as its infinite repetition.
 /// Throws std::invalid_argument unless 3 <= largest <= 12.
-Rings measure_rings(const ContactNetwork& contacts, int largest);
+Rings measure_rings(const ContactNetwork& contacts, int largest, const Progress& progress = {});
 
 }  // namespace coagula::characterize
