@@ -21,6 +21,8 @@ set(coagula_slow_tests
   "StructureSeries[.].*"
   "Sedimentation[.].*"
   "SolventDrag[.](IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
+  "StructureCauses[.].*"
+  "StructureChanges[.](Between|Contacts).*"
   "SurfacePotential[.].*"
   "ThirdHarmonic[.](Of|Hertz).*"
   "Thixotropy[.].*"

@@ -98,6 +98,16 @@ void make_structures(diagnose::Experiment& experiment, ExperimentStructures& str
     note_packings(experiment, structures);
 }
 
+std::vector<std::string> remaking_calls(const diagnose::Experiment& experiment, const diagnose::StructureChange& change) {
+    std::vector<std::string> calls;
+    if (experiment.recipe && change != diagnose::StructureChange{}) {
+        for (const std::size_t seed : experiment.recipe->seeds) {
+            calls.push_back(generation_call(*experiment.recipe, experiment.sample, seed, change));
+        }
+    }
+    return calls;
+}
+
 std::vector<std::string> structure_sentences(const diagnose::Experiment& experiment, const ExperimentStructures& structures) {
     std::vector<std::string> sentences;
     for (std::size_t k = 0; k < structures.packings.size(); ++k) {

@@ -20,49 +20,95 @@ double coordination_of(const StructureRecipe& recipe) {
     return std::isfinite(recipe.target_coordination) ? recipe.target_coordination : usual_coordination;
 }
 
-double surface_potential_of(const StructureRecipe& recipe, const StructureChange& change) {
-    return std::isfinite(change.surface_potential) ? change.surface_potential : recipe.surface_potential;
-}
+/// What a structure is made of.
+struct Making {
+    StructureRecipe recipe;
+    Sample sample;
+    double size_deviation;
+    std::size_t seed;
+};
 
-generators::SizeDistribution sizes_of(const Sample& sample, const StructureChange& change) {
-    if (change.size_deviation > 0) {
-        return {generators::SizeKind::lognormal, sample.particle_radius, change.size_deviation};
+Making making(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change) {
+    Making one{recipe, sample, change.size_deviation, seed};
+    if (std::isfinite(change.surface_potential)) {
+        one.recipe.surface_potential = change.surface_potential;
     }
-    return {generators::SizeKind::monodisperse, sample.particle_radius};
+    if (std::isfinite(change.coordination)) {
+        one.recipe.target_coordination = change.coordination;
+    }
+    if (std::isfinite(change.voids)) {
+        one.recipe.voids = static_cast<int>(std::lround(change.voids * recipe.particles));
+    }
+    one.sample.volume_fraction *= 1 + change.volume_fraction;
+    return one;
 }
 
-generators::VoidExpansionOptions expansion_of(const StructureRecipe& recipe, const Sample& sample, std::size_t seed,
-                                              const StructureChange& change) {
+generators::SizeDistribution sizes_of(const Making& one) {
+    if (one.size_deviation > 0) {
+        return {generators::SizeKind::lognormal, one.sample.particle_radius, one.size_deviation};
+    }
+    return {generators::SizeKind::monodisperse, one.sample.particle_radius};
+}
+
+generators::VoidExpansionOptions expansion_of(const Making& one) {
     generators::VoidExpansionOptions options;
-    options.particles = recipe.particles;
-    options.voids = recipe.voids > 0 ? recipe.voids : recipe.particles / 2;
-    options.volume_fraction = sample.volume_fraction;
-    options.target_coordination = coordination_of(recipe);
-    options.seed = seed;
-    options.radii = generators::draw_radii(sizes_of(sample, change), options.particles, seed);
+    options.particles = one.recipe.particles;
+    options.voids = one.recipe.voids > 0 ? one.recipe.voids : one.recipe.particles / 2;
+    options.volume_fraction = one.sample.volume_fraction;
+    options.target_coordination = coordination_of(one.recipe);
+    options.seed = one.seed;
+    options.radii = generators::draw_radii(sizes_of(one), options.particles, one.seed);
     return options;
 }
 
-generators::CoagulationOptions coagulation_of(const StructureRecipe& recipe, const Sample& sample, std::size_t seed,
-                                              const StructureChange& change) {
+generators::CoagulationOptions coagulation_of(const Making& one) {
     generators::CoagulationOptions options;
-    options.particles = recipe.particles;
-    options.sizes = sizes_of(sample, change);
-    options.volume_fraction = sample.volume_fraction;
-    options.surface_potential = surface_potential_of(recipe, change);
-    options.temperature = std::isfinite(sample.temperature) ? sample.temperature : options.temperature;
-    options.target_coordination = coordination_of(recipe);
-    options.seed = seed;
+    options.particles = one.recipe.particles;
+    options.sizes = sizes_of(one);
+    options.volume_fraction = one.sample.volume_fraction;
+    options.surface_potential = one.recipe.surface_potential;
+    options.temperature = std::isfinite(one.sample.temperature) ? one.sample.temperature : options.temperature;
+    options.target_coordination = coordination_of(one.recipe);
+    options.seed = one.seed;
     return options;
+}
+
+std::string call_of(const Making& one) {
+    const bool coagulates = one.recipe.generator == "brownian";
+    std::string call = "coagula generate " + one.recipe.generator;
+    const auto add = [&](const std::string& option, const std::string& value) { call += " --" + option + " " + value; };
+    const auto add_needed = [&](const std::string& option, double value, const std::string& key) {
+        if (std::isnan(value)) {
+            throw InputError("structures by '" + one.recipe.generator + "' need " + key);
+        }
+        add(option, to_text(value));
+    };
+    add("particles", std::to_string(one.recipe.particles));
+    if (one.recipe.voids > 0) {
+        add("voids", std::to_string(one.recipe.voids));
+    }
+    add_needed("volume-fraction", one.sample.volume_fraction, "sample.volume_fraction");
+    add_needed("radius", one.sample.particle_radius, "sample.particle_radius");
+    if (one.size_deviation > 0) {
+        add("size-distribution", "lognormal:" + to_text(one.size_deviation));
+    }
+    if (coagulates) {
+        add_needed("surface-potential", one.recipe.surface_potential, "structures.surface_potential");
+        if (std::isfinite(one.sample.temperature)) {
+            add("temperature", to_text(one.sample.temperature));
+        }
+    }
+    add(coagulates ? "stop-coordination" : "target-coordination", to_text(coordination_of(one.recipe)));
+    add("seed", std::to_string(one.seed));
+    return call;
 }
 
 /// What `work` on a structure returns; what cannot be made is named first.
 template <class Work>
-auto naming_structure(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change,
-                      const Work& work) {
-    const std::string call = generation_call(recipe, sample, seed, change);
+auto naming_structure(const Making& one, const Work& work) {
+    const std::string call = call_of(one);
     try {
-        require(recipe.particles <= 100000000, "a structure can have at most 100 million particles");
+        require(one.recipe.particles <= 100000000, "a structure can have at most 100 million particles");
         return work();
     } catch (const InputError& error) {
         throw InputError("structures by '" + call + "': " + error.what());
@@ -74,48 +120,22 @@ auto naming_structure(const StructureRecipe& recipe, const Sample& sample, std::
 }  // namespace
 
 std::string generation_call(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change) {
-    const bool coagulates = recipe.generator == "brownian";
-    std::string call = "coagula generate " + recipe.generator;
-    const auto add = [&](const std::string& option, const std::string& value) { call += " --" + option + " " + value; };
-    const auto add_needed = [&](const std::string& option, double value, const std::string& key) {
-        if (std::isnan(value)) {
-            throw InputError("structures by '" + recipe.generator + "' need " + key);
-        }
-        add(option, to_text(value));
-    };
-    add("particles", std::to_string(recipe.particles));
-    if (recipe.voids > 0) {
-        add("voids", std::to_string(recipe.voids));
-    }
-    add_needed("volume-fraction", sample.volume_fraction, "sample.volume_fraction");
-    add_needed("radius", sample.particle_radius, "sample.particle_radius");
-    if (change.size_deviation > 0) {
-        add("size-distribution", "lognormal:" + to_text(change.size_deviation));
-    }
-    if (coagulates) {
-        add_needed("surface-potential", surface_potential_of(recipe, change), "structures.surface_potential");
-        if (std::isfinite(sample.temperature)) {
-            add("temperature", to_text(sample.temperature));
-        }
-    }
-    add(coagulates ? "stop-coordination" : "target-coordination", to_text(coordination_of(recipe)));
-    add("seed", std::to_string(seed));
-    return call;
+    return call_of(making(recipe, sample, seed, change));
 }
 
 void check_recipe(const StructureRecipe& recipe, const Sample& sample) {
-    const std::size_t seed = recipe.seeds.front();  // decides nothing here
-    naming_structure(recipe, sample, seed, {}, [&] {
-        return recipe.generator == "vem" ? generators::check(expansion_of(recipe, sample, seed, {}))
-                                         : generators::check(coagulation_of(recipe, sample, seed, {}));
+    const Making one = making(recipe, sample, recipe.seeds.front(), {});  // the seed decides nothing here
+    naming_structure(one, [&] {
+        return recipe.generator == "vem" ? generators::check(expansion_of(one)) : generators::check(coagulation_of(one));
     });
 }
 
 Packing generate_structure(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change,
                            const Progress& progress) {
-    return naming_structure(recipe, sample, seed, change, [&] {
-        return recipe.generator == "vem" ? generators::expand_voids(expansion_of(recipe, sample, seed, change), progress).packing
-                                         : generators::coagulate(coagulation_of(recipe, sample, seed, change), progress);
+    const Making one = making(recipe, sample, seed, change);
+    return naming_structure(one, [&] {
+        return recipe.generator == "vem" ? generators::expand_voids(expansion_of(one), progress).packing
+                                         : generators::coagulate(coagulation_of(one), progress);
     });
 }
 

@@ -65,6 +65,25 @@ class Recipe(ProgramTest):
         for change in ("--surface-potential 0.015 ", "--size-distribution lognormal:0.4 "):
             self.assertIn(change, cache)
 
+    def test_structures_are_made_again_by_the_words_of_generate(self):
+        """The sample has fewer voids than the recipe."""
+        self.succeed("generate", "vem", "--particles", "300", "--voids", "45", "--volume-fraction", "0.4", "--radius", "0.25um", "--seed", "9",
+                     "--quiet", "-o", "sample.h5")
+        curve = self.succeed_json("characterize", "sample.h5", "--only", "pores", "--radii", "40", "-o", "pores.h5")["pore_curve"]
+        self.write("pores.csv", "pore_radius [m],exclusion_probability\n" +
+                   "".join(f"{r},{p}\n" for r, p in zip(curve["radius"], curve["exclusion_probability"])))
+        self.experiment('generator = "vem"', "pore-curve", "pores", particles=120)
+        found = self.succeed_json("diagnose", "experiment.toml", "-o", "results", "--causes", "volume-fraction,coordination,heterogeneity",
+                                  "--bootstrap", "299")
+        self.assertEqual(found["causes"][0]["name"], "heterogeneity")
+        self.assertEqual(len(found["extended_structures"]), 2)
+        voids = found["causes"][0]["parameters"]["voids_per_particle"]["value"]
+        self.assertIn(f"--voids {round(120 * voids)} ", found["extended_structures"][0])
+        self.succeed(*found["extended_structures"][0].split()[1:], "--quiet", "-o", "again.h5")
+        cache = (self.folder / "results" / "simulations.txt").read_text()
+        for words in ("--voids 15 ", "--target-coordination 5.1 ", "--volume-fraction 0.34 "):
+            self.assertIn(words, cache)
+
     def test_refusals(self):
         self.write("pores.csv", "pore_radius [um],exclusion_probability\n" + "".join(f"{0.02 * k},{1 / (1 + k)}\n" for k in range(12)))
         self.experiment('generator = "brownian"', "pore-curve", "pores")

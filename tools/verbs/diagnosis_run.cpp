@@ -44,14 +44,18 @@ std::string outside_of_contact(const std::string& name) {
     return text;
 }
 
-/// The contact of the best cause as a TOML file; empty when there is none or nothing shows its stiffness.
-std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
+/// The first of the credible set; null where nothing departs.
+const diagnose::Cause* best_cause(const diagnose::Diagnosis& diagnosis) {
     const auto& set = diagnosis.credible_set;
     const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
                                    [&](const diagnose::Cause& cause) { return !set.empty() && cause.name == set.front(); });
-    const bool has_contact =
-        std::isfinite(radius) && best != diagnosis.causes.end() && !best->parameters.empty() && !diagnosis.base.parameters.empty();
-    if (!diagnosis.detected || !has_contact) {
+    return diagnosis.detected && best != diagnosis.causes.end() && !best->parameters.empty() ? &*best : nullptr;
+}
+
+/// The contact of the best cause as a TOML file; empty when there is none or nothing shows its stiffness.
+std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
+    const diagnose::Cause* best = best_cause(diagnosis);
+    if (best == nullptr || std::isnan(radius) || diagnosis.base.parameters.empty()) {
         return {};
     }
     return "# " + best->name + ": " + best->words + "\n" + outside_of_contact(best->name) +
@@ -136,7 +140,8 @@ struct Diagnosed {
     double radius;  ///< of the particles in the structures [m]; unset: there are none
     std::vector<std::string> sentences;
     diagnose::Diagnosis diagnosis;
-    std::string contact;  ///< of the best cause, as TOML; empty: none
+    std::string contact;                  ///< of the best cause, as TOML; empty: none
+    std::vector<std::string> structures;  ///< calls that make those of the best cause; empty: those of the experiment
 
     std::vector<std::string> notes() const { return notes_on(checked.file.experiment, radius, checked.file.notes); }
 };
@@ -155,7 +160,12 @@ Diagnosed diagnosed(const Arguments& arguments, diagnose::SimulationCache& cache
     diagnose::Diagnosis diagnosis =
         naming(arguments.input(), [&] { return diagnose::diagnose(experiment, simulator, checked.options, progress); });
     std::string contact = model_text(diagnosis, radius);
-    return {std::move(checked), radius, std::move(sentences), std::move(diagnosis), std::move(contact)};
+    const diagnose::Cause* best = best_cause(diagnosis);
+    std::vector<std::string> calls;
+    if (best != nullptr) {
+        calls = remaking_calls(experiment, diagnose::change_of(best->model.simulated()));
+    }
+    return {std::move(checked), radius, std::move(sentences), std::move(diagnosis), std::move(contact), std::move(calls)};
 }
 
 /// What is printed, and what diagnosis.json says.
@@ -189,12 +199,16 @@ Written write_diagnosis(const Arguments& arguments, const std::string& path, con
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
     folder.write(cache_name, cache_text(cache));
     Json json = report::to_json(found.diagnosis, found.checked.noise, model);
+    json["extended_structures"] = found.structures;
     json["notes"] = record.notes;
     json["report"] = (folder.path() / "report.html").string();
     json["seconds"] = clock.seconds();
     folder.write("diagnosis.json", json.dump(2) + "\n");
     folder.publish();
     Table table = table_of(found.diagnosis);
+    for (const std::string& call : found.structures) {
+        table.emplace_back("structures of the cause", call);
+    }
     for (const std::string& note : record.notes) {
         table.emplace_back("note", note);
     }

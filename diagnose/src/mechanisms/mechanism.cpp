@@ -46,7 +46,10 @@
     ENTRY(numerical)                \
     ENTRY(localisation_error)       \
     ENTRY(polydispersity)           \
-    ENTRY(surface_potential)
+    ENTRY(surface_potential)        \
+    ENTRY(volume_fraction)          \
+    ENTRY(coordination)             \
+    ENTRY(heterogeneity)
 
 namespace coagula::diagnose {
 

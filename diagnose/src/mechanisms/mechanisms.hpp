@@ -80,6 +80,17 @@ inline bool sees_structure(const Experiment& experiment) {
            (has_moduli(experiment) && std::isfinite(experiment.sample.normal_stiffness));
 }
 
+/// Structures come from a recipe, so that they can be made again, and something shows what they look like.
+inline bool sees_recipe(const Experiment& experiment) {
+    return experiment.recipe && sees_structure(experiment);
+}
+
+/// The same for void expansion at a stated volume fraction between these.
+inline bool sees_void_expansion(const Experiment& experiment, double lowest, double highest) {
+    const double stated = experiment.sample.volume_fraction;
+    return sees_recipe(experiment) && experiment.recipe->generator == "vem" && stated >= lowest && stated <= highest;
+}
+
 /// Whether what `of_row` says of the rows of all tables differs by more than a twentieth.
 template <class OfRow>
 bool differs(const Experiment& experiment, const OfRow& of_row) {

@@ -9,7 +9,7 @@ Mechanism polydispersity() {
             .signature = "the peak of the contacts is lower and wider, the pores change; coordination is kept",
             .parameters = {{"relative_size_deviation", "1", 0.02, 0.4, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.size_deviation = values[0]; }},
-            .applies = [](const Experiment& experiment) { return experiment.recipe && sees_structure(experiment); }};
+            .applies = sees_recipe};
 }
 
 }  // namespace coagula::diagnose::mechanisms

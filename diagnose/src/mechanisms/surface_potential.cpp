@@ -11,7 +11,7 @@ constexpr double highest_potential = 0.015;  // V
 constexpr double largest_radius = 0.26e-6;   // m
 
 bool coagulates(const Experiment& experiment) {
-    return experiment.recipe && experiment.recipe->generator == "brownian" && sees_structure(experiment) &&
+    return sees_recipe(experiment) && experiment.recipe->generator == "brownian" &&
            experiment.sample.particle_radius <= largest_radius;
 }
 

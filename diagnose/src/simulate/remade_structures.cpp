@@ -17,6 +17,9 @@ namespace {
 constexpr Axis size_axis{0.03, 0.4, 7};  // at 0.03 no shell of neighbours notices
 /// Below 11 mV particles of 0.25 um in water have no barrier, and coagulation hardly knows the potential.
 constexpr LinearAxis potential_axis{0.011, 0.015, 5};
+constexpr LinearAxis fraction_axis{-0.15, 0.15, 5};  // its middle is the structure as it is
+constexpr LinearAxis coordination_axis{4.3, 5.1, 5};
+constexpr Axis voids_axis{0.125, 1, 4};
 
 }  // namespace
 
@@ -25,6 +28,9 @@ void Simulator::use(OtherStages stages) {
 }
 
 Simulator& Simulator::remade(const StructureChange& change) {
+    if (change == StructureChange{}) {
+        return *this;
+    }
     std::unique_ptr<Simulator>& other = remade_[change];
     if (other) {
         return *other;
@@ -49,13 +55,27 @@ Simulator& Simulator::remade(const StructureChange& change) {
 double Simulator::over_changes(const StructureChange& change, const std::function<double(Simulator&)>& asked) {
     const double stated = asked(*this);
     double value = stated;
+    const auto add = [&](const auto& axis, double StructureChange::*changed) {
+        value -= stated - interpolate_nodes(axis, change.*changed, [&](int k) {
+                     StructureChange node;
+                     node.*changed = axis.node(k);
+                     return asked(remade(node));
+                 });
+    };
     if (change.size_deviation > 0) {
-        value -= stated - interpolate_nodes(size_axis, change.size_deviation,
-                                            [&](int k) { return asked(remade({.size_deviation = size_axis.node(k)})); });
+        add(size_axis, &StructureChange::size_deviation);
     }
     if (std::isfinite(change.surface_potential)) {
-        value -= stated - interpolate_nodes(potential_axis, change.surface_potential,
-                                            [&](int k) { return asked(remade({.surface_potential = potential_axis.node(k)})); });
+        add(potential_axis, &StructureChange::surface_potential);
+    }
+    if (change.volume_fraction != 0) {
+        add(fraction_axis, &StructureChange::volume_fraction);
+    }
+    if (std::isfinite(change.coordination)) {
+        add(coordination_axis, &StructureChange::coordination);
+    }
+    if (std::isfinite(change.voids)) {
+        add(voids_axis, &StructureChange::voids);
     }
     return value;
 }

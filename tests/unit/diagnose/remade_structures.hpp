@@ -23,6 +23,21 @@ inline Packing structure_with_sizes(Index particles, std::uint64_t seed, generat
                             [&] { return generators::expand_voids(options).packing; });
 }
 
+/// Void expansion with a number of voids per particle.
+inline Packing structure_with_voids(Index particles, std::uint64_t seed, double voids, double volume_fraction = 0.4,
+                                    double target_coordination = unset) {
+    generators::VoidExpansionOptions options;
+    options.particles = particles;
+    options.voids = std::lround(voids * static_cast<double>(particles));
+    options.volume_fraction = volume_fraction;
+    options.radii = Eigen::VectorXd::Constant(particles, 0.25e-6);
+    options.target_coordination = std::isnan(target_coordination) ? options.target_coordination : target_coordination;
+    options.seed = seed;
+    return stored_structure(
+        "voids", {static_cast<double>(particles), static_cast<double>(seed), voids, volume_fraction, options.target_coordination},
+        [&] { return generators::expand_voids(options).packing; });
+}
+
 constexpr int recipe_particles = 300;
 
 inline PoreCurve pores_of(const Packing& packing) {
@@ -60,6 +75,25 @@ inline const std::vector<Packing>& structures_of_recipe() {
     return made;
 }
 
+/// A structure of the recipe with a change.
+inline Packing remade_structure(std::size_t structure, const StructureChange& change) {
+    const std::uint64_t seed = structure + 1;
+    if (change.size_deviation > 0) {
+        return structure_with_sizes(recipe_particles, seed, generators::SizeKind::lognormal, change.size_deviation);
+    }
+    const double voids = std::isfinite(change.voids) ? change.voids : 0.5;
+    return structure_with_voids(recipe_particles, seed, voids, 0.4 * (1 + change.volume_fraction),
+                                std::isfinite(change.coordination) ? change.coordination : unset);
+}
+
+inline std::string name_of(const StructureChange& change) {
+    std::string name;
+    for (const double value : {change.size_deviation, change.volume_fraction, change.coordination, change.voids}) {
+        name += std::to_string(value) + " ";
+    }
+    return name;
+}
+
 /// Two structures of a void expansion recipe that can be made again; `made` counts how often.
 struct Recipe {
     SimulationCache cache = {};
@@ -70,10 +104,9 @@ struct Recipe {
         simulator.use({.make =
                            [this](std::size_t k, const StructureChange& change) {
                                ++made;
-                               return structure_with_sizes(recipe_particles, k + 1, generators::SizeKind::lognormal,
-                                                           change.size_deviation);
+                               return remade_structure(k, change);
                            },
-                       .name = [](std::size_t, const StructureChange& change) { return std::to_string(change.size_deviation); },
+                       .name = [](std::size_t, const StructureChange& change) { return name_of(change); },
                        .measure_pores = measured_pores});
     }
     Recipe(const Recipe&) = delete;

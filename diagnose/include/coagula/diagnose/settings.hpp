@@ -41,6 +41,9 @@ struct Settings {
     double size_deviation = 0;  ///< standard deviation of the radii over their mean
     double coagulation_potential =
         std::numeric_limits<double>::infinity();  ///< surface potential of the coagulation [V]; infinite: as the recipe says
+    double volume_fraction_change = 0;            ///< of the structures, relative to that of the sample
+    double coordination = std::numeric_limits<double>::infinity();  ///< that the recipe aims at; infinite: as it says
+    double voids = std::numeric_limits<double>::infinity();         ///< per particle, of a recipe; infinite: as it says
 
     bool operator==(const Settings&) const = default;
 };

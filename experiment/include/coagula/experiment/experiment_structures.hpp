@@ -25,6 +25,9 @@ ExperimentStructures check_structures(diagnose::Experiment& experiment);
 /// nothing coagulates.
 void make_structures(diagnose::Experiment& experiment, ExperimentStructures& structures, const Progress& progress);
 
+/// The calls of `coagula generate`, one per seed, that make the structures of the recipe with a change; none without a change.
+std::vector<std::string> remaking_calls(const diagnose::Experiment& experiment, const diagnose::StructureChange& change);
+
 /// Each in one sentence: where it is from, its particles and hash.
 std::vector<std::string> structure_sentences(const diagnose::Experiment& experiment, const ExperimentStructures& structures);
 

@@ -1,0 +1,26 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// Void expansion comes to all coordinations of the range there. Coagulation comes to the upper ones after minutes only.
+bool can_be_aimed_at(const Experiment& experiment) {
+    return sees_void_expansion(experiment, 0.3, 0.5);
+}
+
+}  // namespace
+
+/// No sample comes with its coordination: the recipe has one by convention.
+Mechanism coordination() {
+    return {.name = "coordination",
+            .term = "particles have another number of contacts than the recipe aims at; the structures are made with it",
+            .signature =
+                "the peak of the contacts follows the coordination, the pores hardly do; all moduli higher or lower by one "
+                "factor",
+            .parameters = {{"coordination", "1", 4.3, 5.1, false}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.coordination = values[0]; }},
+            .applies = can_be_aimed_at};
+}
+
+}  // namespace coagula::diagnose::mechanisms

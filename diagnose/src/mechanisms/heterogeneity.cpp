@@ -1,0 +1,25 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// Void expansion comes to the usual coordination there, with all numbers of voids of the range.
+bool can_have_other_voids(const Experiment& experiment) {
+    return sees_void_expansion(experiment, 0.35, 0.45);
+}
+
+}  // namespace
+
+/// The fewer voids push the particles together, the more heterogeneous is what void expansion makes (Schenker et al. 2012).
+Mechanism heterogeneity() {
+    return {
+        .name = "heterogeneity",
+        .term = "the sample is more or less heterogeneous than the recipe's structures; these are made with other numbers of voids",
+        .signature = "fewer voids per particle give larger pores and more neighbours within two diameters at equal coordination",
+        .parameters = {{"voids_per_particle", "1", 0.125, 1, true}},
+        .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.voids = values[0]; }},
+        .applies = can_have_other_voids};
+}
+
+}  // namespace coagula::diagnose::mechanisms

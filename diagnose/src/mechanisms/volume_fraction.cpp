@@ -1,0 +1,31 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+constexpr double quick_potential = 0.012;  // V: above it coagulation takes minutes
+
+/// Void expansion reaches the usual coordination from a volume fraction of 0.3 on, and has more contacts before any void has grown
+/// from 0.53 on.
+bool can_be_diluted(const Experiment& experiment) {
+    const double stated = experiment.sample.volume_fraction;
+    return sees_recipe(experiment) && stated >= 0.355 && stated <= 0.455 &&
+           (experiment.recipe->generator == "vem" || experiment.recipe->surface_potential <= quick_potential);
+}
+
+}  // namespace
+
+/// A sample that lost solvent when it was filled, or particles when it was weighed.
+Mechanism volume_fraction() {
+    return {.name = "volume-fraction",
+            .term = "the volume fraction of the sample is another than stated; the structures are made with it",
+            .signature =
+                "neighbours at all distances and the pores follow the volume fraction, the contacts do not; all moduli higher "
+                "or lower by one factor",
+            .parameters = {{"volume_fraction_over_stated", "1", 0.85, 1.15, false}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.volume_fraction_change = values[0] - 1; }},
+            .applies = can_be_diluted};
+}
+
+}  // namespace coagula::diagnose::mechanisms
