@@ -246,6 +246,9 @@ std::string made(const DiagnosisRecord& record) {
     for (const std::string& structure : record.structures) {
         line("structure", escaped(structure));
     }
+    for (const std::string& call : record.calls) {
+        line("structure of the best cause", "<code>" + escaped(call) + "</code>");
+    }
     line("numbers", "<code>diagnosis.json</code>, and everything behind them in <code>diagnosis.h5</code>" +
                         (record.model.empty() ? std::string{}
                                               : "; the contact of the best cause for <code>coagula shear --model</code> in "

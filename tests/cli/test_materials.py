@@ -197,6 +197,19 @@ class SmoothMaterial(Tables):
                                '[[measurement]]\nkind = "frequency-sweep"\nfile = "zero.csv"\nvalues = { strain = 1 }\n')
         self.assertTrue(all(math.isfinite(row["base"]) for row in found["rows"]))
 
+    def test_a_first_row_that_is_far_too_small_does_not_draw_the_rest_down(self):
+        number = random.Random(4)
+        rows = [(frequency, *(lambda g: (g.real, g.imag))(read(number, (500 + 40j) * frequency**0.1))) for frequency in FREQUENCIES]
+        rows[0] = (rows[0][0], 0.1 * rows[0][1], 0.1 * rows[0][2])
+        self.table("late.csv", HEADS, rows)
+        found = self.diagnosis('[material]\nkind = "smooth"\n\n' + NOISE +
+                               '[[measurement]]\nkind = "frequency-sweep"\nfile = "late.csv"\nvalues = { strain = 1e-3 }\n')
+        stored = {row["row"]: row for row in found["rows"] if row["observable"] == "storage_modulus"}
+        ratios = [stored[row]["base"] / stored[row]["measured"] for row in range(2, len(rows) + 1)]
+        self.assertGreater(min(ratios), 0.7)  # the level of the sample makes up for the rest
+        self.assertLess(max(ratios) / min(ratios), 1.15)
+        self.assertNotEqual(found["verdict"], "named")
+
     def test_nothing_is_found_without_it(self):
         for count in (1, 10):
             self.assertFalse(self.diagnosis(self.sweeps(count, 0))["detected"])

@@ -144,6 +144,15 @@ struct Diagnosed {
     std::vector<std::string> structures;  ///< calls that make those of the best cause; empty: those of the experiment
 
     std::vector<std::string> notes() const { return notes_on(checked.file.experiment, radius, checked.file.notes); }
+
+    /// @param model path of the extended model; empty: none.
+    Json json(const std::string& model, double seconds) const {
+        Json all = report::to_json(diagnosis, checked.noise, model);
+        all["extended_structures"] = structures;
+        all["notes"] = notes();
+        all["seconds"] = seconds;
+        return all;
+    }
 };
 
 Diagnosed diagnosed(const Arguments& arguments, diagnose::SimulationCache& cache, const Progress& progress) {
@@ -194,15 +203,13 @@ Written write_diagnosis(const Arguments& arguments, const std::string& path, con
                                  found.sentences,
                                  found.checked.options.level,
                                  model,
+                                 found.structures,
                                  found.notes()};
     folder.write("report.html", diagnosis_page(record));
     io::write_datasets(folder.stage("diagnosis.h5").string(), datasets_of(record), true);
     folder.write(cache_name, cache_text(cache));
-    Json json = report::to_json(found.diagnosis, found.checked.noise, model);
-    json["extended_structures"] = found.structures;
-    json["notes"] = record.notes;
+    Json json = found.json(model, clock.seconds());
     json["report"] = (folder.path() / "report.html").string();
-    json["seconds"] = clock.seconds();
     folder.write("diagnosis.json", json.dump(2) + "\n");
     folder.publish();
     Table table = table_of(found.diagnosis);
@@ -238,10 +245,7 @@ Json diagnose_experiment(const Arguments& arguments, const std::string& folder, 
     const Stopwatch clock;
     diagnose::SimulationCache cache;
     const Diagnosed found = diagnosed(arguments, cache, progress);
-    Json json = report::to_json(found.diagnosis, found.checked.noise, "");
-    json["notes"] = found.notes();
-    json["seconds"] = clock.seconds();
-    return json;
+    return found.json("", clock.seconds());
 }
 
 }  // namespace coagula::tools

@@ -18,8 +18,33 @@ double sample_effect(const NoiseModel& model, const Measurement& table) {
     return found == model.sample_effects.end() ? 0.0 : found->effect;
 }
 
+/// |G*| of a row, or its one modulus; NaN beyond the table.
+double size_of(const Measurement& table, const Column& column, std::size_t row) {
+    if (row >= column.values.size()) {
+        return unset;
+    }
+    const double size = complex_modulus(table, row);
+    return std::isnan(size) ? column.values[row] : size;
+}
+
+/// The size of a row; of the first row of a frequency sweep not less than half of what the next two lead to, or the nearest. A sweep
+/// that begins too early shows too small a modulus, and an error in proportion to that would give the worst row the largest weight.
+/// (Elsewhere what is small by itself shows beside its neighbours; small at the end of a sweep, or before a recovery, may be the
+/// material.)
+double plausible_size(const Measurement& table, const Column& column, std::size_t row) {
+    constexpr double far_below = 0.5;
+    const double own = std::abs(size_of(table, column, row));
+    if (row > 0 || table.kind != MeasurementKind::frequency_sweep) {
+        return own;
+    }
+    const double next = std::abs(size_of(table, column, 1));
+    const double second = std::abs(size_of(table, column, 2));
+    const double expected = std::min(next, next * next / second);
+    return std::isfinite(expected) && own < far_below * expected ? expected : own;
+}
+
 /// What is expected of this sample in this row by the replicates, so that a row's error does not depend on its own; where there are
-/// none, |G*| of the row, or its one modulus.
+/// none, its plausible size.
 double level_at(const NoiseModel& model, const Measurement& table, const Column& column, std::size_t row) {
     const double place = axis_of(table)->values[row];
     for (Eigen::Index condition = 0; condition < model.axis.size(); ++condition) {
@@ -27,8 +52,7 @@ double level_at(const NoiseModel& model, const Measurement& table, const Column&
             return model.levels[condition] * (1 + sample_effect(model, table));
         }
     }
-    const double size = complex_modulus(table, row);
-    return std::isnan(size) ? column.values[row] : size;
+    return plausible_size(table, column, row);
 }
 
 /// The model of a table's errors of torque or phase; null where there is none.

@@ -162,16 +162,18 @@ Eigen::MatrixXcd functions_of(const std::vector<Observation>& observations, bool
 SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, bool ages) {
     const auto size = static_cast<Index>(observations.size());
     values_.resize(size);
+    Eigen::ArrayXd stated(size);
     std::array<std::vector<Index>, 2> rows;  // of oscillations and of steady flow
     std::array<std::vector<Observation>, 2> parts;
     for (Index k = 0; k < size; ++k) {
         const Observation& one = observations[static_cast<std::size_t>(k)];
         values_[k] = one.value;
+        stated[k] = std::isfinite(one.standard_error) ? one.standard_error : 0;
         rows.at(is_steady(one) ? 1 : 0).push_back(k);
         parts.at(is_steady(one) ? 1 : 0).push_back(one);
     }
     const Eigen::ArrayXd sizes = complex_moduli(observations, values_);
-    weights_ = (relative * sizes.max(smallest * sizes.maxCoeff())).inverse();
+    weights_ = (relative * sizes.max(smallest * sizes.maxCoeff())).max(stated).inverse();
     functions_ = Eigen::MatrixXcd::Zero(size, 0);
     for (std::size_t part = 0; part < parts.size(); ++part) {
         if (!parts.at(part).empty()) {

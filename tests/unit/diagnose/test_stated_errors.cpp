@@ -80,6 +80,33 @@ TEST(StatedErrors, OfATableWithoutReplicatesAreThoseOfTheOthers) {
     }
 }
 
+/// A first row that is far too small has the error of the next, not the smallest of all; one that is less so has its own.
+TEST(StatedErrors, OfAFirstRowFarBelowTheNextAreTheirs) {
+    for (const double factor : {0.1, 0.6}) {
+        Experiment experiment = apart();
+        Measurement sweep = lone_sweep();
+        sweep.columns[1].values[0] *= factor;
+        experiment.measurements.push_back(sweep);
+        state_errors(experiment, noise_of_tables(experiment.measurements));
+        const std::vector<double>& errors = experiment.measurements.back().columns[1].standard_errors;
+        EXPECT_NEAR(errors[0] / errors[1], factor < 0.5 ? 1 : factor, 0.02) << factor;
+    }
+}
+
+/// Where the moduli rise in proportion to the frequency the ends are as expected.
+TEST(StatedErrors, OfSteepEndsAreTheirOwn) {
+    Experiment experiment = apart();
+    Measurement sweep = lone_sweep();
+    sweep.columns[1].values = {100, 300, 900, 2700, 8100};
+    sweep.columns[2].values = {1, 3, 9, 27, 81};
+    experiment.measurements.push_back(sweep);
+    state_errors(experiment, noise_of_tables(experiment.measurements));
+    const std::vector<double>& errors = experiment.measurements.back().columns[1].standard_errors;
+    for (std::size_t row = 0; row + 1 < errors.size(); ++row) {
+        EXPECT_NEAR(errors[row + 1] / errors[row], 3, 1e-9);
+    }
+}
+
 TEST(StatedErrors, OfAFluidAreThoseOfTheTorque) {
     Experiment experiment = apart();
     Measurement oil = lone_sweep();

@@ -19,6 +19,7 @@ struct DiagnosisRecord {
     std::vector<std::string> structures;  ///< one sentence each
     double level;                         ///< of the test
     std::string model;                    ///< path of the extended model; empty: none
+    std::vector<std::string> calls;       ///< that make the structures of the best cause; empty: it changes none
     std::vector<std::string> notes;       ///< what a reader should know about the data and structures
 };
 
