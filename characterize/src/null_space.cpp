@@ -110,7 +110,8 @@ public:
     NullSpace run(const std::vector<bool>& guess, const Progress& progress) {
         progress.update("rank of the rigidity matrix", 0.0);
         const Pivots pivots = first_pivots(guess);
-        for (double threshold = first_threshold; threshold <= last_threshold; threshold *= 10) {
+        double threshold = first_threshold;
+        while (threshold <= last_threshold) {
             NullSpace space;
             space.pinned = threshold == first_threshold ? pivots.best : pivots.below(threshold, guess);
             try {
@@ -120,6 +121,7 @@ public:
                 exchange(space);
                 return space;
             } catch (const NotPositiveDefinite&) {  // a dependent column has a larger pivot than that
+                threshold *= 10;
             }
         }
         throw std::runtime_error("the rank of the rigidity matrix cannot be told: stiffness fades into none without a gap");
@@ -181,7 +183,8 @@ private:
         factor.for_each_supernode([&](const CholeskyFactor::SupernodeView& node) {
             for (int column = 0; column < node.columns; ++column) {
                 const double root = node.value[static_cast<std::ptrdiff_t>(column) * (node.rows + 1)];
-                pivots.value[unknown[static_cast<std::size_t>(node.first_column + column)]] = root * root;
+                const int place = node.first_column + column;
+                pivots.value[unknown[static_cast<std::size_t>(place)]] = root * root;
             }
         });
         pivots.best = pivots.below(first_threshold, guess);
