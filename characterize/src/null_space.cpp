@@ -110,8 +110,7 @@ public:
     NullSpace run(const std::vector<bool>& guess, const Progress& progress) {
         progress.update("rank of the rigidity matrix", 0.0);
         const Pivots pivots = first_pivots(guess);
-        double threshold = first_threshold;
-        while (threshold <= last_threshold) {
+        for (double threshold = first_threshold; threshold <= last_threshold; threshold *= 10) {
             NullSpace space;
             space.pinned = threshold == first_threshold ? pivots.best : pivots.below(threshold, guess);
             try {
@@ -121,7 +120,6 @@ public:
                 exchange(space);
                 return space;
             } catch (const NotPositiveDefinite&) {  // a dependent column has a larger pivot than that
-                threshold *= 10;
             }
         }
         throw std::runtime_error("the rank of the rigidity matrix cannot be told: stiffness fades into none without a gap");

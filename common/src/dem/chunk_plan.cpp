@@ -9,7 +9,8 @@ namespace coagula::dem {
 std::uint64_t image_key(std::int32_t number, const Eigen::Vector3i& images) {
     auto key = static_cast<std::uint64_t>(number);
     for (const int periods : images) {
-        key = (key << 10U) | static_cast<std::uint64_t>(periods + 512);
+        const int shifted = periods + 512;
+        key = (key << 10U) | static_cast<std::uint64_t>(shifted);
     }
     return key;
 }

@@ -240,8 +240,7 @@ TEST(BrownianDynamics, MeanFieldSlowing) {
     EXPECT_NEAR((1 - mean_field_slowing(1e-4)) / 1e-4, 1.83, 0.005);  // Batchelor 1976, dilute hard spheres
     // Short-time self-diffusion of hard spheres up to phi = 0.5: Heinen, Banchio, Naegele, J. Chem. Phys. 135 (2011) 154504.
     double largest = 0;
-    for (int step = 0; step <= 100; ++step) {
-        const double phi = 0.005 * step;
+    for (double phi = 0; phi <= 0.5; phi += 0.005) {
         const double published = 1 - 1.8315 * phi * (1 + 0.1195 * phi - 0.70 * phi * phi);
         largest = std::max(largest, std::abs(mean_field_slowing(phi) / published - 1));
     }
