@@ -30,11 +30,6 @@ std::optional<double> fallback_of(const std::string& option) {
     return std::nullopt;
 }
 
-double checked_mean_radius(const Packing& packing) {
-    check(packing);
-    return mean_radius(packing);
-}
-
 }  // namespace
 
 struct MeasureInput::Shared {
@@ -49,11 +44,14 @@ struct MeasureInput::Shared {
 
 MeasureInput::MeasureInput(Packing packing, std::map<std::string, double> options, std::uint64_t seed, Progress progress)
     : packing_(std::move(packing)),
-      r0_(checked_mean_radius(packing_)),
+      r0_(unset),
       options_(std::move(options)),
       seed_(seed),
       progress_(std::move(progress)),
-      shared_(std::make_unique<Shared>()) {}
+      shared_(std::make_unique<Shared>()) {
+    check(packing_);
+    r0_ = mean_radius(packing_);
+}
 
 MeasureInput::MeasureInput(MeasureInput&&) noexcept = default;
 MeasureInput& MeasureInput::operator=(MeasureInput&&) noexcept = default;

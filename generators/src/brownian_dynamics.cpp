@@ -162,10 +162,10 @@ public:
           control_(control),
           time_step_(choose_time_step(potential, start.radii.mean(), closest_gap(start), options)),
           system_(make_setup(start_, potential, options, time_step_, units_), first_state()),
-          sampler_(potential, units_, cutoff_, options.contact_tolerance),
-          plateau_time_(std::isnan(options.plateau_time) ? default_plateau_time * units_.time : options.plateau_time) {
+          sampler_(potential, units_, cutoff_, options.contact_tolerance) {
         const bool timed = !std::isnan(options.stop_time);
         last_step_ = steps_until(timed ? options.stop_time : longest_run * time_step_.time_step);
+        plateau_time_ = std::isnan(options.plateau_time) ? default_plateau_time * units_.time : options.plateau_time;
         sample_steps_ = std::max<std::int64_t>(1, steps_until(sample_interval()));
         for (const double time : options.snapshot_times) {
             snapshot_steps_.push_back(steps_until(time));
@@ -324,9 +324,9 @@ private:
     TimeStep time_step_;
     BrownianSystem system_;
     BrownianSampler sampler_;
-    double plateau_time_;
     std::int64_t last_step_ = 0;
     std::int64_t sample_steps_ = 1;
+    double plateau_time_ = unset;
     std::vector<std::int64_t> snapshot_steps_;
     std::vector<Snapshot> snapshots_;
     std::string note_;

@@ -131,8 +131,7 @@ std::vector<ChunkPlan> plan_chunks(const NeighbourSearch& search, const std::vec
     std::vector<ChunkPlan> plans = split(order.size());
     assign_bonds(plans, bonds, sorted_of);
 #pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
-    for (std::size_t chunk = 0; chunk < plans.size(); ++chunk) {
-        ChunkPlan& plan = plans[chunk];
+    for (ChunkPlan& plan : plans) {
         for (std::int32_t number = plan.first; number < plan.last; ++number) {
             search.find_pairs_of(number, plan.pairs);
         }
