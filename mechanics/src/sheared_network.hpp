@@ -28,9 +28,9 @@ using ContactModes = Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, 6>;
 
 /// A pair that is bonded, or near enough to touch soon.
 struct ShearedContact {
-    Index first;
-    Index second;
-    Index bond;  ///< column in the network of bonds, -1: never was one
+    Index first = 0;
+    Index second = 0;
+    Index bond = -1;  ///< column in the network of bonds, -1: never was one
     ContactMemory memory;
 };
 

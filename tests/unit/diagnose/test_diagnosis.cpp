@@ -118,7 +118,6 @@ TEST(StoredSimulations, OfTwoStructuresAreThere) {
     EXPECT_TRUE(diagnose_tables({frequency_sweep(moduli, 5)}).detected);
     std::vector<std::complex<double>> falling;
     const std::vector<double> strains = logarithmic_steps(1e-5, 2.5e-3, 16);
-    falling.reserve(strains.size());
     for (const double strain : strains) {
         falling.push_back(moduli.front() / (1 + strain / 3e-4));
     }

@@ -125,7 +125,6 @@ TEST(SolventDrag, TheStructuresLeaveAnErrorThatHoldsOthers) {
     for (const double reduced : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
         const Settings settings = with_drag(reduced);
         std::vector<double> lost;
-        lost.reserve(alone.size());
         for (const auto& one : alone) {
             lost.push_back(one->exact_linear_modulus({}) * one->drag_response(settings, 1).imag());
         }

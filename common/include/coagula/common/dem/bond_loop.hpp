@@ -95,7 +95,7 @@ struct BondFormulas {
         Lanes::gather(slots.position, ends + 1, second);
         Lanes::gather(slots.turn, ends, first_turn);
         Lanes::gather(slots.turn, ends + 1, second_turn);
-        Pair pair;
+        Pair pair;  // NOLINT(cppcoreguidelines-pro-type-member-init): set in what follows
         pair.branch = {second[0] - first[0], second[1] - first[1], second[2] - first[2]};
         pair.distance = Lanes::larger(Lanes::square_root(dot(pair.branch, pair.branch)), Real{} + 1e-300);
         pair.inverse_distance = 1.0 / pair.distance;
