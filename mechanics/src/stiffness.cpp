@@ -281,7 +281,7 @@ BlockMatrix both_triangles(const BlockMatrix& upper) {
             const Block& block = upper.block[static_cast<std::size_t>(k)];
             put(row, column, block);
             if (column != row) {
-                put(column, row, block.transpose());  // NOLINT(readability-suspicious-call-argument): the other triangle
+                put(column, row, block.transpose());
             }
         }
     }
