@@ -57,7 +57,7 @@ TEST(RandomNormals, DoNotDependOnTheirNeighbours) {
 }
 
 TEST(RandomNormals, HaveTheMomentsOfANormalDistribution) {
-    constexpr int count = 300000;
+    constexpr std::size_t count = 300000;
     std::vector<std::int32_t> particles(count);
     std::iota(particles.begin(), particles.end(), 0);
     std::vector<double> normals(4 * count);
