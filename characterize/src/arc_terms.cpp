@@ -64,7 +64,8 @@ COAGULA_INLINE void add_side(double a, double b, double weight, const double* rh
 }  // namespace
 
 COAGULA_VARIANTS OrthoschemeAngles orthoscheme_angles(const ArcSides& sides, const std::array<double, 2>& heights) {
-    alignas(64) double a[8] = {}, b[8] = {}, c[8] = {};
+    using Eight = std::array<double, 8>;
+    alignas(64) Eight a{}, b{}, c{};
     for (std::size_t k = 0; k < 6; ++k) {
         a[k] = sides.a[k / 2];
         b[k] = sides.b[k / 2];
@@ -85,8 +86,11 @@ COAGULA_VARIANTS OrthoschemeAngles orthoscheme_angles(const ArcSides& sides, con
 
 COAGULA_VARIANTS void sum_arc_terms(const ArcSides& sides, double start, double step, int blocks, double* sum) {
     constexpr int most = 8 * arc_block;
-    alignas(64) double rho[most];
-    alignas(64) double half_chord[most];
+    using Chunk = std::array<double, most>;
+    alignas(64) Chunk rho_values;         // NOLINT(cppcoreguidelines-pro-type-member-init): filled chunk by chunk
+    alignas(64) Chunk half_chord_values;  // NOLINT(cppcoreguidelines-pro-type-member-init): likewise
+    double* rho = rho_values.data();
+    double* half_chord = half_chord_values.data();
     for (int begin = 0; begin < blocks * arc_block; begin += most) {
         const int count = std::min(most, blocks * arc_block - begin);
 #pragma omp simd

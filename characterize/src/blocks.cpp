@@ -56,7 +56,8 @@ Blocks make_blocks(const Packing& packing, const std::vector<bool>& counted) {
         }
         const Eigen::Array3d place = (packing.cell.wrap(packing.positions.col(i)).array() - bounds.lower) / bounds.lengths;
         const Eigen::Array3i box = (place * along.cast<double>()).floor().cast<int>().max(0).min(along - 1);
-        int& block = number[static_cast<std::size_t>((box[2] * along[1] + box[1]) * along[0] + box[0])];
+        const int place_of_box = (box[2] * along[1] + box[1]) * along[0] + box[0];
+        int& block = number[static_cast<std::size_t>(place_of_box)];
         block = block < 0 ? static_cast<int>(blocks.count++) : block;
         blocks.of_particle[i] = block;
     }

@@ -68,7 +68,10 @@ private:
     };
 
     int across(int k) const { return k == 0 ? first_ : second_; }
-    std::size_t slot(const Eigen::Array2i& bin) const { return static_cast<std::size_t>(bin[1] * bins_[0] + bin[0]); }
+    std::size_t slot(const Eigen::Array2i& bin) const {
+        const int number = bin[1] * bins_[0] + bin[0];
+        return static_cast<std::size_t>(number);
+    }
     Eigen::Array2i bin_of(const Eigen::Array2d& place) const {
         return (place / length_ * bins_.cast<double>()).cast<int>().max(0).min(bins_ - 1);
     }
@@ -109,7 +112,7 @@ void add_line(std::vector<std::array<double, 2>> intervals, double length, int g
 }
 
 constexpr int groups_per_side = 5;
-constexpr Index groups = groups_per_side * groups_per_side;
+constexpr Index groups = Index{groups_per_side} * groups_per_side;
 
 /// Lines on the points of a Kronecker sequence with the plastic number, which fill the square evenly for any number of lines.
 Chords chords_along(const Packing& packing, int axis, Index lines, BlockSums& void_length) {

@@ -50,7 +50,7 @@ public:
         const PowerDiagram& diagram = reduced_.diagram;
         const double sphere = diagram.radii[0];
         const EdgeGeometry geometry = measure_edge(diagram, edge);
-        const double counted = static_cast<double>(std::ranges::count_if(edge.around, [&](int site) { return is_counted(site); }));
+        const auto counted = static_cast<double>(std::ranges::count_if(edge.around, [&](int site) { return is_counted(site); }));
         for (std::size_t which = 0; which < 2; ++which) {
             if (!geometry.is_flat(which)) {
                 const double share = tetrahedron_volume(diagram, edge, which) / 12;  // 4 particles, 3 triangles on each

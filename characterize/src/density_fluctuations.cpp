@@ -120,8 +120,9 @@ Grid window_sums(Grid grid, int width) {
 /// Number of windows, sum and sum of squares of their contents, by sub-volume (8 columns).
 Eigen::Matrix3Xd sum_windows(const Grid& contents, const Grid* certain, int width) {
     constexpr int along = 2;
+    constexpr Index sub_volumes = Index{along} * along * along;
     const double full = width * width * width - 0.5;
-    Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, along * along * along);
+    Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, sub_volumes);
     for (int z = 0; z < contents.count[2]; ++z) {
         for (int y = 0; y < contents.count[1]; ++y) {
             const int row = (z * along / contents.count[2] * along + y * along / contents.count[1]) * along;

@@ -23,14 +23,14 @@ public:
     void push(double time, std::int32_t voxel) {
         const auto bin = static_cast<std::size_t>(time * inverse_width_);
         if (bin < next_) {
-            due_.push_back({time, voxel});
+            due_.emplace_back(time, voxel);
             std::push_heap(due_.begin(), due_.end(), std::greater<>());
             return;
         }
         if (bin >= later_.size()) {
             later_.resize(bin + 1);
         }
-        later_[bin].push_back({time, voxel});
+        later_[bin].emplace_back(time, voxel);
     }
 
     bool is_empty() {
@@ -172,7 +172,8 @@ private:
         if (distance == none) {
             return infinity;
         }
-        const double time = time_[static_cast<std::size_t>(voxel.number + distance)];
+        const std::int32_t neighbour = voxel.number + distance;
+        const double time = time_[static_cast<std::size_t>(neighbour)];
         return time > 0 ? time : infinity;
     }
 

@@ -8,9 +8,9 @@
 namespace coagula::characterize {
 
 struct Neighbour {
-    int particle;
+    int particle = 0;
     Eigen::Vector3d separation;  ///< from the particle to this one or its image [m]
-    double squared_distance;
+    double squared_distance = 0;
 };
 
 /// The `count` nearest of each particle by centre distance, nearest first; images count as neighbours. Fewer in an open packing of

@@ -181,7 +181,8 @@ private:
         factor.for_each_supernode([&](const CholeskyFactor::SupernodeView& node) {
             for (int column = 0; column < node.columns; ++column) {
                 const double root = node.value[static_cast<std::ptrdiff_t>(column) * (node.rows + 1)];
-                pivots.value[unknown[static_cast<std::size_t>(node.first_column + column)]] = root * root;
+                const int place = node.first_column + column;
+                pivots.value[unknown[static_cast<std::size_t>(place)]] = root * root;
             }
         });
         pivots.best = pivots.below(first_threshold, guess);

@@ -81,6 +81,56 @@ void squared_distances(const PairRuns& runs, Index entry, Index begin, Index end
     }
 }
 
+/// Counts pairs by block and bin.
+class PairCounter {
+public:
+    /// @param width of a bin.
+    PairCounter(const Packing& packing, const PairRuns& runs, const Centres& centres, double width, Index bins, bool scaled)
+        : packing_(packing),
+          runs_(runs),
+          centres_(centres),
+          inverse_width_(1 / width),
+          bins_(bins),
+          scaled_(scaled),
+          counts_(Eigen::MatrixXi::Zero(centres.blocks.count, bins)) {}
+
+    /// Those of one entry of the runs with a run of others.
+    void operator()(Index entry, Index first, Index last, const Eigen::Vector3d& shift) {
+        const auto i = static_cast<std::size_t>(runs_.particle[static_cast<std::size_t>(entry)]);
+        for (Index begin = first; begin < last; begin += chunk) {
+            const Index end = std::min(begin + chunk, last);
+            squared_distances(runs_, entry, begin, end, shift, squares_.data());
+            for (Index e = begin; e < end; ++e) {
+                const auto j = static_cast<std::size_t>(runs_.particle[static_cast<std::size_t>(e)]);
+                add(i, j, squares_[static_cast<std::size_t>(e - begin)]);
+            }
+        }
+    }
+
+    const Eigen::MatrixXi& counts() const { return counts_; }
+
+private:
+    void add(std::size_t i, std::size_t j, double square) {
+        const double unit = scaled_ ? packing_.radii[static_cast<Index>(i)] + packing_.radii[static_cast<Index>(j)] : 1.0;
+        const double place = std::sqrt(square) / unit * inverse_width_;
+        if (place < static_cast<double>(bins_)) {
+            const auto bin = static_cast<std::int32_t>(place);
+            // Both ends count in the block of one of them, so that blocks are independent.
+            const std::size_t owner = ((i + j) & 1U) != 0 ? std::min(i, j) : std::max(i, j);
+            counts_(centres_.blocks.of_particle[owner], bin) += (bin < centres_.bins[i] ? 1 : 0) + (bin < centres_.bins[j] ? 1 : 0);
+        }
+    }
+
+    const Packing& packing_;
+    const PairRuns& runs_;
+    const Centres& centres_;
+    double inverse_width_;
+    Index bins_;
+    bool scaled_;
+    Eigen::MatrixXi counts_;
+    std::array<double, chunk> squares_{};
+};
+
 }  // namespace
 
 PairHistogram count_pairs(const Packing& packing, const SampleWindow& window, double range, Index bins, PairDistance distance) {
@@ -91,36 +141,15 @@ PairHistogram count_pairs(const Packing& packing, const SampleWindow& window, do
     histogram.pairs = Eigen::MatrixXd::Zero(bins, centres.blocks.count);
     const double reach = scaled ? 2 * packing.radii.maxCoeff() * range : range;
     const PairRuns runs(packing, reach);
-    const double inverse_width = 1 / histogram.width;
 #pragma omp parallel
     {
-        Eigen::MatrixXi counts = Eigen::MatrixXi::Zero(centres.blocks.count, bins);
-        std::array<double, chunk> squares{};
-        const auto count = [&](Index entry, Index first, Index last, const Eigen::Vector3d& shift) {
-            const auto i = static_cast<std::size_t>(runs.particle[static_cast<std::size_t>(entry)]);
-            for (Index begin = first; begin < last; begin += chunk) {
-                const Index end = std::min(begin + chunk, last);
-                squared_distances(runs, entry, begin, end, shift, squares.data());
-                for (Index e = begin; e < end; ++e) {
-                    const auto j = static_cast<std::size_t>(runs.particle[static_cast<std::size_t>(e)]);
-                    const double unit = scaled ? packing.radii[static_cast<Index>(i)] + packing.radii[static_cast<Index>(j)] : 1.0;
-                    const double place = std::sqrt(squares[static_cast<std::size_t>(e - begin)]) / unit * inverse_width;
-                    if (place < static_cast<double>(bins)) {
-                        const auto bin = static_cast<std::int32_t>(place);
-                        // Both ends count in the block of one of them, so that blocks are independent.
-                        const std::size_t owner = ((i + j) & 1U) != 0 ? std::min(i, j) : std::max(i, j);
-                        counts(centres.blocks.of_particle[owner], bin) +=
-                            (bin < centres.bins[i] ? 1 : 0) + (bin < centres.bins[j] ? 1 : 0);
-                    }
-                }
-            }
-        };
+        PairCounter count(packing, runs, centres, histogram.width, bins, scaled);
 #pragma omp for schedule(dynamic)
         for (Index row = 0; row < runs.rows(); ++row) {
             runs.for_each_run(row, count);
         }
 #pragma omp critical
-        histogram.pairs += counts.transpose().cast<double>();
+        histogram.pairs += count.counts().transpose().cast<double>();
     }
     add_expected(packing, window, centres, distance, histogram);
     return histogram;

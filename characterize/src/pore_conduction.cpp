@@ -123,7 +123,8 @@ Eigen::ArrayXf restrict_rest(const FaceConductances& g, const Eigen::ArrayXf& u)
             const int first = first_of_colour(0, y, z);
             sum_neighbours_of_colour(rows(y, z), first, sum.data());
             for (int x = 0; x < n[0]; ++x) {
-                parent[x] += sum[static_cast<std::size_t>(2 * x + first)];
+                const int child_x = 2 * x + first;
+                parent[x] += sum[static_cast<std::size_t>(child_x)];
             }
         }
     });
@@ -136,8 +137,9 @@ void prolong(const Eigen::Array3i& count, const Eigen::ArrayXf& correction, Eige
         const float* parent = correction.data() + (static_cast<Index>(z / 2) * (count[1] / 2) + y / 2) * (count[0] / 2);
         float* child = u.data() + (static_cast<Index>(z) * count[1] + y) * count[0];
         for (int x = 0; x < count[0] / 2; ++x) {
-            child[2 * x] += parent[x];
-            child[2 * x + 1] += parent[x];
+            child[0] += parent[x];
+            child[1] += parent[x];
+            child += 2;
         }
     });
 }
@@ -247,10 +249,11 @@ Eigen::ArrayXf ConductionSolver::solve(int axis, double spacing, double toleranc
     return u;
 }
 
-double ConductionSolver::power(const FaceConductances& g, const Eigen::ArrayXf& u, int axis, double spacing) {
+double ConductionSolver::power(const FaceConductances& conductances, const Eigen::ArrayXf& potential, int axis, double spacing) {
+    const FaceConductances& g = conductances;
     std::array<double, 3> applied{};
     applied[static_cast<std::size_t>(axis)] = spacing;
-    const Rows rows(g, u);
+    const Rows rows(g, potential);
     Eigen::ArrayXd of_row(static_cast<Index>(g.count[1]) * g.count[2]);
     for_rows(g.count,
              [&](int y, int z, float*) { of_row[static_cast<Index>(z) * g.count[1] + y] = row_power(rows(y, z), applied); });

@@ -31,7 +31,7 @@ double value_of(const Dataset& dataset) {
 
 struct Shift {
     std::string name, unit;
-    double value, mean, error;
+    double value = 0, mean = 0, error = 0;
 };
 
 Shift shift_of(const std::string& name, const Dataset& dataset, const std::vector<double>& noisy) {

@@ -228,7 +228,8 @@ double power_of_vertex(const PowerDiagram& diagram, const std::array<int, 4>& si
     Eigen::Matrix3d edges;
     Eigen::Vector3d half;
     for (int k = 0; k < 3; ++k) {
-        const int site = sites[static_cast<std::size_t>(k + 1)];
+        const int end = k + 1;
+        const int site = sites[static_cast<std::size_t>(end)];
         const double other = diagram.radii[site] + growth;
         edges.row(k) = diagram.positions.col(site) - origin;
         half[k] = 0.5 * (edges.row(k).squaredNorm() + (radius - other) * (radius + other));

@@ -24,6 +24,28 @@ struct Shells {
     Eigen::Array3i most;                          ///< largest multiples
 };
 
+/// Calls `visit` with half of all multiples up to `most` along each axis: of q and -q one.
+template <class Visit>
+void for_half_of(const Multiples& most, const Visit& visit) {
+    for (int x = 0; x <= most[0]; ++x) {
+        for (int y = x == 0 ? 0 : -most[1]; y <= most[1]; ++y) {
+            for (int z = x == 0 && y == 0 ? 1 : -most[2]; z <= most[2]; ++z) {
+                visit(x, y, z);
+            }
+        }
+    }
+}
+
+/// Leaves every so many, evenly.
+void thin(std::vector<Multiples>& shell, Index limit) {
+    const std::size_t all = shell.size();
+    const std::size_t used = std::min(all, static_cast<std::size_t>(limit));
+    for (std::size_t k = 0; k < used; ++k) {
+        shell[k] = shell[(2 * k + 1) * all / (2 * used)];
+    }
+    shell.resize(used);
+}
+
 /// Half of all wave vectors (q and -q scatter alike) up to `largest`, thinned evenly to `limit` in a shell.
 Shells collect_shells(const Eigen::Array3d& lengths, double largest, Index limit) {
     Shells shells;
@@ -33,29 +55,20 @@ Shells collect_shells(const Eigen::Array3d& lengths, double largest, Index limit
     shells.vectors.resize(count);
     std::vector<Index> met(count, 0);
     shells.most = (largest / shells.spacing).ceil().cast<int>();
-    for (int x = 0; x <= shells.most[0]; ++x) {
-        for (int y = x == 0 ? 0 : -shells.most[1]; y <= shells.most[1]; ++y) {
-            for (int z = x == 0 && y == 0 ? 1 : -shells.most[2]; z <= shells.most[2]; ++z) {
-                const double length = (Eigen::Array3d(x, y, z) * shells.spacing).matrix().norm();
-                const double place = length / mean_spacing - 0.5;
-                if (place >= 0 && place < static_cast<double>(count)) {
-                    const auto shell = static_cast<std::size_t>(place);
-                    const auto expected = 2 * pi * (place + 1) * (place + 1);
-                    const auto stride = std::max<Index>(1, static_cast<Index>(expected / (2 * static_cast<double>(limit))));
-                    if (met[shell]++ % stride == 0) {  // of millions in a shell, a few times as many as are used
-                        shells.vectors[shell].emplace_back(x, y, z);
-                    }
-                }
+    for_half_of(shells.most, [&](int x, int y, int z) {
+        const double length = (Eigen::Array3d(x, y, z) * shells.spacing).matrix().norm();
+        const double place = length / mean_spacing - 0.5;
+        if (place >= 0 && place < static_cast<double>(count)) {
+            const auto shell = static_cast<std::size_t>(place);
+            const auto expected = 2 * pi * (place + 1) * (place + 1);
+            const auto stride = std::max<Index>(1, static_cast<Index>(expected / (2 * static_cast<double>(limit))));
+            if (met[shell]++ % stride == 0) {  // of millions in a shell, a few times as many as are used
+                shells.vectors[shell].emplace_back(x, y, z);
             }
         }
-    }
+    });
     for (auto& shell : shells.vectors) {
-        const std::size_t all = shell.size();
-        const std::size_t used = std::min(all, static_cast<std::size_t>(limit));
-        for (std::size_t k = 0; k < used; ++k) {
-            shell[k] = shell[(2 * k + 1) * all / (2 * used)];
-        }
-        shell.resize(used);
+        thin(shell, limit);
     }
     std::erase_if(shells.vectors, [](const auto& shell) { return shell.empty(); });
     return shells;

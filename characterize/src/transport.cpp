@@ -71,7 +71,7 @@ void add_errors(const Eigen::Array3d& lengths, Transport& result) {
 
 VoxelGrid finest_grid(const Packing& packing, const TransportOptions& options) {
     const double edge = std::max(1 / options.voxels_per_radius, std::cbrt(packing.cell.volume() / options.most_voxels));
-    const VoxelGrid grid = make_grid(packing, edge);
+    VoxelGrid grid = make_grid(packing, edge);
     require(grid.edge.maxCoeff() <= 1,
             "the packing would have voxels larger than its mean radius: transport needs more voxels than " +
                 to_text(options.most_voxels));

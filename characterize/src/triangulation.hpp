@@ -13,6 +13,8 @@ class Triangulation {
 public:
     explicit Triangulation(bool equal_radii);
     ~Triangulation();
+    Triangulation(const Triangulation&) = delete;
+    Triangulation& operator=(const Triangulation&) = delete;
 
     /// Adds those sites of the diagram that are not in yet.
     void insert(const PowerDiagram& diagram);

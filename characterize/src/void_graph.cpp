@@ -19,7 +19,7 @@ using Key = std::array<int, 16>;
 
 /// One of the two ends of an edge as the diagram has it.
 struct End {
-    Key key;
+    Key key{};
     Eigen::Vector3i image;  ///< of the first particle of the key
     VoidGraph::Vertex vertex;
 };

@@ -101,7 +101,8 @@ OpenFaces open_faces(const VoxelGrid& grid, const std::vector<double>& corners, 
             for (int x = 0; x < n[0]; ++x) {
                 const int next_x = x + 1 == n[0] ? 0 : x + 1;
                 const auto at = [&](int dx, int dy, int dz) {
-                    return row[static_cast<std::size_t>(dy + 2 * dz)][dx == 0 ? x : next_x] - growth;
+                    const int number = dy + 2 * dz;
+                    return row[static_cast<std::size_t>(number)][dx == 0 ? x : next_x] - growth;
                 };
                 const auto voxel = static_cast<std::size_t>(grid.number(x, y, z));
                 const double far = at(1, 1, 1);

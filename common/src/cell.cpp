@@ -3,6 +3,7 @@
 
 namespace coagula {
 
+// NOLINTNEXTLINE(modernize-pass-by-value): three numbers move no faster than they copy
 Cell::Cell(const Eigen::Vector3d& origin, const Eigen::Vector3d& lengths, bool periodic)
     : edges_(lengths.asDiagonal()), inverse_lengths_(lengths.cwiseInverse()), origin_(origin), periodic_(periodic) {
     for (const double length : lengths) {

@@ -28,7 +28,7 @@ public:
     cholmod_common* operator->() { return &common_; }
 
     /// Throws std::runtime_error if the last call failed.
-    void check(const char* what) {
+    void check(const char* what) const {
         if (common_.status == CHOLMOD_OUT_OF_MEMORY || common_.status == CHOLMOD_TOO_LARGE) {
             throw std::runtime_error(std::string(what) + ": not enough memory for the direct solver; choose the iterative one");
         }

@@ -4,6 +4,7 @@
 #include <coagula/common/vector_variants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -16,7 +17,7 @@ constexpr std::size_t block = 64;
 
 /// One block of counters, and later of random words.
 struct Words {
-    alignas(64) std::uint32_t word[4][block];
+    alignas(64) std::array<std::array<std::uint32_t, block>, 4> word{};
 };
 
 /// Philox 4x32-10: Salmon, Moraes, Dror, Shaw, Proc. SC11 (2011), doi:10.1145/2063384.2063405.
@@ -53,7 +54,7 @@ inline __attribute__((always_inline)) double logarithm(double x) {
     // The exponent as a floating-point number, again through the bits: 2^52 + (e + 1024).
     const std::uint64_t biased = (shifted >> 52U) ^ 0x800U;
     const double exponent = std::bit_cast<double>(0x4330000000000000U | (biased & 0xFFFU)) - (0x1.0p52 + 0x800);
-    const double mantissa = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFU) + root_half);
+    const auto mantissa = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFU) + root_half);
     const double ratio = (mantissa - 1) / (mantissa + 1);
     const double square = ratio * ratio;
     double series = 1.0 / 19;
@@ -135,9 +136,10 @@ COAGULA_VARIANTS void spread_block(const Words& words, double* x, double* y, dou
 
 /// Numbers of one block of particles.
 struct Triples {
-    alignas(64) double x[block];
-    alignas(64) double y[block];
-    alignas(64) double z[block];
+    using Column = std::array<double, block>;
+    alignas(64) Column x{};
+    alignas(64) Column y{};
+    alignas(64) Column z{};
 
     void copy(std::size_t count, double* target) const {
         for (std::size_t entry = 0; entry < count; ++entry) {
@@ -163,10 +165,10 @@ void random_normals(std::uint64_t seed, RandomPurpose purpose, std::uint64_t ste
             words.word[2][entry] = static_cast<std::uint32_t>(particles[begin + std::min(entry, count - 1)]);
             words.word[3][entry] = static_cast<std::uint32_t>(purpose);
         }
-        fill_block(words, seed, numbers.x, numbers.y, numbers.z);
+        fill_block(words, seed, numbers.x.data(), numbers.y.data(), numbers.z.data());
         numbers.copy(count, normals + 4 * begin);
         if (uniforms != nullptr) {
-            spread_block(words, numbers.x, numbers.y, numbers.z);
+            spread_block(words, numbers.x.data(), numbers.y.data(), numbers.z.data());
             numbers.copy(count, uniforms + 4 * begin);
         }
     }

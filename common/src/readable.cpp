@@ -32,7 +32,8 @@ std::string with_unit(double value, const std::string& unit) {
     }
     static constexpr std::array prefixes = {"p", "n", "u", "m", "", "k", "M", "G"};
     const int power = unit == "m" || unit == "Pa" || unit == "N/m" ? thousands(value) : 0;
-    return digits(value / std::pow(1000.0, power)) + ' ' + prefixes[static_cast<std::size_t>(power + 4)] + unit;
+    const int place = power + 4;
+    return digits(value / std::pow(1000.0, power)) + ' ' + prefixes[static_cast<std::size_t>(place)] + unit;
 }
 
 std::string with_error(double value, double error) {

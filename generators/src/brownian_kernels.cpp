@@ -4,6 +4,8 @@
 
 #include "pair_blocks.hpp"
 
+#include <array>
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #define COAGULA_VARIANTS __attribute__((target_clones("avx2", "default")))
 #define COAGULA_WIDE __attribute__((target("avx512f,avx512vl,avx512dq")))
@@ -17,9 +19,9 @@ namespace {
 
 /// Displaces particles as a stage does.
 struct Move {
-    StageArrays slots;
+    StageArrays slots{};
     StageWeights weights;
-    double scale;
+    double scale = 0;
 
     COAGULA_INLINE void operator()(std::size_t slot, const Four& force) const {
         Four latest;
@@ -69,7 +71,7 @@ COAGULA_VARIANTS void choose_neighbours(const PairLoop& loop, double reach, cons
             for (int lane = 0; loop.radii != nullptr && lane < 4; ++lane) {
                 limit[lane] = reach + loop.radii[slot] + loop.radii[neighbours[lane]];
             }
-            Ways<Four> way;
+            Ways<Four> way{};
             places.measure(places.positions + 4 * slot, neighbours, way);
             Four squared;
             way.squared(squared);
@@ -90,12 +92,13 @@ COAGULA_VARIANTS double longest_squared_way(const double* one, const double* oth
     for (std::size_t slot = begin; slot < end; slot += 4) {
         // What is missing in the last four is the last slot again.
         const std::size_t last = end - 1;
-        const std::size_t slots[4] = {slot, std::min(slot + 1, last), std::min(slot + 2, last), std::min(slot + 3, last)};
-        Ways<Four> way;
-        Ways<Four> there;
+        const std::array<std::size_t, 4> slots = {slot, std::min(slot + 1, last), std::min(slot + 2, last),
+                                                  std::min(slot + 3, last)};
+        Ways<Four> way{};
+        Ways<Four> there{};
         Four rest;
-        gather(one, slots, way.x, way.y, way.z, rest);
-        gather(other, slots, there.x, there.y, there.z, rest);
+        gather(one, slots.data(), way.x, way.y, way.z, rest);
+        gather(other, slots.data(), there.x, there.y, there.z, rest);
         way.x -= there.x;
         way.y -= there.y;
         way.z -= there.z;

@@ -3,6 +3,7 @@
 
 #include "force_table.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,8 +33,8 @@ struct NeighbourRows {
 /// What the loops over pairs read. Positions, like forces, have four numbers per slot (x, y, z and one without meaning).
 struct PairLoop {
     const double* positions = nullptr;
-    const double* radii = nullptr;  ///< null: all are 1
-    double period[3] = {};          ///< of the periodic box
+    const double* radii = nullptr;   ///< null: all are 1
+    std::array<double, 3> period{};  ///< of the periodic box
 };
 
 /// Sums the forces on the slots of the rows. Pairs meet through the nearest images. For unequal radii the table, which is that of

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -37,13 +38,13 @@ struct ContactSpring {
 /// A contact during a step. Both chunks that share a contact have one, with the same bits: all is computed from the particle of
 /// lower number to the other.
 struct LoadedSpring {
-    SlotPair ends;  ///< as in the list of pairs; forces go to the first, or to both
-    bool swapped;   ///< whether the second of the ends is the particle of lower number
+    SlotPair ends{};       ///< as in the list of pairs; forces go to the first, or to both
+    bool swapped = false;  ///< whether the second of the ends is the particle of lower number
     Eigen::Vector3d normal;
-    double distance;
-    double scale;          ///< of the stiffnesses, for unequal radii
-    double sliding_limit;  ///< longest elastic displacement
-    double rolling_limit;  ///< largest elastic rotation
+    double distance = 0;
+    double scale = 0;          ///< of the stiffnesses, for unequal radii
+    double sliding_limit = 0;  ///< longest elastic displacement
+    double rolling_limit = 0;  ///< largest elastic rotation
     Eigen::Vector3d sliding;
     Eigen::Vector3d rolling;
 
@@ -53,14 +54,14 @@ struct LoadedSpring {
 
 /// What the loops over springs read and write; four numbers per slot, but one radius.
 struct SpringLoop {
-    const SpringRules* rules;
-    double period[3];
-    const std::int32_t* particles;  ///< number of the particle in each slot
-    const double* radii;
-    const double* position;  ///< at the start of the step
-    const double* moved;     ///< at a stage
-    const double* rotation;  ///< the same of the rotations
-    const double* turned;
+    const SpringRules* rules = nullptr;
+    std::array<double, 3> period{};
+    const std::int32_t* particles = nullptr;  ///< number of the particle in each slot
+    const double* radii = nullptr;
+    const double* position = nullptr;  ///< at the start of the step
+    const double* moved = nullptr;     ///< at a stage
+    const double* rotation = nullptr;  ///< the same of the rotations
+    const double* turned = nullptr;
     double* force = nullptr;
     double* torque = nullptr;
 };

@@ -1,5 +1,5 @@
 // The sum of pair forces over rows of neighbours, for four or eight lanes: both give the same bits as long as products and sums are
-// not fused.
+// not fused. Whoever calls these loops inlines all of them, for its own instructions, which what std::array calls does not ask for.
 #pragma once
 
 #include "brownian_kernels.hpp"
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+// NOLINTBEGIN(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): see above
 namespace coagula::generators {
 
 template <class Lanes>
@@ -128,7 +129,7 @@ private:
     };
 
     COAGULA_INLINE void measure(std::size_t slot, const std::int32_t* neighbours, Entry& entry) const {
-        Ways<Lanes> way;
+        Ways<Lanes> way{};
         places_.measure(places_.positions + 4 * slot, neighbours, way);
         Lanes squared;
         way.squared(squared);
@@ -236,3 +237,4 @@ COAGULA_INLINE void sum_rows(const PairLoop& loop, const ForceTable& table, cons
 }
 
 }  // namespace coagula::generators
+// NOLINTEND(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)

@@ -97,7 +97,7 @@ public:
             note_ = "coordination " + short_text(contacts.coordination);
             const bool near_target = contacts.coordination > options_.target_coordination - trial_distance;
             if (near_target) {
-                const VoidExpansion trial = describe(relax_without_voids(system));
+                VoidExpansion trial = describe(relax_without_voids(system));
                 if (trial.coordination >= options_.target_coordination && trial.overlap_rms < relaxed_overlap) {
                     return trial;
                 }

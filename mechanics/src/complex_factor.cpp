@@ -105,6 +105,7 @@ ComplexSymmetricFactor::~ComplexSymmetricFactor() = default;
 void ComplexSymmetricFactor::factorise(const std::vector<Complex>& values) {
     Implementation& own = *implementation_;
     own.values = values;
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): two doubles, as std::complex is
     own.mumps.a = reinterpret_cast<ZMUMPS_COMPLEX*>(own.values.data());
     own.call(factorise_job, "factorising the complex stiffness matrix");
 }
@@ -112,6 +113,7 @@ void ComplexSymmetricFactor::factorise(const std::vector<Complex>& values) {
 void ComplexSymmetricFactor::solve(const ComplexLoads& b, ComplexLoads& x) const {
     ZMUMPS_STRUC_C& mumps = implementation_->mumps;
     Eigen::MatrixXcd columns = b;
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): likewise
     mumps.rhs = reinterpret_cast<ZMUMPS_COMPLEX*>(columns.data());
     mumps.nrhs = static_cast<MUMPS_INT>(columns.cols());
     mumps.lrhs = static_cast<MUMPS_INT>(columns.rows());

@@ -178,8 +178,8 @@ Forms FrequencyNetwork::forms(const ComplexLoads& motion, const std::vector<std:
     sum.changes.assign(changes.size(), Forms::Tensor::Zero());
     for (std::size_t k = 0; k < bonded_.size(); ++k) {
         LinearBond bond = springs_.bonds()[k];
-        const Deformations<6> re = springs_.deformation(bond, real);
-        const Deformations<6> im = springs_.deformation(bond, imaginary) - springs_.affine_deformations(bond);
+        const Deformations<6> re = LinearNetwork::deformation(bond, real);
+        const Deformations<6> im = LinearNetwork::deformation(bond, imaginary) - LinearNetwork::affine_deformations(bond);
         const Columns all = re.cast<Complex>() + Complex(0, 1) * im.cast<Complex>();
         const auto form = [&](const ContactTangent& tangent) -> Forms::Tensor {
             bond.tangent = tangent;

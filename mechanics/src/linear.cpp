@@ -111,7 +111,7 @@ void store_motion(const Packing& packing, const LoadBearing& kept, const Loads& 
             displacement.col(particle) -= periodic ? drift : Eigen::Vector3d::Zero();
         }
         response.non_affinity[strain] = std::sqrt(displacement.squaredNorm() / count);
-        response.displacement.push_back(displacement * r0);
+        response.displacement.emplace_back(displacement * r0);
         response.rotation.push_back(std::move(rotation));
     }
 }

@@ -233,8 +233,8 @@ void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
     Loads coarse_motion;
     coarse_motion = coarse_->factor->solve(coarse_load);
 #pragma omp parallel for schedule(dynamic)
-    for (std::size_t b = 0; b < boxes_.size(); ++b) {
-        const Box& box = *boxes_[b];
+    for (const auto& each : boxes_) {
+        const Box& box = *each;
         Loads right_side(6 * static_cast<Index>(box.particles.size()), 6);
         for (std::size_t place = 0; place < box.particles.size(); ++place) {
             right_side.middleRows<6>(6 * static_cast<Index>(place)) = r.middleRows<6>(6 * box.particles[place]);

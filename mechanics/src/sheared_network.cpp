@@ -154,7 +154,7 @@ Slope ShearedNetwork::slope_of(Index k, const Trial& trial) const {
     const ContactMemory& moved_memory = trial.memory[static_cast<std::size_t>(k)];
     const PairMotion base = pair_motion(contact, trial.strain_increment, trial.motion);
     Slope slope = Slope::Zero();
-    if (!law_.touches(moved_memory, base.first_radius, base.second_radius)) {
+    if (!GeneralContact::touches(moved_memory, base.first_radius, base.second_radius)) {
         return slope;
     }
     const double difference = difference_step(moved_memory);
@@ -362,7 +362,7 @@ bool ShearedNetwork::spans() const {
     network.branch.resize(3, network.ends.cols());
     Index count = 0;
     for (const ShearedContact& contact : contacts_) {
-        if (law_.touches(contact.memory, radii_[contact.first], radii_[contact.second])) {
+        if (GeneralContact::touches(contact.memory, radii_[contact.first], radii_[contact.second])) {
             network.ends.col(count) << static_cast<std::int32_t>(contact.first), static_cast<std::int32_t>(contact.second);
             network.branch.col(count++) = sheared(contact.memory.branch, -strain_);
         }
@@ -375,7 +375,7 @@ bool ShearedNetwork::spans() const {
 
 Index ShearedNetwork::touching_contacts() const {
     return std::count_if(contacts_.begin(), contacts_.end(), [&](const auto& contact) {
-        return !contact.memory.bonded && law_.touches(contact.memory, radii_[contact.first], radii_[contact.second]);
+        return !contact.memory.bonded && GeneralContact::touches(contact.memory, radii_[contact.first], radii_[contact.second]);
     });
 }
 

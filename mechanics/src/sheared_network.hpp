@@ -28,9 +28,9 @@ using ContactModes = Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, 6>;
 
 /// A pair that is bonded, or near enough to touch soon.
 struct ShearedContact {
-    Index first;
-    Index second;
-    Index bond;  ///< column in the network of bonds, -1: never was one
+    Index first = 0;
+    Index second = 0;
+    Index bond = -1;  ///< column in the network of bonds, -1: never was one
     ContactMemory memory;
 };
 
@@ -60,9 +60,10 @@ public:
     void evaluate(double strain_increment, const Motion& motion, Trial& trial) const;
 
     std::vector<Slope> linearise(const Trial& trial) const;
-    Slope slope_of(Index contact, const Trial& trial) const;
+    /// Of the k-th contact, as below.
+    Slope slope_of(Index k, const Trial& trial) const;
     /// @param turns with relative rotations.
-    ContactModes modes_of(Index contact, const Trial& trial, bool turns) const;
+    ContactModes modes_of(Index k, const Trial& trial, bool turns) const;
     bool has_moments() const { return law_.model().bending_stiffness > 0 || law_.model().twisting_stiffness > 0; }
     /// Grows when neighbours are looked for, after which the contacts are numbered anew.
     Index generation() const { return generation_; }

@@ -146,11 +146,11 @@ BlockMatrix LinearNetwork::stiffness() const {
 }
 
 /// Block of the stiffness between the two ends of a bond.
-Block LinearNetwork::coupling(const LinearBond& bond) const {
+Block LinearNetwork::coupling(const LinearBond& bond) {
     return first_end(bond).transpose() * stresses(bond, second_end(bond));
 }
 
-void LinearNetwork::add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond) const {
+void LinearNetwork::add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond) {
     if (bond.first >= 0) {
         const EndMatrix end = first_end(bond);
         matrix.diagonal(bond.first) += end.transpose() * stresses(bond, end);

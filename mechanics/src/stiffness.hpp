@@ -105,8 +105,8 @@ public:
     Index stiffen_spins(BlockMatrix& matrix) const;
 
 private:
-    void add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond) const;
-    Block coupling(const LinearBond& bond) const;
+    static void add_to_diagonal(BlockMatrix& matrix, const LinearBond& bond);
+    static Block coupling(const LinearBond& bond);
 
     Index particles_ = 0;
     double length_;  ///< the mean radius [m]

@@ -30,6 +30,21 @@ Slope without_negative_directions(const Slope& matrix) {
     return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() * modes.eigenvectors().transpose();
 }
 
+/// Blocks of the same column are added up.
+void append_row(std::vector<std::pair<Index, Block>>& row, BlockMatrix& matrix) {
+    std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [column, block] : row) {
+        const bool is_new = static_cast<Index>(matrix.column.size()) == matrix.start.back() || matrix.column.back() != column;
+        if (is_new) {
+            matrix.column.push_back(column);
+            matrix.block.push_back(block);
+        } else {
+            matrix.block.back() += block;
+        }
+    }
+    matrix.start.push_back(static_cast<Index>(matrix.column.size()));
+}
+
 }  // namespace
 
 StiffnessOfContacts::StiffnessOfContacts(const ShearedNetwork& network, const Trial& trial) : particles_(network.particles()) {
@@ -135,17 +150,7 @@ BlockMatrix StiffnessOfContacts::symmetric_part(Convex convex) const {
                 row.emplace_back(other, here.transpose() * part * there);
             }
         }
-        std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-        for (const auto& [column, block] : row) {
-            const bool is_new = static_cast<Index>(matrix.column.size()) == matrix.start.back() || matrix.column.back() != column;
-            if (is_new) {
-                matrix.column.push_back(column);
-                matrix.block.push_back(block);
-            } else {
-                matrix.block.back() += block;
-            }
-        }
-        matrix.start.push_back(static_cast<Index>(matrix.column.size()));
+        append_row(row, matrix);
     }
     return matrix;
 }

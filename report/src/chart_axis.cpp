@@ -45,7 +45,8 @@ void choose_unit(double largest, SettledAxis& settled) {
     } else if (takes_prefix(unit)) {
         const int power = prefix_power(largest);
         settled.scale = std::pow(1000.0, power);
-        settled.unit = prefixes.at(static_cast<std::size_t>(power + 4)) + unit;
+        const int place = power + 4;
+        settled.unit = prefixes.at(static_cast<std::size_t>(place)) + unit;
     }
 }
 

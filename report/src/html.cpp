@@ -89,8 +89,8 @@ std::string printed(double value, const std::string& unit) {
     if ((unit == "Pa" || unit == "m") && value != 0 && std::isfinite(value)) {
         power = std::min(std::max(static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-9)), -3), 3);
     }
-    return number(value / std::pow(1000.0, power)) + no_break + prefixes.at(static_cast<std::size_t>(power + 3)) +
-           printed_unit(unit);
+    const int place = power + 3;
+    return number(value / std::pow(1000.0, power)) + no_break + prefixes.at(static_cast<std::size_t>(place)) + printed_unit(unit);
 }
 
 std::string paragraph(const std::string& html, const std::string& style) {

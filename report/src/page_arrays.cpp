@@ -13,6 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "browsers read the arrays in the order of their own processor");
 
+// NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast): the bytes of numbers, and those of zlib, which are unsigned
 std::string deflated(const std::string& bytes) {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
     std::string packed(size, '\0');
@@ -38,6 +39,7 @@ Json PageArrays::append(const char* type, const std::vector<Value>& values) {
     }
     return {{"type", type}, {"at", at}, {"count", values.size()}};
 }
+// NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
 
 Json PageArrays::reals(const std::vector<double>& values) {
     return append<float>("f32", values);

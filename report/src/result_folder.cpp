@@ -17,8 +17,12 @@ namespace coagula::report {
 
 namespace fs = std::filesystem;
 
-ResultFolder::ResultFolder(fs::path folder, std::string key_file, const std::vector<std::string>& others, bool force)
-    : folder_(std::move(folder)), key_file_(std::move(key_file)), others_(others), force_(force), staging_(folder_ / ".new") {
+ResultFolder::ResultFolder(fs::path folder, std::string key_file, std::vector<std::string> others, bool force)
+    : folder_(std::move(folder)),
+      key_file_(std::move(key_file)),
+      others_(std::move(others)),
+      force_(force),
+      staging_(folder_ / ".new") {
     if (fs::exists(folder_) && !fs::is_directory(folder_)) {
         throw InputError(folder_.string() + " is there already and is no folder");
     }

@@ -30,15 +30,15 @@ inline double diffusion_time() {
 /// side^3 pairs on a cubic lattice, too far apart to meet; gap(number) in radii.
 inline Packing lattice_of_pairs(int side, const std::function<double(int)>& gap) {
     constexpr double spacing = 7;
-    const int pairs = side * side * side;
+    const Index pairs = Index{side} * side * side;
     Packing packing{Cell::periodic(Eigen::Vector3d::Constant(spacing * side * radius)), Eigen::Matrix3Xd(3, 2 * pairs),
                     Eigen::VectorXd::Constant(2 * pairs, radius)};
     for (int pair = 0; pair < pairs; ++pair) {
-        const Eigen::Vector3d centre =
-            spacing * (Eigen::Array3d(pair % side, pair / side % side, pair / side / side) + 0.5).matrix();
+        const Eigen::Array3i place(pair % side, pair / side % side, pair / side / side);
+        const Eigen::Vector3d centre = spacing * (place.cast<double>() + 0.5).matrix();
         const Eigen::Vector3d direction = random_normal(7, RandomPurpose::test, 0, static_cast<std::uint64_t>(pair)).normalized();
-        packing.positions.col(2 * pair) = radius * (centre + (1 + gap(pair) / 2) * direction);
-        packing.positions.col(2 * pair + 1) = radius * (centre - (1 + gap(pair) / 2) * direction);
+        packing.positions.col(Index{2} * pair) = radius * (centre + (1 + gap(pair) / 2) * direction);
+        packing.positions.col(Index{2} * pair + 1) = radius * (centre - (1 + gap(pair) / 2) * direction);
     }
     return packing;
 }

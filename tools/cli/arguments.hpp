@@ -21,8 +21,8 @@ namespace coagula::tools {
 class Arguments {
 public:
     /// Throws InputError with a sentence that names the option and the rule.
-    /// @param words what follows the verb on the command line.
-    Arguments(const Verb& verb, const std::vector<std::string>& words);
+    /// @param typed what follows the verb on the command line.
+    Arguments(const Verb& verb, const std::vector<std::string>& typed);
 
     bool help_wanted() const { return help_wanted_; }
     /// Whether the option has a value, given or default.

@@ -15,7 +15,7 @@ std::string take_checksum(std::vector<io::Dataset>& all) {
     if (place == all.end() || !std::holds_alternative<std::string>(place->values)) {
         return "";
     }
-    const std::string sum = std::get<std::string>(place->values);
+    std::string sum = std::get<std::string>(place->values);
     all.erase(place);
     return sum;
 }
@@ -44,7 +44,7 @@ void write_checkpoint_file(const std::string& path, std::vector<io::Dataset> all
 }
 
 const Numbers& CheckpointReader::finite(const std::string& name, std::size_t columns, std::size_t rows) const {
-    const Numbers& values = table<Numbers>(name, columns, rows);
+    const auto& values = table<Numbers>(name, columns, rows);
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) {
         throw InputError(path_ + ": " + name + " has a value that is not a finite number: the checkpoint is damaged");
     }

@@ -50,7 +50,7 @@ public:
     /// The values of a table with so many columns.
     template <class Values>
     const Values& table(const std::string& name, std::size_t columns, std::size_t rows) const {
-        const Values& values = get<Values>(name);
+        const auto& values = get<Values>(name);
         if (values.size() != columns * rows) {
             throw InputError(path_ + ": " + name + " has " + std::to_string(values.size()) + " values, not " +
                              std::to_string(columns * rows) + ": the checkpoint is damaged");

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <limits>
@@ -17,15 +18,15 @@ namespace {
 
 /// Such as "40 s left", "12 min left", "3.5 h left".
 std::string time_left(double seconds) {
-    char text[32];
+    std::array<char, 32> text{};
     if (seconds < 100) {
-        std::snprintf(text, sizeof text, "%.0f s left", seconds);
+        std::snprintf(text.data(), text.size(), "%.0f s left", seconds);
     } else if (seconds < 6000) {
-        std::snprintf(text, sizeof text, "%.0f min left", seconds / 60);
+        std::snprintf(text.data(), text.size(), "%.0f min left", seconds / 60);
     } else {
-        std::snprintf(text, sizeof text, "%.1f h left", seconds / 3600);
+        std::snprintf(text.data(), text.size(), "%.1f h left", seconds / 3600);
     }
-    return text;
+    return text.data();
 }
 
 /// One line that is drawn over again and wiped at the end.

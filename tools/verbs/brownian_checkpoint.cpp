@@ -47,7 +47,7 @@ Integers flat(const Pairs& pairs) {
 }
 
 Pairs read_pairs(const CheckpointReader& file, const std::string& name, std::size_t particles) {
-    const Integers& numbers = file.get<Integers>(name);
+    const auto& numbers = file.get<Integers>(name);
     Pairs pairs(2, static_cast<Index>(numbers.size() / 2));
     for (std::size_t entry = 0; entry < 2 * (numbers.size() / 2); ++entry) {
         pairs.data()[entry] =

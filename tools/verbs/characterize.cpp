@@ -26,7 +26,7 @@ std::vector<std::string> chosen_measures(const Arguments& arguments) {
         return {};
     }
     const std::vector<std::string> names = characterize::measure_names();
-    const std::vector<std::string> chosen = split(arguments.text("only"));
+    std::vector<std::string> chosen = split(arguments.text("only"));
     for (const std::string& name : chosen) {
         if (name != "all" && std::find(names.begin(), names.end(), name) == names.end()) {
             throw InputError("--only: '" + name + "' is not one of " + list_of(names) + ", all" + did_you_mean(name, names));

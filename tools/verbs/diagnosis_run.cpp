@@ -37,7 +37,7 @@ std::string outside_of_contact(const std::string& name) {
     const std::string parts = " + " + name + " + ";
     std::string text;
     for (const diagnose::Mechanism& mechanism : diagnose::catalogue()) {
-        if (!mechanism.in_contact && parts.find(" + " + mechanism.name + " + ") != parts.npos) {
+        if (!mechanism.in_contact && parts.find(" + " + mechanism.name + " + ") != std::string::npos) {
             text += "# " + mechanism.name + " is none of the contact, which follows without it.\n";
         }
     }

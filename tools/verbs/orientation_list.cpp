@@ -14,7 +14,7 @@ std::string name_of(const mechanics::ShearOrientation& orientation) {
 }
 
 std::vector<mechanics::ShearOrientation> parse_orientations(const std::string& text) {
-    const std::vector<mechanics::ShearOrientation> all = mechanics::all_orientations();
+    std::vector<mechanics::ShearOrientation> all = mechanics::all_orientations();
     if (text == "all") {
         return all;
     }

@@ -39,7 +39,7 @@ void put_points(std::vector<io::Dataset>& all, const std::string& group, const s
 
 std::vector<StrainPoint> read_points(const CheckpointReader& file, const std::string& group) {
     const std::size_t count = file.get<Integers>(group + "point_counts").size() / 2;
-    const Integers& counts = file.table<Integers>(group + "point_counts", 2, count);
+    const auto& counts = file.table<Integers>(group + "point_counts", 2, count);
     const Numbers& numbers = file.finite(group + "points", point_numbers.size() + stress_numbers, count);
     std::vector<StrainPoint> points(count);
     const double* next = numbers.data();
@@ -70,7 +70,7 @@ void put_amplitudes(std::vector<io::Dataset>& all, const std::string& group, con
 
 std::vector<AmplitudeResponse> read_amplitudes(const CheckpointReader& file, const std::string& group) {
     const std::size_t count = file.get<Integers>(group + "amplitude_counts").size() / 2;
-    const Integers& counts = file.table<Integers>(group + "amplitude_counts", 2, count);
+    const auto& counts = file.table<Integers>(group + "amplitude_counts", 2, count);
     const Numbers& numbers = file.finite(group + "amplitudes", amplitude_numbers.size(), count);
     std::vector<AmplitudeResponse> amplitudes(count);
     const double* next = numbers.data();
@@ -98,7 +98,7 @@ void put_broken(std::vector<io::Dataset>& all, const std::string& group, const s
 std::vector<BrokenBond> read_broken(const CheckpointReader& file, const std::string& group) {
     const std::size_t count = file.get<Numbers>(group + "broken_strain").size();
     const Numbers& strains = file.finite(group + "broken_strain", 1, count);
-    const Integers& numbers = file.table<Integers>(group + "broken", 4, count);
+    const auto& numbers = file.table<Integers>(group + "broken", 4, count);
     std::vector<BrokenBond> broken;
     for (std::size_t k = 0; k < count; ++k) {
         const std::int64_t* entry = &numbers[4 * k];
@@ -118,7 +118,7 @@ std::optional<NetworkFailure> read_failure(const CheckpointReader& file, const s
     if (file.get<Numbers>(group + "failure_strain").empty()) {
         return std::nullopt;
     }
-    const Integers& numbers = file.table<Integers>(group + "failure", 2, 1);
+    const auto& numbers = file.table<Integers>(group + "failure", 2, 1);
     return NetworkFailure{file.finite(group + "failure_strain", 1, 1)[0], file.small_count(numbers[0], "a number of bonds"),
                           numbers[1] != 0};
 }
@@ -153,7 +153,7 @@ std::vector<QuasistaticTest> read_quasistatic_checkpoint(const std::string& path
     std::vector<QuasistaticTest> finished(static_cast<std::size_t>(count));
     for (std::size_t number = 0; number < finished.size(); ++number) {
         QuasistaticTest& test = finished[number];
-        const Integers& axes = file.table<Integers>(group_of(number, "orientation"), 2, 1);
+        const auto& axes = file.table<Integers>(group_of(number, "orientation"), 2, 1);
         test.orientation = {file.axis(axes[0]), file.axis(axes[1])};
         test.ramp.points = read_points(file, group_of(number, "ramp_"));
         test.ramp.broken = read_broken(file, group_of(number, "ramp_"));

@@ -60,7 +60,7 @@ void put_bonds(std::vector<io::Dataset>& all, const std::vector<Bond>& bonds) {
 
 std::vector<Bond> read_bonds(const Reader& file, std::size_t particles) {
     const std::size_t count = file.get<Integers>("/state/bond_integers").size() / bond_integers;
-    const Integers& integers = file.table<Integers>("/state/bond_integers", bond_integers, count);
+    const auto& integers = file.table<Integers>("/state/bond_integers", bond_integers, count);
     const Numbers& numbers = file.finite("/state/bond_numbers", bond_numbers, count);
     std::vector<Bond> bonds(count);
     for (std::size_t entry = 0; entry < count; ++entry) {
@@ -176,16 +176,16 @@ void put_run(std::vector<io::Dataset>& all, const std::string& group, const Rheo
 
 RheometerRun read_run(const Reader& file, const std::string& group) {
     RheometerRun run;
-    const Integers& head = file.table<Integers>(group + "orientation", 3, 1);
+    const auto& head = file.table<Integers>(group + "orientation", 3, 1);
     const auto [normal, direction] = read_axes(file, head);
     run.orientation = {normal, direction};
     run.rest_steps = file.small_count(head[2], "a number of steps");
-    const Numbers& of_run = file.table<Numbers>(group + "numbers", run_numbers.size(), 1);
+    const auto& of_run = file.table<Numbers>(group + "numbers", run_numbers.size(), 1);
     for (std::size_t k = 0; k < run_numbers.size(); ++k) {
         run.*run_numbers[k] = of_run[k];
     }
-    const Integers& broken = file.get<Integers>(group + "broken_per_oscillation");
-    const Numbers& numbers = file.table<Numbers>(group + "oscillations", oscillation_numbers.size(), broken.size());
+    const auto& broken = file.get<Integers>(group + "broken_per_oscillation");
+    const auto& numbers = file.table<Numbers>(group + "oscillations", oscillation_numbers.size(), broken.size());
     run.oscillations.resize(broken.size());
     for (std::size_t entry = 0; entry < broken.size(); ++entry) {
         for (std::size_t k = 0; k < oscillation_numbers.size(); ++k) {
@@ -197,15 +197,15 @@ RheometerRun read_run(const Reader& file, const std::string& group) {
     run.strain = file.finite(group + "strain", 1, samples);
     run.stress = file.finite(group + "stress", 1, samples);
     run.plate_stress = file.finite(group + "plate_stress", 1, file.get<Numbers>(group + "plate_stress").empty() ? 0 : samples);
-    const Numbers& spheres = file.get<Numbers>(group + "sphere_storage");
+    const auto& spheres = file.get<Numbers>(group + "sphere_storage");
     run.sphere_storage = Eigen::VectorXd::Map(spheres.data(), static_cast<Index>(spheres.size()));
-    const Integers& shape = file.table<Integers>(group + "spheres", 2, 1);
+    const auto& shape = file.table<Integers>(group + "spheres", 2, 1);
     const int rows = file.small_count(shape[0], "a number of samples");
     const int columns = file.small_count(shape[1], "a number of spheres");
     const Numbers& stress = file.finite(group + "sphere_stress", static_cast<std::size_t>(rows), static_cast<std::size_t>(columns));
     run.sphere_stress = Eigen::MatrixXd::Map(stress.data(), rows, columns);
-    const Numbers& strains = file.get<Numbers>(group + "broken_strain");
-    const Integers& where = file.table<Integers>(group + "broken", 4, strains.size());
+    const auto& strains = file.get<Numbers>(group + "broken_strain");
+    const auto& where = file.table<Integers>(group + "broken", 4, strains.size());
     for (std::size_t entry = 0; entry < strains.size(); ++entry) {
         const std::int64_t* whole = &where[4 * entry];
         const auto cause = file.whole(whole[3], 0, static_cast<std::int64_t>(BreakageCause::pull_off) + 1, "a cause of breakage");

@@ -42,7 +42,7 @@ public:
 
     void write_clusters() const {
         const RigidClusters& rigid = found_.rigid;
-        const Index count = static_cast<Index>(rigid.clusters.size());
+        const auto count = static_cast<Index>(rigid.clusters.size());
         Eigen::VectorXi sizes(count);
         std::transform(rigid.clusters.begin(), rigid.clusters.end(), sizes.begin(),
                        [](const Cluster& cluster) { return static_cast<int>(cluster.particles); });
@@ -129,7 +129,7 @@ private:
     /// The null spaces split into those of the connected clusters, so these sums are whole numbers.
     void add_components() const {
         const Topology topology = measure_topology(input_.packing(), input_.contacts());
-        const Index count = static_cast<Index>(topology.clusters.size());
+        const auto count = static_cast<Index>(topology.clusters.size());
         Eigen::VectorXd freedom = Eigen::VectorXd::Zero(count);
         Eigen::VectorXd redundancy = Eigen::VectorXd::Zero(count);
         for (Index particle = 0; particle < topology.of_particle.size(); ++particle) {

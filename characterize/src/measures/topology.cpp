@@ -34,8 +34,9 @@ void add_clusters(const Topology& topology, double largest, double error, Measur
                      "connected clusters of two or more particles, or of one that touches its own image");
     result.add_count("topology/lone_particles", topology.lone_particles, "particles without contact");
     result.add("topology/largest_fraction", largest, "1", "particles in the largest cluster over all", error);
-    const Eigen::Vector3i reaches(topology.percolates(0), topology.percolates(1), topology.percolates(2));
-    result.add_counts("topology/percolates", reaches, "1 if some cluster reaches around the box along x, y, z");
+    const auto reaches = [&](int axis) { return topology.percolates(axis) ? 1 : 0; };
+    result.add_counts("topology/percolates", Eigen::Vector3i(reaches(0), reaches(1), reaches(2)),
+                      "1 if some cluster reaches around the box along x, y, z");
     result.add_count("topology/windings", topology.windings(),
                      "linearly independent ways in which the largest cluster reaches around the box, 0 to 3");
     result.add_field("cluster", (topology.of_particle.array() + 1).cast<double>().matrix().transpose(), "1",

@@ -21,14 +21,14 @@ std::optional<CsvReader::Column> find_column(const CsvReader& table, const std::
                                              const std::vector<std::string>& names, const ImportOptions& options) {
     if (const auto chosen = options.columns.find(quantity); chosen != options.columns.end()) {
         const std::string wanted = lower_case(chosen->second);
-        if (const auto column = table.find(wanted)) {
+        if (auto column = table.find(wanted)) {
             return column;
         }
         table.file().fail("there is no column '" + chosen->second + "', which --columns names for " + quantity +
                           "; the columns are " + list_of(table.names()) + did_you_mean(wanted, table.names()));
     }
     for (const std::string& name : names) {
-        if (const auto column = table.find(name)) {
+        if (auto column = table.find(name)) {
             return column;
         }
     }

@@ -2,6 +2,7 @@
 #include <coagula/io/gsd_file.hpp>
 
 #include <cstring>
+#include <string_view>
 #include <type_traits>
 
 #include "gsd_layout.hpp"
@@ -63,8 +64,8 @@ public:
         append(names.data(), names.size());
         header.schema_version = (1U << 16U) | 4U;
         header.version = 2U << 16U;
-        std::strcpy(header.application.data(), "coagula");
-        std::strcpy(header.schema.data(), "hoomd");
+        std::string_view("coagula").copy(header.application.data(), header.application.size());
+        std::string_view("hoomd").copy(header.schema.data(), header.schema.size());
         std::memcpy(bytes_.data(), &header, sizeof(Header));
         return std::move(bytes_);
     }

@@ -9,7 +9,8 @@ namespace coagula::dem {
 std::uint64_t image_key(std::int32_t number, const Eigen::Vector3i& images) {
     auto key = static_cast<std::uint64_t>(number);
     for (const int periods : images) {
-        key = (key << 10U) | static_cast<std::uint64_t>(periods + 512);
+        const int shifted = periods + 512;
+        key = (key << 10U) | static_cast<std::uint64_t>(shifted);
     }
     return key;
 }
@@ -130,8 +131,7 @@ std::vector<ChunkPlan> plan_chunks(const NeighbourSearch& search, const std::vec
     std::vector<ChunkPlan> plans = split(order.size());
     assign_bonds(plans, bonds, sorted_of);
 #pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
-    for (std::size_t chunk = 0; chunk < plans.size(); ++chunk) {
-        ChunkPlan& plan = plans[chunk];
+    for (ChunkPlan& plan : plans) {
         for (std::int32_t number = plan.first; number < plan.last; ++number) {
             search.find_pairs_of(number, plan.pairs);
         }

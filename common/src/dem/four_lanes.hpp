@@ -6,6 +6,7 @@
 
 #include <immintrin.h>
 
+// NOLINTBEGIN(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): see bond_loop.hpp
 namespace {
 
 struct FourLanes {
@@ -57,3 +58,4 @@ struct FourLanes {
 };
 
 }  // namespace
+// NOLINTEND(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)

@@ -57,6 +57,7 @@ Quad padded(const Eigen::Vector3d& vector) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(modernize-pass-by-value): a cell moves no faster than it copies
 ParticleSystem::ParticleSystem(const Cell& cell, const Eigen::Matrix3Xd& positions, const Eigen::VectorXd& radii, double skin)
     : cell_(cell), skin_(require_positive(skin, "the skin of the neighbour list", "m")), radii_(radii), list_radii_(radii) {
     require(positions.cols() > 0 && positions.cols() == radii.size(),

@@ -28,7 +28,7 @@ struct Relation {
 
     Cells cells(std::size_t row) const;
     bool readable(std::size_t row) const;
-    bool holds(const Cells& cells) const;
+    bool holds(const Cells& values) const;
     /// Whether the relation holds in this row and would not if the cell of that column were off by a factor of two: then the cell
     /// is right unless others are wrong in just the way that hides it.
     bool vouches_for(std::size_t column, std::size_t row) const;

@@ -75,7 +75,7 @@ private:
     static std::string place_of(const Measurement& table) { return table.label + ", sample '" + table.sample + "'"; }
 
     /// @param difference by which the run begins later on its clock than it would by its start [s].
-    void refuse_second_clock(const Measurement& table, double difference) const {
+    static void refuse_second_clock(const Measurement& table, double difference) {
         if (std::isfinite(table.pause)) {
             throw InputError(place_of(table) + ": 'pause' is given, but its times run on from those of the run before it; leave " +
                              "'pause' out, or say clock = \"run\"");

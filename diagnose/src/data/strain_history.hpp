@@ -11,9 +11,9 @@ namespace coagula::diagnose {
 
 /// A stretch of time on the clock of a sample (run_clock.hpp).
 struct ShearedSpan {
-    double from;             ///< [s]
-    double to;               ///< [s]
-    double rate;             ///< mean magnitude of the shear rate [1/s]; of an oscillation 2 / pi times its amplitude
+    double from = 0;         ///< [s]
+    double to = 0;           ///< [s]
+    double rate = 0;         ///< mean magnitude of the shear rate [1/s]; of an oscillation 2 / pi times its amplitude
     bool destroyed = false;  ///< a shear right before it has destroyed the structure
 };
 

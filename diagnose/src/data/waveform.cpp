@@ -24,7 +24,7 @@ constexpr double still = 1e-12;       ///< first harmonic over the largest value
 
 /// The amplitude of a harmonic from the coefficients of its sine and cosine: that of exp(i k w t) of which the signal is the
 /// imaginary part.
-Complex amplitude(const Eigen::VectorXd& coefficients, int order) {
+Complex amplitude(const Eigen::VectorXd& coefficients, Index order) {
     return {coefficients[2 * order - 1], coefficients[2 * order]};
 }
 
@@ -52,8 +52,9 @@ std::optional<WaveformHarmonics> harmonics_of(const Measurement& waveform) {
         const Eigen::Vector3d& sample = samples[static_cast<std::size_t>(k)];
         waves(k, 0) = 1;
         for (int order = 1; order <= harmonics; ++order) {
-            waves(k, 2 * order - 1) = std::sin(order * sample[0]);
-            waves(k, 2 * order) = std::cos(order * sample[0]);
+            const Index cosine = Index{2} * order;
+            waves(k, cosine - 1) = std::sin(order * sample[0]);
+            waves(k, cosine) = std::cos(order * sample[0]);
         }
         signals.row(k) = sample.tail<2>().transpose();
     }

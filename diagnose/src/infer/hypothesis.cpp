@@ -196,6 +196,7 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
     const QuietLog quiet;
     const Index axes = place.size();
     ceres::Problem problem;
+    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the problem owns it
     problem.AddResidualBlock(new ProjectedResiduals(*this, hypothesis, place, evaluate), nullptr, place.data());
     for (int axis = 0; axis < static_cast<int>(axes); ++axis) {
         place[axis] = std::clamp(place[axis], prior_edge, 1 - prior_edge);

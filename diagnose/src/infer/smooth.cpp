@@ -41,7 +41,7 @@ public:
         : observations_(observations), departing_(departing), ranks_(std::move(ranks)), together_(together), length_(length) {}
 
     Eigen::VectorXd column(Index number) const {
-        const Index count = static_cast<Index>(observations_.size());
+        const auto count = static_cast<Index>(observations_.size());
         Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(count);
         Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(count);
         for (const Eigen::VectorXd& rank : ranks_) {
@@ -61,7 +61,7 @@ public:
     /// Cholesky's factor, the largest pivot first, until what is left is small.
     Eigen::MatrixXd factor() const {
         constexpr double least = 1e-4;
-        const Index size = static_cast<Index>(observations_.size());
+        const auto size = static_cast<Index>(observations_.size());
         Eigen::VectorXd rest(size);
         for (Index row = 0; row < size; ++row) {
             rest[row] = depart_alike(row, row) ? 1.0 : 0.0;

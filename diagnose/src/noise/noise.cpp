@@ -187,7 +187,7 @@ std::vector<Eigen::VectorXd> standardised_residuals(const Replicates& replicates
         if (replicates.values.row(row).array().isFinite().count() < 2) {
             continue;
         }
-        rows.push_back(Eigen::VectorXd::Constant(replicates.values.cols(), std::nan("")));
+        rows.emplace_back(Eigen::VectorXd::Constant(replicates.values.cols(), std::nan("")));
         for (Eigen::Index table = 0; table < replicates.values.cols(); ++table) {
             if (std::isfinite(replicates.values(row, table))) {
                 const double expected = fit.levels[data.condition[i]] * (1 + fit.effects[data.sample[i]]);
@@ -257,6 +257,15 @@ Eigen::VectorXd where_replicated(const Replicates& replicates, const Eigen::Vect
     return Eigen::VectorXd::Map(chosen.data(), static_cast<Eigen::Index>(chosen.size()));
 }
 
+std::string how_fitted(const NoiseModel& noise, bool with_floor) {
+    return "restricted maximum likelihood from " + count_text(noise.tables, "table") + " on " +
+           count_text(noise.samples, "sample") + ", " + std::to_string(noise.values) + " values" +
+           (with_floor ? "" : "; the levels are too alike to tell a floor from the relative part") +
+           (noise.sample_estimated || is_of_phase(noise)
+                ? ""
+                : "; one sample tells nothing about differences between samples: stated, not measured");
+}
+
 void fit_replicates(NoiseModel& noise, const Replicates& replicates, const ReplicatedValues& data,
                     const std::vector<std::string>& names, const NoiseOptions& options) {
     const bool of_phase = is_of_phase(noise);
@@ -296,11 +305,7 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
     }
     noise.rows_estimated = true;
     noise.sample_estimated = with_sample;
-    noise.statement =
-        "restricted maximum likelihood from " + count_text(noise.tables, "table") + " on " + count_text(noise.samples, "sample") +
-        ", " + std::to_string(noise.values) + " values" +
-        (with_floor ? "" : "; the levels are too alike to tell a floor from the relative part") +
-        (with_sample || of_phase ? "" : "; one sample tells nothing about differences between samples: stated, not measured");
+    noise.statement = how_fitted(noise, with_floor);
 }
 
 }  // namespace

@@ -97,6 +97,19 @@ std::vector<double> errors_of_part(const Measurement& table, const Column& colum
     return errors;
 }
 
+/// The columns of moduli, or of the viscosity, whose errors the table does not state.
+std::vector<Column*> open_columns(Measurement& table) {
+    std::vector<Column*> open;
+    for (Column& column : table.columns) {
+        const bool flows = table.kind == MeasurementKind::flow_curve;
+        const bool shown = flows ? column.name == "viscosity" : column.name == "storage_modulus" || column.name == "loss_modulus";
+        if (shown && column.standard_errors.empty()) {
+            open.push_back(&column);
+        }
+    }
+    return open;
+}
+
 }  // namespace
 
 void state_sample_effect(const std::vector<NoiseModel>& noise, double stated, NoiseSettings& settings) {
@@ -123,15 +136,7 @@ void state_sample_effect(const std::vector<NoiseModel>& noise, double stated, No
 
 void state_errors(Experiment& experiment, const std::vector<NoiseModel>& noise) {
     for (Measurement& table : experiment.measurements) {
-        std::vector<Column*> open;
-        for (Column& column : table.columns) {
-            const bool flows = table.kind == MeasurementKind::flow_curve;
-            const bool shown =
-                flows ? column.name == "viscosity" : column.name == "storage_modulus" || column.name == "loss_modulus";
-            if (shown && column.standard_errors.empty()) {
-                open.push_back(&column);
-            }
-        }
+        const std::vector<Column*> open = open_columns(table);
         const NoiseModel* torque = model_of(noise, table, false);
         const NoiseModel* phase = model_of(noise, table, true);
         if (torque == nullptr || open.empty()) {

@@ -73,12 +73,13 @@ std::vector<double> shells_of_structure(const Packing& packing, double sigma_pla
 
 std::vector<double> shells_about_free_places(const Packing& packing) {
     constexpr int places = 5000;
+    constexpr std::uint64_t most_tried = 100 * std::uint64_t{places};
     constexpr double nearest = 0.5;
     const double diameter = 2 * mean_radius(packing);
     const Eigen::Array3d box = packing.cell.lengths().array();
     std::vector<double> mean(shell_count, 0);
     int free = 0;
-    for (std::uint64_t number = 0; free < places && number < 100 * places; ++number) {
+    for (std::uint64_t number = 0; free < places && number < most_tried; ++number) {
         const auto u = random_uniform(seed_of_shells, RandomPurpose::diagnosis, 1, number);
         const Eigen::Array3d place = box * Eigen::Array3d(u[0], u[1], u[2]);
         std::vector<int> shells;

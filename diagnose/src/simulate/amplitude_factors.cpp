@@ -133,6 +133,25 @@ std::vector<double> Forward::growing_strains(std::size_t table, const std::vecto
     return growing;
 }
 
+namespace {
+
+/// Harmonics stand in a table of their own: what the sample had seen before is that of the same oscillation in the sweep.
+void share_with_harmonics(const Experiment& experiment, const std::vector<Observation>& observations,
+                          const std::vector<double>& strains, std::vector<double>& largest) {
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const Measurement& table = experiment.measurements[observations[k].measurement];
+        const auto same =
+            table.kind == MeasurementKind::harmonics ? same_oscillation(experiment, table, observations[k].row) : std::nullopt;
+        for (std::size_t other = 0; same && other < observations.size(); ++other) {
+            if (observations[other].measurement == same->measurement && observations[other].row == same->row) {
+                largest[k] = table.oscillations > 1 ? std::max(largest[other], strains[k]) : largest[other];
+            }
+        }
+    }
+}
+
+}  // namespace
+
 /// The largest of these strains of all observations that the sample of each had seen before the oscillation that was measured; 0
 /// where it had seen none.
 std::vector<double> Forward::largest_strains_before(const std::vector<double>& strains) const {
@@ -156,16 +175,7 @@ std::vector<double> Forward::largest_strains_before(const std::vector<double>& s
             so_far = std::max(so_far, strains[k]);
         }
     }
-    for (std::size_t k = 0; k < observations_.size(); ++k) {
-        const Measurement& table = experiment_.measurements[observations_[k].measurement];
-        const auto same =
-            table.kind == MeasurementKind::harmonics ? same_oscillation(experiment_, table, observations_[k].row) : std::nullopt;
-        for (std::size_t other = 0; same && other < observations_.size(); ++other) {
-            if (observations_[other].measurement == same->measurement && observations_[other].row == same->row) {
-                largest[k] = table.oscillations > 1 ? std::max(largest[other], strains[k]) : largest[other];
-            }
-        }
-    }
+    share_with_harmonics(experiment_, observations_, strains, largest);
     return largest;
 }
 

@@ -79,7 +79,7 @@ private:
     Eigen::VectorXcd breaking_response(const Settings& settings, const Observation& observation, const BondStrain& strain) const;
     std::vector<Yielded> exact_breaking_response(const Settings& settings, const Observation& observation,
                                                  const std::vector<double>& amplitudes) const;
-    std::complex<double> third_harmonic(const Settings& settings, const Observation& observation, const BondStrain& bonds) const;
+    std::complex<double> third_harmonic(const Settings& given, const Observation& observation, const BondStrain& bonds) const;
     double storage_while_breaking(const Settings& settings, const Observation& observation, const BondStrain& strain,
                                   double phase) const;
     std::vector<double> strains_before(std::size_t table, const std::vector<double>& strains) const;
@@ -87,7 +87,7 @@ private:
     Eigen::VectorXcd exact_amplitude_factors(const Settings& settings) const;
     std::vector<double> largest_strains_before(const std::vector<double>& strains) const;
     std::vector<BondStrain> bond_strains(const Settings& settings) const;
-    Eigen::MatrixXcd amplitude_factors(const Settings& settings, bool exact) const;
+    Eigen::MatrixXcd amplitude_factors(const Settings& given, bool exact) const;
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
     std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
     Eigen::MatrixXcd material(const Model& model, bool exact) const;

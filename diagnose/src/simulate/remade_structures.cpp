@@ -46,6 +46,7 @@ Simulator& Simulator::remade(const StructureChange& change) {
         progress_.update("simulating", 0.0, "structures made again");
         return stages_.make(structure, change);
     };
+    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): std::make_unique cannot call a private constructor
     other.reset(new Simulator(Structures(std::move(particles), make), std::move(names), cache_, progress_, groups_, radius_));
     other->stages_.measure_pores = stages_.measure_pores;
     return *other;

@@ -41,8 +41,8 @@ Network repeated(const Network& network, int copies) {
     Network large{
         {Cell::periodic(copies * lengths), Eigen::Matrix3Xd(3, cells * particles), network.packing.radii.replicate(cells, 1)}, {}};
     for (Index cell = 0; cell < cells; ++cell) {
-        const Eigen::Array3d place(static_cast<double>(cell % copies), static_cast<double>(cell / copies % copies),
-                                   static_cast<double>(cell / copies / copies));
+        const Eigen::Array<Index, 3, 1> along(cell % copies, cell / copies % copies, cell / copies / copies);
+        const Eigen::Array3d place = along.cast<double>();
         large.packing.positions.middleCols(cell * particles, particles) =
             network.packing.positions.colwise() + (place * lengths.array()).matrix();
     }

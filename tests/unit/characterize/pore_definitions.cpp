@@ -93,7 +93,8 @@ Eigen::Vector3d free_radii_on_grid(const Packing& packing, int points) {
     std::vector<double> clearance(total);
     for (std::size_t place = 0; place < total; ++place) {
         const auto p = static_cast<int>(place);
-        const Eigen::Vector3d point = spacing * Eigen::Vector3d(p % points, p / points % points, p / points / points);
+        const Eigen::Vector3i steps(p % points, p / points % points, p / points / points);
+        const Eigen::Vector3d point = spacing * steps.cast<double>();
         clearance[place] = surface_distance(packing, point);
         order[place] = {clearance[place], place};
     }
@@ -294,7 +295,8 @@ TEST(CoveringSpheres, AgreeWithAGridOfCentres) {
     constexpr double spacing = 6.0 / along;
     std::vector<std::pair<double, Eigen::Vector3d>> centres;
     for (int k = 0; k < along * along * along; ++k) {
-        const Eigen::Vector3d centre = spacing * Eigen::Vector3d(k % along, k / along % along, k / along / along);
+        const Eigen::Vector3i steps(k % along, k / along % along, k / along / along);
+        const Eigen::Vector3d centre = spacing * steps.cast<double>();
         if (const double radius = surface_distance(packing, centre); radius > 0) {
             centres.emplace_back(radius, centre);
         }

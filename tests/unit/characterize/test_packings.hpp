@@ -7,7 +7,6 @@
 #include "support/reference_data.hpp"
 
 #include <array>
-#include <memory>
 #include <vector>
 
 namespace coagula::characterize::test {
@@ -63,16 +62,16 @@ public:
     void scatter() {
         ++times_;
         for (std::size_t piece = 0; piece < 100; ++piece) {
-            pieces_.push_back(std::make_unique<char[]>(1000 * times_ + 37 * piece));
+            pieces_.emplace_back(1000 * times_ + 37 * piece);
         }
         for (std::size_t piece = times_; piece < pieces_.size(); piece += 3) {
-            pieces_[piece].reset();
+            pieces_[piece] = std::vector<char>();
         }
     }
 
 private:
     std::size_t times_ = 0;
-    std::vector<std::unique_ptr<char[]>> pieces_;
+    std::vector<std::vector<char>> pieces_;
 };
 
 using coagula::testing::read_columns;

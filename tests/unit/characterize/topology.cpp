@@ -12,7 +12,6 @@
 namespace coagula::characterize {
 namespace {
 
-using test::body_centred;
 using test::face_centred;
 using test::simple_cubic;
 
@@ -46,17 +45,19 @@ TEST(Rings, DoNotCloseAroundASmallBox) {
     EXPECT_EQ(rings_of_each(diamond(1), 6), rings_of_each(diamond(2), 6));
 }
 
-/// Straight from the definition: every simple cycle, tested with all distances. Open packings.
-Eigen::VectorXi rings_by_definition(const ContactNetwork& contacts, int largest) {
-    const Index n = contacts.particles;
-    Eigen::MatrixXi distance = Eigen::MatrixXi::Constant(n, n, 1000);
+/// 1 between particles in contact, else 1000.
+Eigen::MatrixXi adjacency(const ContactNetwork& contacts) {
+    Eigen::MatrixXi adjacent = Eigen::MatrixXi::Constant(contacts.particles, contacts.particles, 1000);
     for (Index k = 0; k < contacts.size(); ++k) {
-        distance(contacts.ends(0, k), contacts.ends(1, k)) = distance(contacts.ends(1, k), contacts.ends(0, k)) = 1;
+        adjacent(contacts.ends(0, k), contacts.ends(1, k)) = adjacent(contacts.ends(1, k), contacts.ends(0, k)) = 1;
     }
-    const Eigen::MatrixXi adjacent = distance;
-    for (Index k = 0; k < n; ++k) {
-        distance(k, k) = 0;
-    }
+    return adjacent;
+}
+
+/// Contacts between any two particles (Floyd and Warshall).
+Eigen::MatrixXi all_distances(Eigen::MatrixXi distance) {
+    const Index n = distance.rows();
+    distance.diagonal().setZero();
     for (Index m = 0; m < n; ++m) {
         for (Index i = 0; i < n; ++i) {
             for (Index j = 0; j < n; ++j) {
@@ -64,19 +65,33 @@ Eigen::VectorXi rings_by_definition(const ContactNetwork& contacts, int largest)
             }
         }
     }
+    return distance;
+}
+
+/// Whether no two particles of a cycle are nearer by contacts outside it.
+bool is_shortest(const std::vector<Index>& cycle, const Eigen::MatrixXi& distance) {
+    const int size = static_cast<int>(cycle.size());
+    for (int a = 0; a < size; ++a) {
+        for (int b = 0; b < a; ++b) {
+            if (distance(cycle[static_cast<std::size_t>(a)], cycle[static_cast<std::size_t>(b)]) != std::min(a - b, size - a + b)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// Straight from the definition: every simple cycle, tested with all distances. Open packings.
+Eigen::VectorXi rings_by_definition(const ContactNetwork& contacts, int largest) {
+    const Index n = contacts.particles;
+    const Eigen::MatrixXi adjacent = adjacency(contacts);
+    const Eigen::MatrixXi distance = all_distances(adjacent);
     Eigen::VectorXi count = Eigen::VectorXi::Zero(largest + 1);
     std::vector<Index> walk;
     const std::function<void()> extend = [&] {
         const int size = static_cast<int>(walk.size());
         if (size >= 3 && walk[1] < walk.back() && adjacent(walk.back(), walk[0]) == 1) {
-            bool shortest = true;
-            for (int a = 0; a < size; ++a) {
-                for (int b = 0; b < a; ++b) {
-                    shortest = shortest && distance(walk[static_cast<std::size_t>(a)], walk[static_cast<std::size_t>(b)]) ==
-                                               std::min(a - b, size - a + b);
-                }
-            }
-            count[size] += shortest ? 1 : 0;
+            count[size] += is_shortest(walk, distance) ? 1 : 0;
         }
         for (Index next = walk[0] + 1; size < largest && next < n; ++next) {
             if (adjacent(walk.back(), next) == 1 && std::find(walk.begin(), walk.end(), next) == walk.end()) {

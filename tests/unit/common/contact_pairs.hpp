@@ -15,8 +15,8 @@ struct ContactPair {
     ContactMemory memory = {};
     double dissipated = 0;
 
-    static Eigen::Vector3d normal() { return Eigen::Vector3d(0.6, -0.48, 0.64); }
-    static Eigen::Vector3d across() { return Eigen::Vector3d(0.8, 0.36, -0.48); }
+    static Eigen::Vector3d normal() { return {0.6, -0.48, 0.64}; }
+    static Eigen::Vector3d across() { return {0.8, 0.36, -0.48}; }
     double touching_distance() const { return first_radius + second_radius; }
     double effective_radius() const { return first_radius * second_radius / touching_distance(); }
 
@@ -27,7 +27,7 @@ struct ContactPair {
 
     ContactForce move(const Eigen::Vector3d& branch, const Eigen::Vector3d& first_turn, const Eigen::Vector3d& second_turn,
                       double duration = 0) {
-        const ContactForce result = law.update(memory, {branch, first_turn, second_turn, first_radius, second_radius}, duration);
+        ContactForce result = law.update(memory, {branch, first_turn, second_turn, first_radius, second_radius}, duration);
         dissipated += result.dissipated;
         return result;
     }

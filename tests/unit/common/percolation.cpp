@@ -130,7 +130,8 @@ TEST(Percolation, AgreesWithTheRepeatedBox) {
             repeated.cell = Cell::periodic(packing.cell.lengths() + (copies - 1) * shift);
             repeated.positions = packing.positions.replicate(1, copies);
             for (Index i = 0; i < repeated.positions.cols(); ++i) {
-                repeated.positions.col(i) += static_cast<double>(i / packing.size()) * shift;
+                const Index copy = i / packing.size();
+                repeated.positions.col(i) += static_cast<double>(copy) * shift;
             }
             repeated.radii = Eigen::VectorXd::Constant(repeated.positions.cols(), 1.0);
             const auto winds = static_cast<std::size_t>(std::count_if(

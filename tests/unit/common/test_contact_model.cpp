@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 namespace coagula {
 namespace {
@@ -154,13 +155,13 @@ TEST(ContactModel, RefusesPartsWithoutWhatTheyNeed) {
         double ContactModel::*parameter;
         const char* part;
     };
-    const Missing all[] = {{&ContactModel::normal_stiffness, "needs normal_stiffness"},
-                           {&ContactModel::shear_maxwell_time, "shear_maxwell_stiffness but no shear_maxwell_time"},
-                           {&ContactModel::normal_springpot_exponent, "but no normal_springpot_exponent"},
-                           {&ContactModel::poisson_ratio, "young_modulus but no poisson_ratio"},
-                           {&ContactModel::ageing_rate, "ageing_time but no ageing_rate"},
-                           {&ContactModel::lubrication_cutoff, "lubrication_gap but no lubrication_cutoff"},
-                           {&ContactModel::solvent_viscosity, "lubrication_gap but no solvent_viscosity"}};
+    const std::vector<Missing> all = {{&ContactModel::normal_stiffness, "needs normal_stiffness"},
+                                      {&ContactModel::shear_maxwell_time, "shear_maxwell_stiffness but no shear_maxwell_time"},
+                                      {&ContactModel::normal_springpot_exponent, "but no normal_springpot_exponent"},
+                                      {&ContactModel::poisson_ratio, "young_modulus but no poisson_ratio"},
+                                      {&ContactModel::ageing_rate, "ageing_time but no ageing_rate"},
+                                      {&ContactModel::lubrication_cutoff, "lubrication_gap but no lubrication_cutoff"},
+                                      {&ContactModel::solvent_viscosity, "lubrication_gap but no solvent_viscosity"}};
     for (const Missing& missing : all) {
         ContactModel model = full_model();
         model.*missing.parameter = unset;

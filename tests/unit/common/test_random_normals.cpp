@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -56,13 +57,13 @@ TEST(RandomNormals, DoNotDependOnTheirNeighbours) {
 }
 
 TEST(RandomNormals, HaveTheMomentsOfANormalDistribution) {
-    constexpr int count = 300000;
+    constexpr std::size_t count = 300000;
     std::vector<std::int32_t> particles(count);
     std::iota(particles.begin(), particles.end(), 0);
     std::vector<double> normals(4 * count);
     random_normals(seed, RandomPurpose::test, 0, particles, normals.data());
     for (std::size_t part = 0; part < 3; ++part) {
-        double moments[5] = {};
+        std::array<double, 5> moments{};
         double tail = 0;
         double across = 0;
         for (std::size_t entry = 0; entry < count; ++entry) {
@@ -111,7 +112,7 @@ TEST(RandomNormals, ComeWithUniformNumbersThatDoNotDependOnThem) {
         EXPECT_NEAR(squares, 0, 5 * std::sqrt(0.8 * (kurtosis - 1)) / root) << part << ' ' << other;
     };
     for (std::size_t part = 0; part < 3; ++part) {
-        double moments[5] = {};
+        std::array<double, 5> moments{};
         for (std::size_t entry = 0; entry < count; ++entry) {
             double power = 1;
             for (double& moment : moments) {

@@ -116,14 +116,13 @@ TEST(Forces, VanishWhenABondedClusterTurnsAsARigidBody) {
     compute_forces(still, sheared);
     const Eigen::Vector3d rotation(0.5, -1.0, 0.8);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
-    double error[2];
-    for (const int round : {0, 1}) {
-        const ParticleSystem system = turned_cluster(rotation, round == 0 ? 100 : 200, Eigen::Matrix3Xd::Zero(3, 6));
-        error[round] = (system.forces() - turn * still.forces()).norm();
-    }
+    const auto error = [&](int steps) {
+        const ParticleSystem system = turned_cluster(rotation, steps, Eigen::Matrix3Xd::Zero(3, 6));
+        return (system.forces() - turn * still.forces()).norm();
+    };
     // Second order: what the finite steps leave behind falls fourfold with half the step.
-    EXPECT_LT(error[0], 1e-3);
-    EXPECT_LT(error[1], 0.26 * error[0] + 1e-12);
+    EXPECT_LT(error(100), 1e-3);
+    EXPECT_LT(error(200), 0.26 * error(100) + 1e-12);
 }
 
 TEST(Forces, TurnWithAShearedClusterThatTurnsAsARigidBody) {

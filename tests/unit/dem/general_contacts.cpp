@@ -103,8 +103,9 @@ TEST(CellShear, FindsAllNeighboursAtAnyStrain) {
         for (Index i = 0; i < packing.size(); ++i) {
             for (Index j = i + 1; j < packing.size(); ++j) {
                 for (int image = 0; image < 125; ++image) {
-                    const Eigen::Vector3d periods(image % 5 - 2, image / 5 % 5 - 2, image / 25 - 2);
-                    const Eigen::Vector3d shift = system.cell_shear().apply(periods.cwiseProduct(packing.cell.lengths()));
+                    const Eigen::Vector3i periods(image % 5 - 2, image / 5 % 5 - 2, image / 25 - 2);
+                    const Eigen::Vector3d shift =
+                        system.cell_shear().apply(periods.cast<double>().cwiseProduct(packing.cell.lengths()));
                     const double distance = (positions.col(j) + shift - positions.col(i)).norm();
                     expected += distance < packing.radii[i] + packing.radii[j] ? 1 : 0;
                 }

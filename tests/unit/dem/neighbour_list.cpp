@@ -42,8 +42,9 @@ std::vector<Entry> all_pairs(const Packing& packing, double skin, int periods) {
         for (int j = i; j < packing.size(); ++j) {
             for (int image = 0; image < (2 * periods + 1) * (2 * periods + 1) * (2 * periods + 1); ++image) {
                 const int width = 2 * periods + 1;
-                const Eigen::Vector3d shift(image % width - periods, image / width % width - periods,
+                const Eigen::Vector3i place(image % width - periods, image / width % width - periods,
                                             image / width / width - periods);
+                const Eigen::Vector3d shift = place.cast<double>();
                 const Eigen::Vector3d branch =
                     packing.positions.col(j) - packing.positions.col(i) + shift.cwiseProduct(packing.cell.lengths());
                 // Of a particle's two opposite images of itself one counts.

@@ -18,12 +18,12 @@ Measurement sweep_of(const std::string& sample, double level, std::uint64_t seed
     table.label = "sweep of " + sample;
     table.sample = sample;
     table.columns = {{"strain", "1", {}}, {"storage_modulus", "Pa", {}}, {"loss_modulus", "Pa", {}}};
-    for (int row = 0; row < 14; ++row) {
+    for (std::uint64_t row = 0; row < 14; ++row) {
         const double strain = 1e-5 * std::pow(2, row);
         const double left = 1 / (1 + std::pow(strain / 0.01, 2));
         table.columns[0].values.push_back(strain);
-        table.columns[1].values.push_back(level * left * (1 + 0.02 * drawn_normal(seed, static_cast<std::uint64_t>(2 * row))));
-        table.columns[2].values.push_back(0.1 * level * (1 + 0.02 * drawn_normal(seed, static_cast<std::uint64_t>(2 * row + 1))));
+        table.columns[1].values.push_back(level * left * (1 + 0.02 * drawn_normal(seed, 2 * row)));
+        table.columns[2].values.push_back(0.1 * level * (1 + 0.02 * drawn_normal(seed, 2 * row + 1)));
     }
     return table;
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace coagula::diagnose {
@@ -16,14 +17,14 @@ ReplicatedValues example() {
     data.samples = 3;
     data.floor_weights = (Eigen::VectorXd(5) << 3, 1, 0.5, 2, 1).finished();
     std::vector<double> values;
-    const Eigen::Index sample_of_table[] = {0, 1, 1, 2};
+    constexpr std::array<Eigen::Index, 4> sample_of_table = {0, 1, 1, 2};
     for (Eigen::Index c = 0; c < 5; ++c) {
-        for (int table = 0; table < 4; ++table) {
+        for (std::size_t table = 0; table < 4; ++table) {
             if ((c == 1 && table == 2) || (c == 4 && table == 0)) {
                 continue;
             }
             values.push_back((10.0 + 7.0 * static_cast<double>(c)) *
-                             (1 + 0.1 * std::sin(3.7 * static_cast<double>(c) + 1.3 * table)));
+                             (1 + 0.1 * std::sin(3.7 * static_cast<double>(c) + 1.3 * static_cast<double>(table))));
             data.condition.push_back(c);
             data.sample.push_back(sample_of_table[table]);
         }

@@ -127,12 +127,13 @@ TEST(BrownianDynamics, RoughCrystalIsStableBelowTheBound) {
     // Twelve contacts each: what the bound is made for. A mode beyond it would grow a hundredfold within some steps.
     constexpr int cells = 5;
     constexpr double edge = 2.004 * std::numbers::sqrt2;
-    Packing crystal{Cell::periodic(Eigen::Vector3d::Constant(cells * edge * radius)),
-                    Eigen::Matrix3Xd(3, 4 * cells * cells * cells), Eigen::VectorXd::Constant(4 * cells * cells * cells, radius)};
+    constexpr Index particles = Index{4} * cells * cells * cells;
+    Packing crystal{Cell::periodic(Eigen::Vector3d::Constant(cells * edge * radius)), Eigen::Matrix3Xd(3, particles),
+                    Eigen::VectorXd::Constant(particles, radius)};
     for (Index particle = 0; particle < crystal.size(); ++particle) {
         const Index cell = particle / 4;
-        Eigen::Vector3d place(static_cast<double>(cell % cells), static_cast<double>(cell / cells % cells),
-                              static_cast<double>(cell / cells / cells));
+        const Eigen::Matrix<Index, 3, 1> along(cell % cells, cell / cells % cells, cell / cells / cells);
+        Eigen::Vector3d place = along.cast<double>();
         if (particle % 4 > 0) {
             place += 0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(particle % 4 - 1));
         }

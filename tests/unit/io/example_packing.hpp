@@ -17,9 +17,8 @@ inline Packing example_packing(Index particles, bool periodic) {
     const auto side = static_cast<Index>(std::ceil(std::cbrt(static_cast<double>(particles))));
     for (Index i = 0; i < particles; ++i) {
         const Eigen::Vector3d noise = random_uniform(1, RandomPurpose::test, 0, static_cast<std::uint64_t>(i));
-        const Eigen::Vector3d site = Eigen::Vector3d(static_cast<double>(i % side), static_cast<double>(i / side % side),
-                                                     static_cast<double>(i / side / side)) +
-                                     0.5 * noise;
+        const Eigen::Matrix<Index, 3, 1> place(i % side, i / side % side, i / side / side);
+        const Eigen::Vector3d site = place.cast<double>() + 0.5 * noise;
         packing.positions.col(i) = packing.cell.origin() + (site / static_cast<double>(side)).cwiseProduct(lengths);
         packing.radii[i] = 2.7e-6 / static_cast<double>(side) * (0.4 + 0.1 * noise[0]);
     }

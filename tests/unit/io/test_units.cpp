@@ -124,10 +124,10 @@ TEST(Units, FactorsBetweenUnits) {
 TEST(Units, IsSafeForThreads) {
     std::vector<std::thread> threads;
     std::vector<double> sums(4, 0.0);
-    for (std::size_t t = 0; t < sums.size(); ++t) {
-        threads.emplace_back([&sums, t] {
+    for (double& sum : sums) {
+        threads.emplace_back([&sum] {
             for (int i = 0; i < 500; ++i) {
-                sums[t] += parse_quantity("1 km", "m");
+                sum += parse_quantity("1 km", "m");
             }
         });
     }

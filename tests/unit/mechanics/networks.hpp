@@ -36,7 +36,8 @@ inline ContactNetwork bonds_between(const Packing& packing, const std::vector<st
 
 /// The same stiffness for every bond.
 inline std::vector<ContactTangent> alike(const ContactNetwork& bonds, const ContactTangent& tangent) {
-    return std::vector<ContactTangent>(static_cast<std::size_t>(bonds.size()), tangent);
+    std::vector<ContactTangent> all(static_cast<std::size_t>(bonds.size()), tangent);
+    return all;
 }
 
 }  // namespace coagula::testing

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace coagula::mechanics {
 namespace {
 
@@ -92,11 +94,12 @@ TEST(Stiffness, LoadsAndAffineEnergyMatchTheEnergyUnderStrain) {
     const Loads loads = network.loads();
     const Block affine = network.affine_energy();
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(loads.rows());
-    constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    constexpr std::array<std::array<int, 2>, 6> pairs = {{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
     for (int strain = 0; strain < 6; ++strain) {
         Eigen::Matrix3d epsilon = Eigen::Matrix3d::Zero();
-        epsilon(pairs[strain][0], pairs[strain][1]) += 0.5;
-        epsilon(pairs[strain][1], pairs[strain][0]) += 0.5;
+        const auto [row, column] = pairs[static_cast<std::size_t>(strain)];
+        epsilon(row, column) += 0.5;
+        epsilon(column, row) += 0.5;
         EXPECT_NEAR(0.5 * affine(strain, strain), energy(sample, zero, epsilon), 1e-12 * affine(strain, strain));
         for (const Index unknown : {Index{0}, Index{4}, Index{17}, loads.rows() - 1}) {
             Eigen::VectorXd step = zero;

@@ -20,7 +20,7 @@ public:
         packing_.positions *= stretch;
         edge_ = packing_.cell.lengths()[0];
         boxes_ = static_cast<int>(edge_);  // no smaller than a diameter
-        inside_.resize(static_cast<std::size_t>(boxes_ * boxes_ * boxes_));
+        inside_.resize(static_cast<std::size_t>(Index{boxes_} * boxes_ * boxes_));
         for (Index i = 0; i < packing_.size(); ++i) {
             inside_[box_of(packing_.positions.col(i))].push_back(i);
         }
@@ -56,7 +56,7 @@ private:
 
     std::size_t slot(const Eigen::Array3i& box) const {
         const Eigen::Array3i inside = box.unaryExpr([this](int k) { return (k + boxes_) % boxes_; });
-        return static_cast<std::size_t>((inside[2] * boxes_ + inside[1]) * boxes_ + inside[0]);
+        return static_cast<std::size_t>((Index{inside[2]} * boxes_ + inside[1]) * boxes_ + inside[0]);
     }
     std::size_t box_of(const Eigen::Vector3d& place) const {
         return slot((place / edge_ * boxes_).cast<int>().array().min(boxes_ - 1));

@@ -23,8 +23,10 @@ public:
     /// @param options values by name, in the unit of the option (SI); those not given have the default of the table of measures.
     explicit MeasureInput(Packing packing, std::map<std::string, double> options = {}, std::uint64_t seed = 1,
                           Progress progress = {});
-    MeasureInput(MeasureInput&&) noexcept;
-    MeasureInput& operator=(MeasureInput&&) noexcept;
+    MeasureInput(MeasureInput&& other) noexcept;
+    MeasureInput& operator=(MeasureInput&& other) noexcept;
+    MeasureInput(const MeasureInput&) = delete;
+    MeasureInput& operator=(const MeasureInput&) = delete;
     ~MeasureInput();
 
     const Packing& packing() const { return packing_; }

@@ -30,7 +30,7 @@ struct MechanismParameter {
 
     /// The value at a place 0 .. 1 of the prior, and back.
     double at(double place) const;
-    double place_of(double value) const;
+    double place_of(double given) const;
     /// The place where a fit ends that is best at this one.
     double rounded(double place) const;
 };

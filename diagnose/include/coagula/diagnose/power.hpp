@@ -86,6 +86,6 @@ struct Power {
 /// table without a column of loss moduli plans to measure them unless it has one of storage moduli only. A table of kind
 /// `harmonics` plans waveforms, of which the moduli are those of a sweep. Throws InputError when there is no table of moduli, fewer
 /// than five rows, or a cause that is not in the catalogue.
-Power find_power(const Experiment& planned, Simulator& simulator, const PowerOptions& options = {}, const Progress& progress = {});
+Power find_power(const Experiment& experiment, Simulator& simulator, const PowerOptions& given = {}, const Progress& progress = {});
 
 }  // namespace coagula::diagnose

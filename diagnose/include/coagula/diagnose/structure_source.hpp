@@ -30,7 +30,7 @@ Settings as_stated(Settings settings);
 
 /// Probability that a point of the void space is farther than r from the nearest particle surface, at equally spaced r.
 struct PoreCurve {
-    double largest;                   ///< pore radius [m]
+    double largest = 0;               ///< pore radius [m]
     std::vector<double> probability;  ///< from r = 0 to `largest`
 
     /// Linear between the radii; 0 beyond the largest.

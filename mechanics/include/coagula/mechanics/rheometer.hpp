@@ -25,7 +25,7 @@ enum class RheometerBoundary {
 
 /// One oscillation of a course.
 struct CourseOscillation {
-    double part;         ///< of the amplitude, above 0 and up to 1
+    double part = 1;     ///< of the amplitude, above 0 and up to 1
     bool breaks = true;  ///< else its bonds hold whatever they carry: what it loses is the rate of the run
 };
 

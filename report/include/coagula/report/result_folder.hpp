@@ -15,7 +15,7 @@ public:
     /// Throws InputError when `folder` is a file, or one of the files is a folder, or is there already and `force` is not given.
     /// Nothing is made yet.
     /// @param others what else will be written, but for what may be there already.
-    ResultFolder(std::filesystem::path folder, std::string key_file, const std::vector<std::string>& others, bool force);
+    ResultFolder(std::filesystem::path folder, std::string key_file, std::vector<std::string> others, bool force);
     ResultFolder(const ResultFolder&) = delete;
     ResultFolder& operator=(const ResultFolder&) = delete;
     ~ResultFolder();

@@ -50,6 +50,7 @@ public:
     SlotBond operator[](std::size_t bond) const {
         const detail::BondBlock& block = blocks_[bond / width];
         const std::size_t lane = bond % width;
+        // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): what the block has
         const auto vector = [lane](const double(&values)[3][width]) {
             return Eigen::Vector3d(values[0][lane], values[1][lane], values[2][lane]);
         };

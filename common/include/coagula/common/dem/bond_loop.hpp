@@ -1,12 +1,14 @@
 // Forces of bonds with shear springs: the formulas, once, for one bond at a time or several in the lanes of vector registers.
 //
 // Everything is a template over `Lanes`, so that a translation unit compiled for special instructions shares no function with the
-// others as long as its lanes have a name without linkage. For the same reason nothing here calls library templates.
+// others as long as its lanes have a name without linkage. For the same reason nothing here calls library templates, std::array
+// among them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+// NOLINTBEGIN(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): see above
 namespace coagula::dem::detail {
 
 /// Four bonds, so that what a step reads and writes of them lies side by side.
@@ -93,7 +95,7 @@ struct BondFormulas {
         Lanes::gather(slots.position, ends + 1, second);
         Lanes::gather(slots.turn, ends, first_turn);
         Lanes::gather(slots.turn, ends + 1, second_turn);
-        Pair pair;
+        Pair pair;  // NOLINT(cppcoreguidelines-pro-type-member-init): set in what follows
         pair.branch = {second[0] - first[0], second[1] - first[1], second[2] - first[2]};
         pair.distance = Lanes::larger(Lanes::square_root(dot(pair.branch, pair.branch)), Real{} + 1e-300);
         pair.inverse_distance = 1.0 / pair.distance;
@@ -194,3 +196,4 @@ struct SpringForce {
 };
 
 }  // namespace coagula::dem::detail
+// NOLINTEND(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)

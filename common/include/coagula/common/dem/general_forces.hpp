@@ -64,10 +64,10 @@ inline void make_contacts(const Slots& slots, Chunk& chunk, const GeneralContact
 }
 
 /// Broken bonds and contacts without bond that have parted become ordinary pairs.
-inline void part_contacts(const Slots& slots, Chunk& chunk, const GeneralContact& law) {
+inline void part_contacts(const Slots& slots, Chunk& chunk) {
     std::erase_if(chunk.contacts, [&](const SlotContact& contact) {
-        const bool parted =
-            !law.touches(contact.memory, slots.position[at(contact.ends.first)][3], slots.position[at(contact.ends.second)][3]);
+        const bool parted = !GeneralContact::touches(contact.memory, slots.position[at(contact.ends.first)][3],
+                                                     slots.position[at(contact.ends.second)][3]);
         if (parted) {
             chunk.pairs.push_back(contact.ends);
         }
@@ -82,25 +82,25 @@ void add_drag(Slots& slots, Chunk& chunk, const Solvent& solvent, double time_st
 void add_films(Slots& slots, Chunk& chunk, const Solvent& solvent, double time_step);
 
 template <>
-inline void evaluate(Slots& slots, Chunk& chunk, const GeneralInteractions& interactions) {
+inline void evaluate(Slots& slots, Chunk& chunk, const GeneralInteractions& laws) {
     prepare<true>(slots, chunk);
     chunk.dissipated = 0;
     chunk.virial.setZero();
-    make_contacts(slots, chunk, interactions.law);
+    make_contacts(slots, chunk, laws.law);
     for (SlotContact& contact : chunk.contacts) {
         const PairMotion motion = motion_of(slots, contact.ends);
-        const ContactForce force = interactions.law.update(contact.memory, motion, interactions.time_step);
+        const ContactForce force = laws.law.update(contact.memory, motion, laws.time_step);
         apply(slots, contact.ends, motion, force);
         contact.force = force.force;
         chunk.dissipated += force.dissipated;
         chunk.virial += force.force * motion.branch.transpose();
     }
     chunk.films.clear();
-    if (interactions.solvent.viscosity > 0 && interactions.time_step > 0) {
-        add_drag(slots, chunk, interactions.solvent, interactions.time_step);
-        add_films(slots, chunk, interactions.solvent, interactions.time_step);
+    if (laws.solvent.viscosity > 0 && laws.time_step > 0) {
+        add_drag(slots, chunk, laws.solvent, laws.time_step);
+        add_films(slots, chunk, laws.solvent, laws.time_step);
     }
-    part_contacts(slots, chunk, interactions.law);
+    part_contacts(slots, chunk);
 }
 
 }  // namespace detail

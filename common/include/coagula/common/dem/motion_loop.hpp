@@ -45,7 +45,7 @@ double move_particles(const MotionArrays& slots, std::size_t begin, std::size_t 
     double fastest_squared = 0;
     for (std::size_t slot = begin; slot < end; ++slot) {
         const Real time_over_mass = nothing + step.time_step * slots.inverse_mass[slot];
-        Real squares[4];
+        Real squares[4];  // NOLINT(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): see bond_loop.hpp
         for (std::size_t part = 0; part < 4; part += Lanes::width) {
             const std::size_t place = 4 * slot + part;
             const Real now =
