@@ -101,6 +101,11 @@ def rates_day(largest_strain, rows, frequencies):
                         for number, frequency in enumerate(frequencies) for name in "AB"]))
 
 
+def gaps_day():
+    """Times from seconds to hours between plates near to and far from each other."""
+    return [replace(table, gap=numpy.full(len(table.strain), GAP if table.sample in "AB" else 3 * GAP), plate=PLATE) for table in long_day()]
+
+
 def plates_day():
     """Samples under a small, a middle and a wide plate."""
     return list(placed([sweep("time-sweep", f"{name}{count}", 0, numpy.full(10, SMALL_STRAIN), 1.0, 60, plate=plate)
