@@ -101,9 +101,21 @@ def rates_day(largest_strain, rows, frequencies):
                         for number, frequency in enumerate(frequencies) for name in "AB"]))
 
 
+def slow_day(gaps=(GAP, GAP), plates=(PLATE, PLATE)):
+    """Times from seconds to hours, on two samples each between these plates."""
+    tables = []
+    for name, gap, plate in zip("ABCD", (gaps[0], *gaps, gaps[1]), (plates[0], *plates, plates[1])):
+        tables += [sweep("time-sweep", name, 0, numpy.full(8, SMALL_STRAIN), 1.0, 5, gap, plate),
+                   sweep("time-sweep", name, 1, numpy.full(10, SMALL_STRAIN), 1.0, 720, gap, plate)]
+    return list(placed(tables))
+
+
 def gaps_day():
-    """Times from seconds to hours between plates near to and far from each other."""
-    return [replace(table, gap=numpy.full(len(table.strain), GAP if table.sample in "AB" else 3 * GAP), plate=PLATE) for table in long_day()]
+    return slow_day(gaps=(GAP, 3 * GAP))
+
+
+def radii_day():
+    return slow_day(plates=(PLATE, 2 * PLATE))
 
 
 def plates_day():

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy
 
 import network
+import poroelastic
 
 PARTICLES = 400
 STRUCTURES = 8
@@ -240,6 +241,10 @@ class Material:
         strains = numpy.arange(1, SWEEP_ROWS + 1) * load / RUPTURE_LOAD / SWEEP_ROWS
         return shown_at(numpy.sum(sweeps, axis=0) / numpy.sum(whole), strains)
 
+    def consolidation(self, radius):
+        """What the torque of plates shows of the solvent that leaves, their radius over the gap given: times and shares."""
+        return self.remembered(f"consolidation {radius:.6g}", lambda: [each.tolist() for each in poroelastic.Layer(radius).course()])
+
     def layers(self, fractions):
         """G' of layers of these volume fractions over that of the fraction 0.4: a parabola through the logarithms of the moduli of structures."""
         means = [numpy.mean([self.modulus(number, "volume-fraction", fraction) for number in range(STRUCTURES)]) for fraction in FRACTIONS]
@@ -303,6 +308,7 @@ class Sketch:
     def __init__(self, material):
         self.modulus, self.mean_modulus, self.mean_breaking = material.modulus, material.mean_modulus, material.mean_breaking
         self.left_by_bonds, self.mean_rupture, self.layers = material.left_by_bonds, material.mean_rupture, material.layers
+        self.consolidation = material.consolidation
 
     def losses(self, number, ratio, exponent, frequencies):
         return 1 + ratio * (1j * numpy.asarray(frequencies))**exponent

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy
 
-import settling
+import settling as weight
 from days import CONE, GAP, PLATE, SMALL_STRAIN, sweep
 from material import FRACTIONS_KNOWN, KNOWN_EACH
 
@@ -39,6 +39,7 @@ class Hidden:
     relaxing: tuple = ()    # part of a contact that relaxes over the rest, time [s]
     thixotropy: tuple = ()  # breaking per unit of strain, time in which bonds form again [s]
     settled: tuple = ()     # difference of the volume fraction between plates at the usual gap in the end, time there [s]
+    backflow: tuple = ()    # growth, mobility of the solvent [m2/(Pa s)] (poroelastic.py)
     rates: tuple = ()       # frequency [Hz] and largest load of a sweep, for each frequency
     overfill: float = 0.0   # by which the sample is wider than its plate [m]
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
@@ -225,11 +226,15 @@ def true_modulus(material, session, table):
         rate, exponent = hidden.drying
         lost = rate * clock * 2 * PLATE / table.plate  # of all the solvent: rim over volume is 2 / R
         modulus /= (1 - lost)**exponent
+    if hidden.backflow:
+        growth, mobility = hidden.backflow
+        times, shrunk = material.consolidation(table.plate / table.gap[0])
+        modulus *= 1 + growth * numpy.interp(clock * abs(modulus) * mobility / table.gap[0]**2, times, shrunk)
     if hidden.settled:
         difference, time = hidden.settled
         wider = table.gap[0] / GAP
-        profiles = settling.gradients(clock, time * wider**2)
-        modulus *= settling.shown(material.layers, profiles, difference * wider)
+        profiles = weight.gradients(clock, time * wider**2)
+        modulus *= weight.shown(material.layers, profiles, difference * wider)
     if hidden.warmth:
         size, period = hidden.warmth
         modulus *= 1 + size * numpy.sin(2 * numpy.pi * clock / period)
