@@ -30,6 +30,7 @@
     ENTRY(temperature_drift)        \
     ENTRY(evaporation)              \
     ENTRY(sedimentation)            \
+    ENTRY(poroelastic_backflow)     \
     ENTRY(sample_inertia)           \
     ENTRY(gap_error)                \
     ENTRY(wall_slip)                \

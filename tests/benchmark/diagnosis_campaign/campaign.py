@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy
 
-from cases import ROWS
+from cases import ROWS, SETTLING_LOOK_ALIKES
 from days import placed
 from material import Material
 from session import follow_up
@@ -27,7 +27,9 @@ from table import BREAKING, in_set, print_table
 
 
 DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "single", "pair", "tie", "outside"]
-BREAKING_ROWS = {*BREAKING, "tie-yield", "activated-rupture"}
+BREAKING_ROWS = {*BREAKING, "tie-yield"}
+RUPTURE_ROWS = {"activated-rupture", "bond-strength-rates"}
+SETTLING_ROWS = {"sedimentation", "volume-fraction-gradient", *(f"{name}-gaps" for name in SETTLING_LOOK_ALIKES)}
 SERIES_ROWS = {"null-series", "structure-series", "missing-contacts"}
 CONTACT_ROWS = {"structure-series", "tie-level"}
 
@@ -147,7 +149,8 @@ def main():
     (folder / "bank").mkdir(parents=True, exist_ok=True)
     Material(program, folder / "bank").prepare(jobs=chosen.jobs, breaking=not BREAKING_ROWS.isdisjoint(chosen.rows),
                                                    series=not SERIES_ROWS.isdisjoint(chosen.rows), contacts=not CONTACT_ROWS.isdisjoint(chosen.rows),
-                                                   dragged="drag" in chosen.rows)
+                                                   dragged="drag" in chosen.rows, rupture=not RUPTURE_ROWS.isdisjoint(chosen.rows),
+                                                   settling=not SETTLING_ROWS.isdisjoint(chosen.rows))
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

@@ -4,15 +4,17 @@ from dataclasses import replace
 
 import numpy
 
-from days import (GAP, PLATE, full_day, gap_day, level_day, long_day, one_sample, plates_day, rates_day, rest_day, up_and_down, wide_strains,
+from days import (GAP, PLATE, full_day, gap_day, gaps_day, level_day, long_day, one_sample, plates_day, radii_day, rates_day, rest_day, up_and_down, wide_strains,
                   yield_day)
-from material import CONTACTS, DRAGGED, KNOWN, LOADS, STRUCTURES, SWEEP_ROWS
+from material import CONTACTS, DRAGGED, KNOWN, LOADS, RUPTURE_LOAD, STRUCTURES, SWEEP_ROWS
 from series import Series
 from session import Hidden, Noise, Session
 
 LEAST_GAIN, LARGEST_GAIN = 25, 400
 KNOWN_THAT_BREAK = 4  # structures of the diagnosis where bonds break, drawn of those that there are
 FAULTY_GAIN = 36
+SETTLING_LOOK_ALIKES = ("temperature-drift", "evaporation", "ageing", "ageing-saturating")
+MOBILITY = 1.9e-12  # of water in spheres of 0.5 um at a volume fraction of 0.4, by Kozeny and Carman: d^2 (1 - phi)^3 / (180 phi^2 eta) [m2/(Pa s)]
 VISCOSITIES = (0.5, 2.0, 8.0)
 REMOVED, DENSER = 0.12, 0.45  # share of the contacts; volume fraction where 0.4 is stated
 CRITICAL_STRAIN = 1e-4  # of the bank of breaking structures; the sweep's strains follow from the load
@@ -63,7 +65,7 @@ def effects(generator, session):
               "contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
               "tool-inertia": logarithmic(1e-8, 0.9e-4), "overfill": logarithmic(1e-5, 1e-3), "skin": logarithmic(1e-7, 1.0),
               "cooling": logarithmic(1e-3, 0.3), "softening": logarithmic(1.0, 1e-4),
-              "drying": logarithmic(1e-7, 2e-5), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
+              "settled": logarithmic(1e-3, 0.05), "squeezed": logarithmic(1e-3, 0.5), "drying": logarithmic(1e-7, 2e-5), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
     return {
         "contact-loss": lambda place: Hidden("contact-loss", loss=(float(f"{within['contact-loss'](place):.3g}"), exponent)),
         "ageing": lambda place: Hidden("ageing", ageing=within["ageing"](place)),
@@ -76,6 +78,8 @@ def effects(generator, session):
         "ageing-saturating": lambda place: Hidden("ageing-saturating", setting=setting),
         "temperature-drift": lambda place: Hidden("temperature-drift", cooling=(sign * within["cooling"](place), begin)),
         "evaporation": lambda place: Hidden("evaporation", drying=(within["drying"](place), power)),
+        "sedimentation": lambda place: Hidden("sedimentation", settled=(within["settled"](place), 0.5 * begin)),
+        "poroelastic-backflow": lambda place: Hidden("poroelastic-backflow", backflow=(within["squeezed"](place), MOBILITY * setting[0]**0.3)),
         "drying-rim": lambda place: Hidden("drying-rim", skin=within["skin"](place)),
         "radius-error": lambda place: Hidden("radius-error", overfill=sign * within["overfill"](place)),
         "sudden-loss": lambda place: Hidden("sudden-loss", loss_of_hold=(where[0], where[1], 0.98 - 0.9 * place)),
@@ -130,18 +134,43 @@ def of_its_day(name):
     return draw
 
 
-def activated_rupture(generator, material):
-    """Bonds twice as strong at the higher frequency as at the lower one, which are two or three decades apart."""
-    lowest = float(generator.choice([0.01, 0.1]))
-    hidden = Hidden("activated-rupture", rates=((lowest, 8.0), (10.0, 4.0)))
-    session = draw_session(generator, material, hidden, tables=rates_day(4e-4, SWEEP_ROWS, (lowest, 10.0)))
-    return replace(session, known_structures=known_that_break(generator))
+def rupture(name, strengths):
+    """Bonds so many times as strong at the higher frequency as at the lower one, which are two or three decades apart."""
+    def draw(generator, material):
+        lowest = float(generator.choice([0.01, 0.1]))
+        hidden = Hidden(name, rates=((lowest, RUPTURE_LOAD), (10.0, RUPTURE_LOAD / float(generator.choice(strengths)))))
+        session = draw_session(generator, material, hidden, tables=rates_day(4e-4, SWEEP_ROWS, (lowest, 10.0)))
+        return replace(session, known_structures=known_that_break(generator))
+    return draw
+
+
+def between_gaps(name):
+    """The same effects between plates near to and far from each other, where a sample that settles loses most far from each other."""
+    def draw(generator, material):
+        session = replace(draw_session(generator, material, tables=gaps_day()), two_fractions=True)
+        wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
+        strengths = effects(generator, session)[name]
+        if name == "temperature-drift":  # one that falls
+            rising = strengths
+            strengths = lambda place: replace(rising(place), cooling=(abs(rising(place).cooling[0]), rising(place).cooling[1]))
+        return scaled(session, material, wanted, strengths)
+    return draw
 
 
 def missing_contacts(generator, material):
     """Of a series of coordinations, at two strengths."""
     stiffness = float(numpy.exp(generator.uniform(numpy.log(20), numpy.log(200))))
     return Series(Hidden("missing-contacts", contact=("missing-contacts", float(generator.choice([0.04, 0.08])))), stiffness)
+
+
+def backflow(day):
+    """Of a gel so soft that its solvent takes minutes to leave."""
+    def draw(generator, material):
+        stiffness = float(numpy.exp(generator.uniform(numpy.log(0.01), numpy.log(0.1))))
+        session = replace(draw_session(generator, material, tables=day()), stiffness=stiffness)
+        wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
+        return scaled(session, material, wanted, effects(generator, session)["poroelastic-backflow"])
+    return draw
 
 
 def bond_strength_under_cone(generator, material):
@@ -273,8 +302,11 @@ ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlat
         "bond-strength-cone": bond_strength_under_cone, "wrong-rows": with_faults(Noise(wrong_rows=2)), "slid-sample": with_faults(Noise(slid="B")),
         "null-one-sample": null_one_sample, "drag": drag, "contacts-removed": misstated("contacts-removed"),
         "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump,
-        "activated-rupture": activated_rupture, "missing-contacts": missing_contacts}
+        "activated-rupture": rupture("activated-rupture", (1.5, 2.0)), "bond-strength-rates": rupture("bond-strength", (1.0,)),
+        "missing-contacts": missing_contacts, "sedimentation": between_gaps("sedimentation"),
+        "poroelastic-backflow": backflow(gaps_day), "poroelastic-backflow-radii": backflow(radii_day)}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})
 ROWS.update({name: of_its_day(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "sudden-loss",
                                                      "radius-error", "edge-fracture", "reversible-softening", "thixotropy", "contact-dashpot",
                                                      "contact-relaxation")})
+ROWS.update({f"{name}-gaps": between_gaps(name) for name in SETTLING_LOOK_ALIKES})

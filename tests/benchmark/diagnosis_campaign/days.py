@@ -101,6 +101,23 @@ def rates_day(largest_strain, rows, frequencies):
                         for number, frequency in enumerate(frequencies) for name in "AB"]))
 
 
+def slow_day(gaps=(GAP, GAP), plates=(PLATE, PLATE)):
+    """Times from seconds to hours, on two samples each between these plates."""
+    tables = []
+    for name, gap, plate in zip("ABCD", (gaps[0], *gaps, gaps[1]), (plates[0], *plates, plates[1])):
+        tables += [sweep("time-sweep", name, 0, numpy.full(8, SMALL_STRAIN), 1.0, 5, gap, plate),
+                   sweep("time-sweep", name, 1, numpy.full(10, SMALL_STRAIN), 1.0, 720, gap, plate)]
+    return list(placed(tables))
+
+
+def gaps_day():
+    return slow_day(gaps=(GAP, 3 * GAP))
+
+
+def radii_day():
+    return slow_day(plates=(PLATE, 2 * PLATE))
+
+
 def plates_day():
     """Samples under a small, a middle and a wide plate."""
     return list(placed([sweep("time-sweep", f"{name}{count}", 0, numpy.full(10, SMALL_STRAIN), 1.0, 60, plate=plate)

@@ -10,15 +10,20 @@ from pathlib import Path
 import numpy
 
 import network
+import poroelastic
 
 PARTICLES = 400
 STRUCTURES = 8
 THINNED = (0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14, 0.17, 0.2, 0.25, 0.3, 0.4)  # shares of missing contacts
+FRACTIONS = (0.3, 0.35, 0.4, 0.45, 0.5)  # of the layers of a sample that has settled
+FRACTIONS_KNOWN = (0.36, 0.44)           # of the diagnosis, KNOWN_EACH structures at each
+KNOWN_EACH = 4
 BREAKING = 32  # of a sample with bonds that break: what a few structures differ from very many is more than errors of 2 %
 KNOWN = 16     # that the diagnosis may know
 DRAGGED = 64   # of which each sample in a solvent that drags is made anew: floppy modes differ up to a hundredfold between structures
 LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
 SWEEP_ROWS = 14
+RUPTURE_ROWS, RUPTURE_LOAD = 28, 8.0  # of the sweeps of bonds whose strength depends on the rate
 STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
 CONTACT = STIFFNESS / 2
 RADIUS = 0.25e-6
@@ -45,9 +50,9 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, jobs, breaking, series, contacts, dragged):
-        """Everything that is not drawn: moduli of structures, with breaking, series, other contacts and a dragging solvent if asked for; and those
-        structures that the diagnosis may know."""
+    def prepare(self, jobs, breaking, series, contacts, dragged, rupture, settling):
+        """Everything that is not drawn: moduli of structures, with breaking, series, other contacts, a dragging solvent, bonds that heat helps to
+        break and layers of several volume fractions if asked for; and those structures that the diagnosis may know."""
         coordinations = COORDINATIONS if series else ()
         kinds = [("", 0.0)] + [(cause, value) for cause, values in CONTACTS.items() for value in values if contacts]
         tasks = [("modulus", number, *contact) for number in range(STRUCTURES) for contact in kinds]
@@ -57,7 +62,9 @@ class Material:
             tasks += [("modulus", number) for number in range(STRUCTURES, BREAKING)]
             tasks += [("breaking", number, load) for number in range(BREAKING) for load in LOADS]
         tasks += [("elastic", number) for number in range(DRAGGED) if dragged]
-        for number in range(DRAGGED if dragged else BREAKING if breaking else STRUCTURES):
+        tasks += [("rupture", number) for number in range(BREAKING) if rupture]
+        tasks += [("modulus", number, "volume-fraction", fraction) for fraction in FRACTIONS for number in range(STRUCTURES) if settling]
+        for number in range(DRAGGED if dragged else BREAKING if breaking or rupture else STRUCTURES):
             self.structure(number)
         for coordination in coordinations:
             for number in range(SERIES_STRUCTURES):
@@ -71,12 +78,16 @@ class Material:
         for coordination in coordinations:
             for number in range(SERIES_KNOWN):
                 self.known_structure(number, coordination)
+        for fraction in FRACTIONS_KNOWN if settling else ():
+            for number in range(KNOWN_EACH):
+                self.known_structure(number, fraction=fraction)
 
-    def known_structure(self, number, coordination=None):
+    def known_structure(self, number, coordination=None, fraction=0.4):
         """One that the diagnosis may know."""
-        path = self.bank / (f"known_{number}.h5" if coordination is None else f"known_{coordination}_{number}.h5")
+        words = [] if fraction == 0.4 else [fraction]
+        path = self.bank / f"known_{'_'.join(map(str, [*words, *([] if coordination is None else [coordination]), number]))}.h5"
         if not path.exists():
-            self.structure(number, seed=1, coordination=coordination).rename(path)
+            self.structure(number, seed=1, coordination=coordination, fraction=fraction).rename(path)
         return path
 
     def run(self, *words):
@@ -210,6 +221,36 @@ class Material:
         whole = numpy.average([self.breaking(number, load) for number in range(BREAKING)], axis=0, weights=weights)
         return numpy.mean([at_radius(whole, ring) for ring in RINGS], axis=0) if rim else whole
 
+    def rupture(self, number):
+        """As `breaking`, in one orientation of each structure, which costs a third, and in finer steps, from which other loads are read."""
+        def compute():
+            strength = 1e-4 * CONTACT * RADIUS
+            model = self.folder / "strength.toml"
+            model.write_text(f"normal_strength = {strength}\nshear_strength = {strength}\n")
+            slow = [*SLOW_OSCILLATION[:-1], SLOW_OSCILLATION[-1].split(",")[number % 3]]
+            slowly = lambda *words: self.explicit(self.structure(number), *words, oscillation=slow)["oscillations"]
+            broken = slowly("--oscillations", RUPTURE_ROWS, "--amplitude", RUPTURE_LOAD * 1e-4, "--model", model)
+            whole = slowly("--oscillations", 3, "--amplitude", "1e-6", "--constant-amplitude")
+            return [[each["fundamental_storage_modulus"][0], each["fundamental_loss_modulus"][0]] for each in (broken, whole)]
+        (storage, loss), (whole, damping) = self.remembered(f"rupture {number}", compute)
+        return numpy.array(storage) + 1j * (numpy.array(loss) - damping[-1]), whole[-1]
+
+    def mean_rupture(self, load):
+        """G* over G' of all such structures together where strains grow in even steps to `load` times the critical one."""
+        sweeps, whole = zip(*(self.rupture(number) for number in range(BREAKING)))
+        strains = numpy.arange(1, SWEEP_ROWS + 1) * load / RUPTURE_LOAD / SWEEP_ROWS
+        return shown_at(numpy.sum(sweeps, axis=0) / numpy.sum(whole), strains)
+
+    def consolidation(self, radius):
+        """What the torque of plates shows of the solvent that leaves, their radius over the gap given: times and shares."""
+        return self.remembered(f"consolidation {radius:.6g}", lambda: [each.tolist() for each in poroelastic.Layer(radius).course()])
+
+    def layers(self, fractions):
+        """G' of layers of these volume fractions over that of the fraction 0.4: a parabola through the logarithms of the moduli of structures."""
+        means = [numpy.mean([self.modulus(number, "volume-fraction", fraction) for number in range(STRUCTURES)]) for fraction in FRACTIONS]
+        parabola = numpy.polynomial.Polynomial.fit(FRACTIONS, numpy.log(means), 2)
+        return numpy.exp(parabola(fractions) - parabola(0.4))
+
     def sketch(self):
         """The same with losses by their closed form, to choose how strong an effect is to be."""
         return Sketch(self)
@@ -242,12 +283,17 @@ class Material:
 
 
 def at_radius(sweep, radius):
-    """What a sweep in even steps shows where all its strains are this part as large: G' between its rows; the energy that is lost in a row is that of
-    the bonds that break between the strain before and its own."""
-    strains = numpy.arange(len(sweep) + 1) / len(sweep)
-    energy = numpy.concatenate([[0], numpy.cumsum(sweep.imag * strains[1:]**2)])
-    storage = numpy.interp(radius * strains[1:], strains, numpy.concatenate([[1], sweep.real]))
-    return storage + 1j * numpy.diff(numpy.interp(radius * strains, strains, energy)) / (radius * strains[1:])**2
+    """What a sweep in even steps shows where all its strains are this part as large."""
+    return shown_at(sweep, radius * numpy.arange(1, len(sweep) + 1) / len(sweep))
+
+
+def shown_at(sweep, strains):
+    """What a sweep in even steps, to a strain of 1, shows in one to these strains: G' between its rows; the energy that is lost in a row is that of the
+    bonds that break between the strain before and its own."""
+    rows = numpy.arange(len(sweep) + 1) / len(sweep)
+    energy = numpy.concatenate([[0], numpy.cumsum(sweep.imag * rows[1:]**2)])
+    storage = numpy.interp(strains, rows, numpy.concatenate([[1], sweep.real]))
+    return storage + 1j * numpy.diff(numpy.interp(numpy.concatenate([[0], strains]), rows, energy)) / strains**2
 
 
 def computed(task):
@@ -261,7 +307,8 @@ def computed(task):
 class Sketch:
     def __init__(self, material):
         self.modulus, self.mean_modulus, self.mean_breaking = material.modulus, material.mean_modulus, material.mean_breaking
-        self.left_by_bonds = material.left_by_bonds
+        self.left_by_bonds, self.mean_rupture, self.layers = material.left_by_bonds, material.mean_rupture, material.layers
+        self.consolidation = material.consolidation
 
     def losses(self, number, ratio, exponent, frequencies):
         return 1 + ratio * (1j * numpy.asarray(frequencies))**exponent

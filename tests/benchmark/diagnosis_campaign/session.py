@@ -5,7 +5,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy
 
+import settling as weight
 from days import CONE, GAP, PLATE, SMALL_STRAIN, sweep
+from material import FRACTIONS_KNOWN, KNOWN_EACH
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,8 @@ class Hidden:
     dashpot: float = 0.0    # viscosity of a contact over its stiffness [s]
     relaxing: tuple = ()    # part of a contact that relaxes over the rest, time [s]
     thixotropy: tuple = ()  # breaking per unit of strain, time in which bonds form again [s]
+    settled: tuple = ()     # difference of the volume fraction between plates at the usual gap in the end, time there [s]
+    backflow: tuple = ()    # growth, mobility of the solvent [m2/(Pa s)] (poroelastic.py)
     rates: tuple = ()       # frequency [Hz] and largest load of a sweep, for each frequency
     overfill: float = 0.0   # by which the sample is wider than its plate [m]
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
@@ -65,11 +69,14 @@ class Session:
     storage_only: bool = False
     mean_of: tuple = ()          # structures as large as which together the sample is, in a solvent that drags
     told_noise: bool = False     # the file states the errors that there are
+    two_fractions: bool = False  # the structures of the diagnosis have another volume fraction each
 
     def write(self, material, folder, generator):
         """The experiment file and its tables."""
         folder.mkdir(parents=True, exist_ok=True)
         structures = [material.known_structure(number) for number in self.known_structures]
+        if self.two_fractions:
+            structures = [material.known_structure(number, fraction=each) for each in FRACTIONS_KNOWN for number in range(KNOWN_EACH)]
         offsets = {}
         lines = ["[sample]", 'particle_radius = "0.25 um"', "volume_fraction = 0.4", "", "[instrument]", 'geometry = "plate-plate"',
                  f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
@@ -190,7 +197,7 @@ def true_modulus(material, session, table):
         modulus *= material.left_by_bonds(session.structure, share_of_bonds(session, table))
     for frequency, load in hidden.rates:
         if table.kind == "amplitude-sweep" and table.frequency[0] == frequency:
-            modulus *= material.mean_breaking(load)
+            modulus *= material.mean_rupture(load)
     if hidden.viscosity:
         modulus *= material.mean_drag(hidden.viscosity / session.stiffness, table.frequency, session.mean_of)
     if hidden.loads and table.kind == "amplitude-sweep":
@@ -219,6 +226,15 @@ def true_modulus(material, session, table):
         rate, exponent = hidden.drying
         lost = rate * clock * 2 * PLATE / table.plate  # of all the solvent: rim over volume is 2 / R
         modulus /= (1 - lost)**exponent
+    if hidden.backflow:
+        growth, mobility = hidden.backflow
+        times, shrunk = material.consolidation(table.plate / table.gap[0])
+        modulus *= 1 + growth * numpy.interp(clock * abs(modulus) * mobility / table.gap[0]**2, times, shrunk)
+    if hidden.settled:
+        difference, time = hidden.settled
+        wider = table.gap[0] / GAP
+        profiles = weight.gradients(clock, time * wider**2)
+        modulus *= weight.shown(material.layers, profiles, difference * wider)
     if hidden.warmth:
         size, period = hidden.warmth
         modulus *= 1 + size * numpy.sin(2 * numpy.pi * clock / period)

@@ -14,7 +14,9 @@ TIES = {"tie": "tie of slip and gap", "tie-level": "tie of the level", "tie-stif
 MIXED = ("single", "contact-loss", "ageing", "tool-compliance", "tool-inertia")
 BREAKING = ("bond-strength", "bond-strength-cone")
 ON_THEIR_DAYS = ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "radius-error", "edge-fracture", "sudden-loss",
-                "reversible-softening", "activated-rupture", "missing-contacts", "contact-dashpot", "contact-relaxation", "thixotropy")
+                "reversible-softening", "activated-rupture", "missing-contacts", "contact-dashpot", "contact-relaxation", "thixotropy",
+                "bond-strength-rates", "sedimentation", "temperature-drift-gaps", "evaporation-gaps", "ageing-gaps", "ageing-saturating-gaps",
+                "poroelastic-backflow", "poroelastic-backflow-radii")
 CRITICAL_STRAIN = 1e-4  # of all bonds that break
 
 

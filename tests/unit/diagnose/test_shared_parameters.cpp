@@ -11,7 +11,7 @@
 namespace coagula::diagnose {
 namespace {
 
-constexpr double level = 4e5;  // G' [Pa]
+constexpr double hidden_level = 4e5;  // G' [Pa]
 constexpr double error = 0.01;
 constexpr double inertia = 2e-4;  // kg.m2
 
@@ -25,12 +25,12 @@ Measurement sweep_under(double radius, double gap, std::uint64_t seed) {
     for (std::uint64_t row = 0; row < 12; ++row) {
         const double frequency = std::pow(10, 0.2 * static_cast<double>(row));
         const double torque_per_modulus = std::numbers::pi * std::pow(radius, 4) / (2 * gap);
-        const double shown = level - inertia * frequency * frequency / torque_per_modulus;
-        const std::vector<double> cells{frequency, radius, gap, shown + error * level * drawn_normal(seed, row)};
+        const double shown = hidden_level - inertia * frequency * frequency / torque_per_modulus;
+        const std::vector<double> cells{frequency, radius, gap, shown + error * hidden_level * drawn_normal(seed, row)};
         for (std::size_t column = 0; column < cells.size(); ++column) {
             table.columns[column].values.push_back(cells[column]);
         }
-        table.columns.back().standard_errors.push_back(error * level);
+        table.columns.back().standard_errors.push_back(error * hidden_level);
     }
     return table;
 }
@@ -46,7 +46,7 @@ Measurement aged_run(int order, double begin, double per_decade, std::uint64_t s
     table.columns = {{"time", "s", {}}, {"strain", "1", {}}, {"storage_modulus", "Pa", {}, {}}};
     for (std::uint64_t row = 0; row < 10; ++row) {
         const double time = 60.0 * static_cast<double>(row + 1);
-        const double truth = level * (1 + per_decade * std::log10(1 + begin + time));
+        const double truth = hidden_level * (1 + per_decade * std::log10(1 + begin + time));
         table.columns[0].values.push_back(time);
         table.columns[1].values.push_back(1e-5);
         table.columns[2].values.push_back(truth * (1 + error * drawn_normal(seed, row)));

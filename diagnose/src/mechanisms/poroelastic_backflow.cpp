@@ -1,0 +1,40 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// Solvent leaves what the plates squeeze in the time gap^2 / (12 G mobility), whatever their radius.
+std::complex<double> drained(std::complex<double> modulus, const Observation& row, Values values) {
+    if (!std::isfinite(row.time) || !std::isfinite(row.gap) || is_fluid(row)) {
+        return modulus;
+    }
+    const double per_time = 12 * std::abs(modulus) * values[1] / (row.gap * row.gap);
+    return modulus * (1 - values[0] * std::expm1(-row.time * per_time));
+}
+
+bool drains(const Experiment& experiment) {
+    const bool plates = experiment.instrument.geometry.value_or(Geometry::plate_plate) == Geometry::plate_plate;
+    return plates && knows_gap(experiment) && takes_time(experiment) && experiment.material.kind != MaterialKind::newtonian;
+}
+
+}  // namespace
+
+/// Consolidation (Biot, Journal of Applied Physics 12 (1941) 155) of a layer that sticks to both plates and is thin against their
+/// radius, where the network has to shear as it gives way sideways (of one side that sticks: Ateshian and others, Journal of
+/// Biomechanics 27 (1994) 1347). Strains of 0.5 to 10 % are left by filling, and G' grows as the volume fraction to a power of 2 to
+/// 6. By Kozeny and Carman the permeability is 3e-18 m2 for spheres of 20 nm and 2e-15 m2 for 0.5 um at a volume fraction of 0.4.
+Mechanism poroelastic_backflow() {
+    return {.name = "poroelastic-backflow",
+            .term =
+                "the filling squeezes the network and its solvent alike; the solvent leaves through the pores, and the network "
+                "becomes denser",
+            .signature =
+                "all moduli grow with the time since the filling and come to rest, by the same part at every gap and sooner at "
+                "a narrow one: in a time that goes as the square of the gap over the modulus, whatever the plate's radius",
+            .parameters = {{"growth", "1", 0.02, 0.5, true}, {"permeability_over_viscosity", "m2/(Pa s)", 1e-16, 1e-10, true}},
+            .effect = ChangesGeometry{drained},
+            .applies = drains};
+}
+
+}  // namespace coagula::diagnose::mechanisms
