@@ -11,12 +11,24 @@ std::complex<double> lost(std::complex<double> modulus, const Observation& row, 
 }
 
 /// In fewer rows a step is a few outliers.
-bool has_many_rows(const Experiment& experiment) {
+bool has_many_rows(const Measurement& table) {
     constexpr std::size_t enough = 8;
-    return any_measurement(experiment, [](const Measurement& table) {
-        return table.rows() >= enough &&
-               (find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr);
-    });
+    return table.rows() >= enough &&
+           (find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr);
+}
+
+/// The strain grows from row to row.
+bool only_strains_more(const Measurement& table) {
+    const Column* strain = find_column(table, "strain");
+    return strain != nullptr && varies(table, "strain") && std::is_sorted(strain->values.begin(), strain->values.end());
+}
+
+/// What gives way while the strain grows may have yielded: networks have a law for that, a material without a model has none.
+bool is_told_from_yielding(const Experiment& experiment) {
+    if (experiment.material.kind != MaterialKind::smooth) {
+        return any_measurement(experiment, has_many_rows);
+    }
+    return any_measurement(experiment, [](const Measurement& table) { return has_many_rows(table) && !only_strains_more(table); });
 }
 
 }  // namespace
@@ -30,7 +42,7 @@ Mechanism sudden_loss() {
                 "come later, and no other sample",
             .parameters = {{"place_of_loss", "1", 0, 1, false}, {"remaining_share", "1", 0.05, 0.99, false}},
             .effect = ChangesGeometry{lost},
-            .applies = has_many_rows};
+            .applies = is_told_from_yielding};
 }
 
 }  // namespace coagula::diagnose::mechanisms

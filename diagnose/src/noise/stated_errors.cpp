@@ -27,10 +27,10 @@ double size_of(const Measurement& table, const Column& column, std::size_t row) 
     return std::isnan(size) ? column.values[row] : size;
 }
 
-/// The size of a row; of the first row of a frequency sweep not less than half of what the next two lead to, or the nearest. A sweep
-/// that begins too early shows too small a modulus, and an error in proportion to that would give the worst row the largest weight.
-/// (Elsewhere what is small by itself shows beside its neighbours; small at the end of a sweep, or before a recovery, may be the
-/// material.)
+/// The size of a row; of the first row of a frequency sweep not less than half of what the next two lead to, or the nearest. A
+/// sweep that begins too early shows too small a modulus, and an error in proportion to that would give the worst row the largest
+/// weight. (Elsewhere what is small by itself shows beside its neighbours; small at the end of a sweep, or before a recovery, may
+/// be the material.)
 double plausible_size(const Measurement& table, const Column& column, std::size_t row) {
     constexpr double far_below = 0.5;
     const double own = std::abs(size_of(table, column, row));

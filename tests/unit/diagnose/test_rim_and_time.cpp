@@ -186,6 +186,28 @@ TEST(SuddenLoss, StaysWithItsSampleAndLeavesTheOthers) {
     }
 }
 
+/// Of a material without a model nobody knows whether it yielded; another table on it tells, and networks have a law for it.
+TEST(SuddenLoss, OfASmoothMaterialNeedsMoreThanAGrowingStrain) {
+    Measurement sweep;
+    sweep.kind = MeasurementKind::amplitude_sweep;
+    sweep.sample = "gel";
+    sweep.columns = {{"strain", "1", {1e-3, 2e-3, 4e-3, 8e-3, 0.016, 0.03, 0.06, 0.12}},
+                     {"storage_modulus", "Pa", {100, 100, 100, 100, 100, 10, 10, 10}}};
+    Experiment gel;
+    gel.measurements = {sweep};
+    EXPECT_TRUE(can_act(cause("sudden-loss"), gel));
+    gel.material.kind = MaterialKind::smooth;
+    EXPECT_FALSE(can_act(cause("sudden-loss"), gel));
+    Measurement after = sweep;
+    after.kind = MeasurementKind::frequency_sweep;
+    after.columns[0] = {"angular_frequency", "rad/s", {1, 2, 3, 4, 5, 6, 7, 8}};
+    gel.measurements.push_back(after);
+    EXPECT_TRUE(can_act(cause("sudden-loss"), gel));
+    gel.measurements = {sweep};
+    gel.measurements[0].columns[0].values = {1e-3, 2e-3, 4e-3, 8e-3, 4e-3, 2e-3, 1e-3, 5e-4};  // down again
+    EXPECT_TRUE(can_act(cause("sudden-loss"), gel));
+}
+
 /// Filled cold, an oil shows less and less viscosity, which moduli and flow curves tell alike.
 TEST(TemperatureDrift, ActsOnAnOilAndOnNoMaterialThatNobodyHasAModelOf) {
     Experiment oil;
