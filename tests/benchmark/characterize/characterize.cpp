@@ -218,6 +218,7 @@ void measure(const Packing& packing) {
     time_voronoi_volumes(packing);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): a union of the C library
     std::printf("peak memory %.2f GiB\n", static_cast<double>(usage.ru_maxrss) / 1048576);
 }
 
