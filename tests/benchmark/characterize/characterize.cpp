@@ -96,7 +96,8 @@ Packing tiled_packing(const std::string& path, double edge, int tiles) {
     const Cell cell = Cell::periodic(Eigen::Vector3d::Constant(tiles * edge));
     while (file >> centre[0] >> comma >> centre[1] >> comma >> centre[2]) {
         for (int tile = 0; tile < tiles * tiles * tiles; ++tile) {
-            const Eigen::Vector3d corner(tile % tiles, tile / tiles % tiles, tile / tiles / tiles);
+            const Eigen::Vector3i place(tile % tiles, tile / tiles % tiles, tile / tiles / tiles);
+            const Eigen::Vector3d corner = place.cast<double>();
             const Eigen::Vector3d shake = 0.01 * radius * random_normal(1, RandomPurpose::perturbation, 0, count++);
             centres.push_back(cell.wrap(centre + edge * corner + shake));
         }
@@ -217,6 +218,7 @@ void measure(const Packing& packing) {
     time_voronoi_volumes(packing);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): a union of the C library
     std::printf("peak memory %.2f GiB\n", static_cast<double>(usage.ru_maxrss) / 1048576);
 }
 

@@ -10,7 +10,7 @@ int main() {
     packing.radii = Eigen::VectorXd::Ones(64);
     packing.positions.resize(3, 64);
     for (int i = 0; i < 64; ++i) {
-        packing.positions.col(i) << 2.0 * (i % 4), 2.0 * (i / 4 % 4), 2.0 * (i / 16);
+        packing.positions.col(i) = 2.0 * Eigen::Vector3i(i % 4, i / 4 % 4, i / 16).cast<double>();
     }
     std::cout << coagula::characterize::measure_coordination(packing).mean << ' '
               << coagula::characterize::measure_pores(packing).void_fraction << '\n';

@@ -19,7 +19,7 @@ Packing hexagonal(int cells) {
     const std::vector<Eigen::Vector3d> basis = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 1.0 / 6, 0.5}, {0, 2.0 / 3, 0.5}};
     Packing packing;
     packing.cell = Cell::periodic(Eigen::Vector3d(2 * a, b, c) * cells);
-    packing.positions.resize(3, 8 * cells * cells * cells);
+    packing.positions.resize(3, Index{8} * cells * cells * cells);
     Index next = 0;
     for (int x = 0; x < 2 * cells; ++x) {
         for (int y = 0; y < cells; ++y) {

@@ -85,6 +85,22 @@ TEST(FreeSpheres, NoWayIsZero) {
     EXPECT_TRUE(std::isnan(found.included_along_free));
 }
 
+/// A step on a periodic grid to a neighbour, and the box in which that lies.
+struct GridStep {
+    Eigen::Vector3i to;
+    Eigen::Vector3i image;
+};
+
+/// @param k of the six neighbours.
+GridStep step_from(const Eigen::Vector3i& home, int k, int points) {
+    GridStep step{home, Eigen::Vector3i::Zero()};
+    int& along = step.to[k / 2];
+    along += k % 2 == 0 ? 1 : -1;
+    step.image[k / 2] = along < 0 ? -1 : (along == points ? 1 : 0);
+    step.to -= points * step.image;
+    return step;
+}
+
 /// Least clearance on the widest way around the box along each axis, from points on a grid: within sqrt(3) / 2 of the spacing.
 Eigen::Vector3d free_radii_on_grid(const Packing& packing, int points) {
     const auto total = static_cast<std::size_t>(points) * points * points;
@@ -105,12 +121,9 @@ Eigen::Vector3d free_radii_on_grid(const Packing& packing, int points) {
         const auto p = static_cast<int>(place);
         const Eigen::Vector3i home(p % points, p / points % points, p / points / points);
         for (int k = 0; k < 6; ++k) {
-            Eigen::Vector3i next = home;
-            next[k / 2] += k % 2 == 0 ? 1 : -1;
-            Eigen::Vector3i image = Eigen::Vector3i::Zero();
-            image[k / 2] = next[k / 2] < 0 ? -1 : (next[k / 2] == points ? 1 : 0);
-            next -= points * image;
-            const auto other = static_cast<std::size_t>((next[2] * points + next[1]) * points + next[0]);
+            const auto [next, image] = step_from(home, k, points);
+            const int number = (next[2] * points + next[1]) * points + next[0];
+            const auto other = static_cast<std::size_t>(number);
             if (clearance[other] >= value) {
                 const Eigen::Vector3i winding = sets.join(place, other, image);
                 for (int axis = 0; axis < 3; ++axis) {
@@ -186,7 +199,8 @@ Eigen::Matrix3Xd with_images(const Packing& packing) {
     points.leftCols(particles) = packing.positions;
     Index column = particles;
     for (int k = 0; k < 27; ++k) {
-        const Eigen::Vector3d shift(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+        const Eigen::Vector3i periods(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+        const Eigen::Vector3d shift = periods.cast<double>();
         for (Index i = 0; i < particles && k != 13; ++i) {
             points.col(column++) = packing.positions.col(i) + shift.cwiseProduct(packing.cell.lengths());
         }
@@ -209,7 +223,7 @@ TEST(DelaunayPores, AgreeWithAllTriplesAndQuadruples) {
         std::vector<Eigen::Vector3d> near;
         for (Index j = 0; j < points.cols(); ++j) {
             if (j != i && (points.col(j) - points.col(i)).norm() < reach) {
-                near.push_back(points.col(j) - points.col(i));
+                near.emplace_back(points.col(j) - points.col(i));
             }
         }
         const Eigen::Vector3d home = points.col(i);

@@ -93,7 +93,7 @@ TEST(Rigidity, OfALoneParticleAndOfNoContacts) {
 TEST(Rigidity, OfCrystals) {
     // Central forces on a simple cubic lattice of L^3 points: each of its 3 L^2 lines slides, and carries one self-stress.
     for (const int length : {2, 3, 4}) {
-        const Index lines = 3 * length * length;
+        const Index lines = Index{3} * length * length;
         EXPECT_EQ(counts(simple_cubic({length, length, length}, 1), Bonds::central),
                   (Counts{lines * (length - 1), 3, lines - 3, lines}));
     }

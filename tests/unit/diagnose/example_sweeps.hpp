@@ -3,6 +3,7 @@
 
 #include <coagula/diagnose/measurement.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace coagula::diagnose {
 
 inline Column& column(Measurement& table, const std::string& name) {
-    return const_cast<Column&>(*find_column(table, name));
+    return *std::ranges::find(table.columns, name, &Column::name);
 }
 
 /// An amplitude sweep of `rows` rows with every column that repeats another: G' falls, G'' passes a hump.

@@ -20,7 +20,7 @@ Packing crystal(int cells) {
     const double edge = 2e-6 * std::numbers::sqrt2;
     Packing packing;
     packing.cell = Cell::periodic(Eigen::Vector3d::Constant(cells * edge));
-    packing.positions.resize(3, 4 * cells * cells * cells);
+    packing.positions.resize(3, Index{4} * cells * cells * cells);
     packing.radii = Eigen::VectorXd::Constant(packing.positions.cols(), 1e-6);
     Index particle = 0;
     for (int x = 0; x < cells; ++x) {

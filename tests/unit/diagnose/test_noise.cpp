@@ -53,9 +53,9 @@ TEST(Noise, IntervalsCoverWhatTheValuesWereDrawnWith) {
     Eigen::Array3d mean = Eigen::Array3d::Zero();
     for (int set = 0; set < sets; ++set) {
         const NoiseModel noise = fit_noise(simulate(truth, 25, 6, static_cast<std::uint64_t>(set) + 1));
-        covered[0] += covers(noise.floor, truth.floor);
-        covered[1] += covers(noise.relative, truth.relative);
-        covered[2] += covers(noise.sample, truth.sample);
+        covered[0] += covers(noise.floor, truth.floor) ? 1 : 0;
+        covered[1] += covers(noise.relative, truth.relative) ? 1 : 0;
+        covered[2] += covers(noise.sample, truth.sample) ? 1 : 0;
         mean += Eigen::Array3d(noise.floor.value, noise.relative.value, noise.sample.value) / sets;
     }
     for (const int count : covered) {

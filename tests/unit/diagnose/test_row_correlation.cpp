@@ -75,7 +75,8 @@ double direct_mean(const DataSet& data, const Eigen::VectorXd& departures, Index
             determinants += factor.matrixLLT().diagonal().array().log().sum();
             squares += factor.matrixL().solve(contrasts * departures.segment(first, rows)).squaredNorm();
         }
-        const auto degrees = static_cast<double>(data.size() - 4 * (data.size() / rows));
+        const Index polynomials = data.size() / rows;
+        const auto degrees = static_cast<double>(data.size() - 4 * polynomials);
         logarithms[node] =
             share * (-determinants - 0.5 * degrees * std::log(squares)) - 0.5 * std::pow((correlation - known) / known_error, 2);
     }

@@ -38,7 +38,7 @@ TEST(VoidExpansion, IsEqualBitForBitForAnyNumberOfThreads) {
         omp_set_num_threads(threads);
         VoidExpansionOptions options = small(2100, 1600, 0.5);
         options.target_coordination = 3.8;
-        const VoidExpansion result = expand_voids(options);
+        VoidExpansion result = expand_voids(options);
         omp_set_num_threads(usual);
         return result;
     };

@@ -36,7 +36,7 @@ protected:
         const hid_t id = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
         change(id);
         H5Fclose(id);
-        const std::string said = sentence<InputError>([&] { read_structure(path_); });
+        std::string said = sentence<InputError>([&] { read_structure(path_); });
         EXPECT_EQ(sentence<InputError>([&] { read_results(path_, "/mechanics"); }), said);
         EXPECT_EQ(sentence<InputError>([&] { read_provenance(path_); }), said);
         EXPECT_EQ(sentence<InputError>([&] { add_to_copy(); }), said);

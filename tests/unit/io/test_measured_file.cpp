@@ -283,7 +283,7 @@ TEST_F(MeasuredFiles, RefusesWhatHoldsNoTable) {
 /// A real export: 60 points of pre-shear, then 51 amplitudes with a waveform of 512 samples and the first again.
 class CementPaste : public ::testing::TestWithParam<const char*> {
 protected:
-    std::string path() const { return testing::dataset(std::string("cement_laos/") + GetParam()); }
+    static std::string path() { return testing::dataset(std::string("cement_laos/") + GetParam()); }
 };
 
 /// First harmonic of a closed waveform.

@@ -21,6 +21,7 @@ nlohmann::json columns_json(const Eigen::MatrixXd& values) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): the test sees how it ends
 int main(int /*count*/, char** arguments) {
     const Packing packing = io::example_packing(300, true);
     const ContactNetwork bonds = find_contacts(packing, 0.2);

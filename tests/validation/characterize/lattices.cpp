@@ -26,7 +26,7 @@ struct WignerSeitz {
             for (int signs = 0; signs < 8; ++signs) {
                 Eigen::Vector3d normal = order;
                 for (int axis = 0; axis < 3; ++axis) {
-                    normal[axis] *= ((signs >> axis) & 1) ? -1 : 1;
+                    normal[axis] *= ((signs >> axis) & 1) != 0 ? -1 : 1;
                 }
                 const bool known = std::any_of(normals.begin(), normals.end(),
                                                [&](const auto& other) { return (other - normal.normalized()).norm() < 1e-12; });

@@ -10,6 +10,7 @@
 
 #include <cstdio>
 #include <numbers>
+#include <vector>
 
 namespace coagula::generators {
 namespace {
@@ -58,12 +59,12 @@ TEST(BrownianBonds, PairsHaveTheirVarianceWithEveryNumberOfStages) {
     // stiffness and with 4, 10 and 40 times as much; where the rate is such that a step keeps all of the gap and adds no noise but
     // for the damping (rate times step s^2 (1 - cos(pi/s))); and the longest that is stable.
     const double rate = 2 * 4e5;
-    const Case cases[] = {{4e5, 2e-5, 6},
-                          {4 * 4e5, 2e-5, 12},
-                          {10 * 4e5, 2e-5, 19},
-                          {40 * 4e5, 6.8e-6, 22},
-                          {4e5, 16 * (1 - std::numbers::sqrt2 / 2) / rate, 4},
-                          {40 * 4e5, 1.35e-5, 30}};
+    const std::vector<Case> cases = {{4e5, 2e-5, 6},
+                                     {4 * 4e5, 2e-5, 12},
+                                     {10 * 4e5, 2e-5, 19},
+                                     {40 * 4e5, 6.8e-6, 22},
+                                     {4e5, 16 * (1 - std::numbers::sqrt2 / 2) / rate, 4},
+                                     {40 * 4e5, 1.35e-5, 30}};
     for (const auto& [stiffness, time_step, stages] : cases) {
         const PairPotential potential = dlvo(0, {}, stiffness);
         const Packing start = examples::lattice_of_pairs(11, [](int) { return rest_gap; });
@@ -90,12 +91,14 @@ constexpr int beads = 10;
 Packing straight_chains(int side) {
     constexpr double length = 2.0 * beads + 6;
     constexpr double spacing = 6;
+    const Index particles = Index{beads} * side * side;
     Packing packing{Cell::periodic(radius * Eigen::Vector3d(length, spacing * side, spacing * side)),
-                    Eigen::Matrix3Xd(3, beads * side * side), Eigen::VectorXd::Constant(beads * side * side, radius)};
+                    Eigen::Matrix3Xd(3, particles), Eigen::VectorXd::Constant(particles, radius)};
     for (int bead = 0; bead < packing.size(); ++bead) {
         const int chain = bead / beads;
-        packing.positions.col(bead) = radius * Eigen::Vector3d(3 + (2 + rest_gap) * (bead % beads), spacing * (chain % side + 0.5),
-                                                               spacing * (chain / side + 0.5));
+        const int row = chain / side;
+        packing.positions.col(bead) =
+            radius * Eigen::Vector3d(3 + (2 + rest_gap) * (bead % beads), spacing * (chain % side + 0.5), spacing * (row + 0.5));
     }
     return packing;
 }

@@ -102,11 +102,12 @@ TEST(BrownianContacts, PairThatSlidesAndPairThatRolls) {
 /// Straight chains of three on a lattice.
 Packing chains(int side) {
     constexpr double spacing = 9;
-    Packing packing{Cell::periodic(Eigen::Vector3d::Constant(spacing * side * radius)), Eigen::Matrix3Xd(3, 3 * side * side * side),
-                    Eigen::VectorXd::Constant(3 * side * side * side, radius)};
+    const Index particles = Index{3} * side * side * side;
+    Packing packing{Cell::periodic(Eigen::Vector3d::Constant(spacing * side * radius)), Eigen::Matrix3Xd(3, particles),
+                    Eigen::VectorXd::Constant(particles, radius)};
     for (int chain = 0; chain < side * side * side; ++chain) {
-        const Eigen::Vector3d centre =
-            spacing * (Eigen::Array3d(chain % side, chain / side % side, chain / side / side) + 0.5).matrix();
+        const Eigen::Array3i place(chain % side, chain / side % side, chain / side / side);
+        const Eigen::Vector3d centre = spacing * (place.cast<double>() + 0.5).matrix();
         const Eigen::Vector3d axis = random_normal(7, RandomPurpose::test, 0, static_cast<std::uint64_t>(chain)).normalized();
         for (int bead = 0; bead < 3; ++bead) {
             packing.positions.col(3 * chain + bead) = radius * (centre + (bead - 1) * (2 + rest_gap) * axis);
@@ -236,11 +237,13 @@ TEST(BrownianContacts, SettledParticlesHaveTheirBarometricHeight) {
     constexpr int side = 24;
     constexpr double spacing = 5;
     constexpr double weight = 50;
-    Packing start{Cell::periodic(radius * Eigen::Vector3d(spacing * side, spacing * side, 12)), Eigen::Matrix3Xd(3, side * side),
-                  Eigen::VectorXd::Constant(side * side, radius)};
-    for (int particle = 0; particle < side * side; ++particle) {
+    constexpr Index particles = Index{side} * side;
+    Packing start{Cell::periodic(radius * Eigen::Vector3d(spacing * side, spacing * side, 12)), Eigen::Matrix3Xd(3, particles),
+                  Eigen::VectorXd::Constant(particles, radius)};
+    for (int particle = 0; particle < particles; ++particle) {
+        const int row = particle / side;
         start.positions.col(particle) =
-            radius * Eigen::Vector3d(spacing * (particle % side + 0.5), spacing * (particle / side + 0.5), 1 / weight);
+            radius * Eigen::Vector3d(spacing * (particle % side + 0.5), spacing * (row + 0.5), 1 / weight);
     }
     BrownianOptions options;
     options.sedimentation = settling(weight);
