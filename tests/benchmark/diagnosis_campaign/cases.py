@@ -200,7 +200,7 @@ def gradient(generator, material):
     session = replace(draw_session(generator, material, tables=gap_day()), two_fractions=True)
     wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
     return scaled(session, material, wanted,
-                  lambda place: Hidden("volume-fraction-gradient", settled=(logarithmic(1e-3, 0.05)(place), 0.05)))
+                  lambda place: Hidden("volume-fraction-gradient", settled=(logarithmic(1e-3, 0.05)(place), 0.0)))
 
 
 def bond_strength_under_cone(generator, material):

@@ -235,9 +235,8 @@ def true_modulus(material, session, table):
         modulus *= 1 + growth * numpy.interp(clock * abs(modulus) * mobility / table.gap[0]**2, times, shrunk)
     if hidden.settled:
         difference, time = hidden.settled
-        wider = table.gap[0] / GAP
-        profiles = weight.gradients(clock, time * wider**2)
-        modulus *= weight.shown(material.layers, profiles, difference * wider)
+        profiles = weight.gradients(clock, time * (table.gap[0] / GAP)**2)
+        modulus *= weight.shown(material.layers, profiles, difference * table.gap / GAP)
     if hidden.warmth:
         size, period = hidden.warmth
         modulus *= 1 + size * numpy.sin(2 * numpy.pi * clock / period)
