@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy
 
-from days import (GAP, PLATE, full_day, gap_day, gaps_day, level_day, long_day, one_sample, plates_day, radii_day, rates_day, rest_day, up_and_down, wide_strains,
-                  yield_day)
+from days import (GAP, PLATE, full_day, gap_day, gaps_day, level_day, long_day, one_sample, plates_day, radii_day, rates_day, rest_day, tool_day,
+                  up_and_down, wide_strains, yield_day)
 from material import CONTACTS, DRAGGED, KNOWN, LOADS, RUPTURE_LOAD, STRUCTURES, SWEEP_ROWS
 from series import Series
 from session import Hidden, Noise, Session
@@ -65,7 +65,8 @@ def effects(generator, session):
               "contact-loss": logarithmic(0.04, 5.0), "ageing": logarithmic(0.02, 0.3), "tool-compliance": logarithmic(5e-4, 1e-2),
               "tool-inertia": logarithmic(1e-8, 0.9e-4), "overfill": logarithmic(1e-5, 1e-3), "skin": logarithmic(1e-7, 1.0),
               "cooling": logarithmic(1e-3, 0.3), "softening": logarithmic(1.0, 1e-4),
-              "settled": logarithmic(1e-3, 0.05), "squeezed": logarithmic(1e-3, 0.5), "drying": logarithmic(1e-7, 2e-5), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
+              "braking": logarithmic(1e-9, 1e-4), "turned": logarithmic(1e-4, 0.02), "settled": logarithmic(1e-3, 0.05),
+              "squeezed": logarithmic(1e-3, 0.5), "drying": logarithmic(1e-7, 2e-5), "wall-slip": logarithmic(1e-12, 1e-9), "gap-error": logarithmic(1e-6, 60e-6)}
     return {
         "contact-loss": lambda place: Hidden("contact-loss", loss=(float(f"{within['contact-loss'](place):.3g}"), exponent)),
         "ageing": lambda place: Hidden("ageing", ageing=within["ageing"](place)),
@@ -80,6 +81,8 @@ def effects(generator, session):
         "evaporation": lambda place: Hidden("evaporation", drying=(within["drying"](place), power)),
         "sedimentation": lambda place: Hidden("sedimentation", settled=(within["settled"](place), 0.5 * begin)),
         "poroelastic-backflow": lambda place: Hidden("poroelastic-backflow", backflow=(within["squeezed"](place), MOBILITY * setting[0]**0.3)),
+        "bearing-damping": lambda place: Hidden("bearing-damping", braking=within["braking"](place)),
+        "phase-offset": lambda place: Hidden("phase-offset", turned=sign * within["turned"](place)),
         "drying-rim": lambda place: Hidden("drying-rim", skin=within["skin"](place)),
         "radius-error": lambda place: Hidden("radius-error", overfill=sign * within["overfill"](place)),
         "sudden-loss": lambda place: Hidden("sudden-loss", loss_of_hold=(where[0], where[1], 0.98 - 0.9 * place)),
@@ -171,6 +174,33 @@ def backflow(day):
         wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
         return scaled(session, material, wanted, effects(generator, session)["poroelastic-backflow"])
     return draw
+
+
+def soft(generator, material, hidden=Hidden()):
+    stiffness = float(numpy.exp(generator.uniform(numpy.log(0.02), numpy.log(0.2))))
+    return replace(draw_session(generator, material, hidden, tables=tool_day()), stiffness=stiffness)
+
+
+def of_tool(name):
+    """Of a soft sample, of which the tool has a part of the torque."""
+    def draw(generator, material):
+        session = soft(generator, material)
+        wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
+        return scaled(session, material, wanted, effects(generator, session)[name])
+    return draw
+
+
+def sample_inertia(generator, material):
+    """As the densities of samples are."""
+    return soft(generator, material, Hidden("sample-inertia", density=float(generator.uniform(1000, 3000))))
+
+
+def gradient(generator, material):
+    """Of samples that have settled long before."""
+    session = replace(draw_session(generator, material, tables=gap_day()), two_fractions=True)
+    wanted = float(numpy.exp(generator.uniform(numpy.log(LEAST_GAIN), numpy.log(LARGEST_GAIN))))
+    return scaled(session, material, wanted,
+                  lambda place: Hidden("volume-fraction-gradient", settled=(logarithmic(1e-3, 0.05)(place), 0.0)))
 
 
 def bond_strength_under_cone(generator, material):
@@ -304,7 +334,8 @@ ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlat
         "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump,
         "activated-rupture": rupture("activated-rupture", (1.5, 2.0)), "bond-strength-rates": rupture("bond-strength", (1.0,)),
         "missing-contacts": missing_contacts, "sedimentation": between_gaps("sedimentation"),
-        "poroelastic-backflow": backflow(gaps_day), "poroelastic-backflow-radii": backflow(radii_day)}
+        "bearing-damping": of_tool("bearing-damping"), "phase-offset": of_tool("phase-offset"), "sample-inertia": sample_inertia,
+        "volume-fraction-gradient": gradient, "poroelastic-backflow": backflow(gaps_day), "poroelastic-backflow-radii": backflow(radii_day)}
 ROWS.update({name: of_effect(name) for name in ("contact-loss", "ageing", "tool-compliance", "tool-inertia", "bond-strength")})
 ROWS.update({name: of_its_day(name) for name in ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "sudden-loss",
                                                      "radius-error", "edge-fracture", "reversible-softening", "thixotropy", "contact-dashpot",

@@ -118,6 +118,12 @@ def radii_day():
     return slow_day(plates=(PLATE, 2 * PLATE))
 
 
+def tool_day():
+    """Frequencies of samples between plates near to and far from each other, small and wide."""
+    return list(placed([sweep("frequency-sweep", name, 0, SMALL_STRAIN, numpy.geomspace(0.1, 30, 10), 20, gap, plate)
+                        for name, gap, plate in (("A", GAP, PLATE), ("B", GAP, PLATE), ("C", 3 * GAP, PLATE), ("D", GAP, 2 * PLATE), ("E", GAP, 2 * PLATE))]))
+
+
 def plates_day():
     """Samples under a small, a middle and a wide plate."""
     return list(placed([sweep("time-sweep", f"{name}{count}", 0, numpy.full(10, SMALL_STRAIN), 1.0, 60, plate=plate)

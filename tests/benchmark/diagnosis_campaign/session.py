@@ -41,6 +41,9 @@ class Hidden:
     settled: tuple = ()     # difference of the volume fraction between plates at the usual gap in the end, time there [s]
     backflow: tuple = ()    # growth, mobility of the solvent [m2/(Pa s)] (poroelastic.py)
     rates: tuple = ()       # frequency [Hz] and largest load of a sweep, for each frequency
+    braking: float = 0.0    # torque of the bearing over the speed [N.m.s]
+    turned: float = 0.0     # of the phase, by the instrument [rad]
+    density: float = 0.0    # of a sample through which waves pass [kg/m3]
     overfill: float = 0.0   # by which the sample is wider than its plate [m]
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
 
@@ -232,13 +235,25 @@ def true_modulus(material, session, table):
         modulus *= 1 + growth * numpy.interp(clock * abs(modulus) * mobility / table.gap[0]**2, times, shrunk)
     if hidden.settled:
         difference, time = hidden.settled
-        wider = table.gap[0] / GAP
-        profiles = weight.gradients(clock, time * wider**2)
-        modulus *= weight.shown(material.layers, profiles, difference * wider)
+        profiles = weight.gradients(clock, time * (table.gap[0] / GAP)**2)
+        modulus *= weight.shown(material.layers, profiles, difference * table.gap / GAP)
     if hidden.warmth:
         size, period = hidden.warmth
         modulus *= 1 + size * numpy.sin(2 * numpy.pi * clock / period)
     return modulus
+
+
+def with_waves(modulus, density, table, layers=400):
+    """Stress at the plate that moves, the other at rest, over that of a sample without mass: a chain of masses and springs."""
+    shares = []
+    for stiffness, frequency, gap in zip(modulus, table.frequency, table.gap):
+        mass = density * (2 * numpy.pi * frequency)**2 * (gap / layers)**2 / stiffness  # over a spring
+        moved = numpy.zeros(layers + 1, complex)
+        moved[1] = 1
+        for place in range(1, layers):
+            moved[place + 1] = (2 - mass) * moved[place] - moved[place - 1]
+        shares.append(((1 - mass / 2) * moved[-1] - moved[-2]) * layers / moved[-1])
+    return numpy.array(shares)
 
 
 def share_of_bonds(session, table):
@@ -277,6 +292,8 @@ def reading(material, session, table, level=1.0):
         torque = 2 * numpy.pi * numpy.sum(at_radius * radius**2, axis=0) * table.plate / 400
         return 3 * torque / (2 * numpy.pi * table.plate**3) / (table.strain + hidden.compliance * torque / CONE)
     true_gap = table.gap + hidden.gap_error
+    if hidden.density:
+        stress = stress * with_waves(modulus, hidden.density, table)
     torque = numpy.pi * table.plate**3 / 2 * stress * ((table.plate + hidden.overfill) / table.plate)**4
     if hidden.fracture:
         strain, power = hidden.fracture
@@ -290,7 +307,8 @@ def reading(material, session, table, level=1.0):
         # A ring of this height and circumference that is strained as the rim is.
         torque = torque + hidden.skin * (table.start + table.time) * 2 * numpy.pi * table.plate**2 * table.strain
     angle = (true_gap * table.strain + 2 * slip * stress) / table.plate + hidden.compliance * torque
-    torque = torque - hidden.inertia * (2 * numpy.pi * table.frequency)**2 * angle
+    torque = torque - hidden.inertia * (2 * numpy.pi * table.frequency)**2 * angle + 2j * numpy.pi * table.frequency * hidden.braking * angle
+    torque = torque * numpy.exp(1j * hidden.turned)
     if hidden.resonance:
         size, place = hidden.resonance
         ratio = table.frequency / place
