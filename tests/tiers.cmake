@@ -13,6 +13,7 @@ set(coagula_slow_tests
   "HiddenEffects[.](ASampleThatLiesApart|ErrorsOf|FalseParticles|ShearStiffness).*"
   "MissingContacts[.](A|Curve|Follow).*"
   "PlateStrainField[.].*"
+  "PoroelasticBackflow[.]Is.*"
   "Polydispersity[.].*"
   "PoreCurves[.].*"
   "Power[.].*"
