@@ -212,6 +212,17 @@ bool is_empty(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& centre, dou
     return (points.colwise() - centre).colwise().squaredNorm().minCoeff() > radius * radius * (1 - 1e-9);
 }
 
+/// From a point to the others that are nearer than `reach`.
+std::vector<Eigen::Vector3d> branches_from(const Eigen::Matrix3Xd& points, Index i, double reach) {
+    std::vector<Eigen::Vector3d> near;
+    for (Index j = 0; j < points.cols(); ++j) {
+        if (j != i && (points.col(j) - points.col(i)).norm() < reach) {
+            near.emplace_back(points.col(j) - points.col(i));
+        }
+    }
+    return near;
+}
+
 /// By their definitions: spheres through four points without another inside, and through three about a centre in their plane.
 TEST(DelaunayPores, AgreeWithAllTriplesAndQuadruples) {
     const double r = 0.4;
@@ -220,12 +231,7 @@ TEST(DelaunayPores, AgreeWithAllTriplesAndQuadruples) {
     const double reach = 2 * (measure_pores(packing).max + r);
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(7);
     for (Index i = 0; i < packing.size(); ++i) {
-        std::vector<Eigen::Vector3d> near;
-        for (Index j = 0; j < points.cols(); ++j) {
-            if (j != i && (points.col(j) - points.col(i)).norm() < reach) {
-                near.emplace_back(points.col(j) - points.col(i));
-            }
-        }
+        const std::vector<Eigen::Vector3d> near = branches_from(points, i, reach);
         const Eigen::Vector3d home = points.col(i);
         for (std::size_t a = 0; a < near.size(); ++a) {
             for (std::size_t b = 0; b < a; ++b) {
