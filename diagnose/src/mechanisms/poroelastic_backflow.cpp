@@ -25,16 +25,17 @@ bool drains(const Experiment& experiment) {
 /// Biomechanics 27 (1994) 1347). Strains of 0.5 to 10 % are left by filling, and G' grows as the volume fraction to a power of 2 to
 /// 6. By Kozeny and Carman the permeability is 3e-18 m2 for spheres of 20 nm and 2e-15 m2 for 0.5 um at a volume fraction of 0.4.
 Mechanism poroelastic_backflow() {
-    return {.name = "poroelastic-backflow",
-            .term =
-                "the filling squeezes the network and its solvent alike; the solvent leaves through the pores, and the network "
-                "becomes denser",
-            .signature =
-                "all moduli grow with the time since the filling and come to rest, by the same part at every gap and sooner at "
-                "a narrow one: in a time that goes as the square of the gap over the modulus, whatever the plate's radius",
-            .parameters = {{"growth", "1", 0.02, 0.5, true}, {"permeability_over_viscosity", "m2/(Pa s)", 1e-16, 1e-10, true}},
-            .effect = ChangesGeometry{drained},
-            .applies = drains};
+    return {
+        .name = "poroelastic-backflow",
+        .term =
+            "the filling squeezes the network and its solvent alike; the solvent leaves through the pores, and the network "
+            "becomes denser",
+        .signature =
+            "all moduli grow with the time since the filling and come to rest, by the same part at every gap and sooner at "
+            "a narrow one: in a time that goes as the square of the gap over the modulus, whatever the plate's radius",
+        .parameters = {{"drained_growth", "1", 0.02, 0.5, true}, {"permeability_over_viscosity", "m2/(Pa s)", 1e-16, 1e-10, true}},
+        .effect = ChangesGeometry{drained},
+        .applies = drains};
 }
 
 }  // namespace coagula::diagnose::mechanisms
