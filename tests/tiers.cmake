@@ -19,6 +19,7 @@ set(coagula_slow_tests
   "Prestress[.].*"
   "StructureError[.].*"
   "StructureSeries[.].*"
+  "PoroelasticBackflow[.]Is.*"
   "Sedimentation[.].*"
   "SolventDrag[.](IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
   "SurfacePotential[.].*"
