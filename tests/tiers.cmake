@@ -20,6 +20,7 @@ set(coagula_slow_tests
   "Prestress[.].*"
   "StructureError[.].*"
   "StructureSeries[.].*"
+  "PoroelasticBackflow[.]Is.*"
   "Sedimentation[.].*"
   "SolventDrag[.](IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
   "StructureCauses[.].*"

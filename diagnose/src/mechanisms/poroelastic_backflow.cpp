@@ -13,9 +13,15 @@ std::complex<double> drained(std::complex<double> modulus, const Observation& ro
     return modulus * (1 - values[0] * std::expm1(-row.time * per_time));
 }
 
+/// A gap that changes under a sample squeezes anew, which the law does not know.
+bool changes_gap(const Measurement& table) {
+    return varies(table, "gap") && !std::isfinite(table.fluid_viscosity);
+}
+
 bool drains(const Experiment& experiment) {
     const bool plates = experiment.instrument.geometry.value_or(Geometry::plate_plate) == Geometry::plate_plate;
-    return plates && knows_gap(experiment) && takes_time(experiment) && experiment.material.kind != MaterialKind::newtonian;
+    return plates && knows_gap(experiment) && takes_time(experiment) && experiment.material.kind != MaterialKind::newtonian &&
+           !any_measurement(experiment, changes_gap);
 }
 
 }  // namespace

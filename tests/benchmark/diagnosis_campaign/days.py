@@ -114,6 +114,12 @@ def gaps_day():
     return slow_day(gaps=(GAP, 3 * GAP))
 
 
+def gradual_day():
+    """The same with rows in even steps of the logarithm of time."""
+    return list(placed([replace(sweep("time-sweep", name, 0, numpy.full(18, SMALL_STRAIN), 1.0, 5, gap), time=numpy.geomspace(5, 7250, 18))
+                        for name, gap in zip("ABCD", (GAP, GAP, 3 * GAP, 3 * GAP))]))
+
+
 def radii_day():
     return slow_day(plates=(PLATE, 2 * PLATE))
 

@@ -16,7 +16,8 @@ BREAKING = ("bond-strength", "bond-strength-cone")
 ON_THEIR_DAYS = ("ageing-power", "ageing-saturating", "temperature-drift", "evaporation", "drying-rim", "radius-error", "edge-fracture", "sudden-loss",
                 "reversible-softening", "activated-rupture", "missing-contacts", "contact-dashpot", "contact-relaxation", "thixotropy",
                 "bond-strength-rates", "sedimentation", "temperature-drift-gaps", "evaporation-gaps", "ageing-gaps", "ageing-saturating-gaps",
-                "poroelastic-backflow", "poroelastic-backflow-radii", "volume-fraction-gradient", "bearing-damping", "phase-offset", "sample-inertia")
+                "poroelastic-backflow", "poroelastic-backflow-gradual", "poroelastic-backflow-radii",
+                "volume-fraction-gradient", "bearing-damping", "phase-offset", "sample-inertia")
 CRITICAL_STRAIN = 1e-4  # of all bonds that break
 
 

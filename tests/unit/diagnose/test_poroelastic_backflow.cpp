@@ -122,6 +122,9 @@ TEST(PoroelasticBackflow, NeedsPlatesAndAGap) {
     other.material.kind = MaterialKind::newtonian;
     EXPECT_FALSE(backflow().applies(other));
     other = experiment;
+    other.measurements.front().columns[1].values.back() = 2e-3;  // squeezed anew
+    EXPECT_FALSE(backflow().applies(other));
+    other = experiment;
     other.instrument.gap = unset;
     EXPECT_TRUE(backflow().applies(other));
     other.measurements.front().columns.erase(other.measurements.front().columns.begin() + 1);
