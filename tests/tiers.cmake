@@ -20,7 +20,6 @@ set(coagula_slow_tests
   "Prestress[.].*"
   "StructureError[.].*"
   "StructureSeries[.].*"
-  "PoroelasticBackflow[.]Is.*"
   "Sedimentation[.].*"
   "SolventDrag[.](IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
   "StructureCauses[.].*"
