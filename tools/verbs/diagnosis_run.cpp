@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 #include <set>
 
@@ -30,7 +29,6 @@ namespace {
 using diagnose::Experiment;
 using namespace experiment;
 using namespace coagula::report;
-namespace fs = std::filesystem;
 
 /// What a model of the contact cannot have of a cause.
 std::string outside_of_contact(const std::string& name) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+// NOLINTBEGIN(cppcoreguidelines-macro-usage): no template makes declarations and calls of one list of names
+
 // One line per mechanism, whose file in mechanisms/ defines a function of this name.
 #define COAGULA_CATALOGUE(ENTRY)    \
     ENTRY(shear_stiffness)          \
@@ -80,6 +82,8 @@ std::span<const Mechanism> catalogue() {
 #undef COAGULA_MADE
     return all;
 }
+
+// NOLINTEND(cppcoreguidelines-macro-usage)
 
 bool can_act(const Mechanism& mechanism, const Experiment& experiment) {
     const bool of_instrument =

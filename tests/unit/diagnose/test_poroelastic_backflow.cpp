@@ -1,6 +1,7 @@
 // Solvent that leaves a squeezed network: the law against Biot's equations by finite elements, and samples at two gaps.
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
+#include "observables/observations.hpp"
 
 #include <coagula/diagnose/mechanism.hpp>
 

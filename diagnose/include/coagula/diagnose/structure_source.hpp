@@ -21,6 +21,7 @@ struct StructureChange {
     double coordination = std::numeric_limits<double>::infinity();       ///< aimed at; infinite: as the recipe says
     double voids = std::numeric_limits<double>::infinity();              ///< per particle; infinite: as the recipe says
 
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang 14 takes the zero of a defaulted comparison for a pointer
     auto operator<=>(const StructureChange&) const = default;
 };
 
