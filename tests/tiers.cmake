@@ -23,7 +23,7 @@ set(coagula_slow_tests
   "Sedimentation[.].*"
   "SolventDrag[.](IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
   "StructureCauses[.].*"
-  "StructureChanges[.](Between|Contacts).*"
+  "StructureChanges[.](Between|Contacts|Pores).*"
   "SurfacePotential[.].*"
   "ThirdHarmonic[.](Of|Hertz).*"
   "Thixotropy[.].*"
