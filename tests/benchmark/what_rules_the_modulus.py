@@ -188,7 +188,7 @@ def draw(rows, groups, brownian, prefix):
     moduli = numpy.array([row["G"] for row in rows])
     predicted = moduli - unseen_residuals(design(rows, ("coordination C", "triangles per particle")), moduli, groups)
     columns = (brownian, [row["heterogeneity a"] for row in rows], [row["coordination C"] for row in rows], moduli, predicted)
-    numpy.savetxt(prefix.with_suffix(".csv"), numpy.column_stack(columns), delimiter=",")
+    numpy.savetxt(prefix.parent / f"{prefix.name}.csv", numpy.column_stack(columns), delimiter=",")
     if shutil.which("gnuplot"):
         subprocess.run(["gnuplot"], input=FIGURE.replace("PREFIX", prefix.name), text=True, cwd=prefix.parent, check=True)
 

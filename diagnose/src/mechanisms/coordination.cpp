@@ -6,7 +6,7 @@ namespace {
 
 /// Void expansion comes to all coordinations of the range there. Coagulation comes to the upper ones after minutes only.
 bool can_be_aimed_at(const Experiment& experiment) {
-    return sees_void_expansion(experiment, 0.3, 0.5);
+    return sees_void_expansion(experiment) && states_volume_fraction(experiment, 0.3, 0.5) && has_few_voids(*experiment.recipe);
 }
 
 }  // namespace

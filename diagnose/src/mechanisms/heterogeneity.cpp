@@ -4,9 +4,10 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-/// Void expansion comes to the usual coordination there, with all numbers of voids of the range.
+/// Void expansion comes to the coordination there, with all numbers of voids of the range.
 bool can_have_other_voids(const Experiment& experiment) {
-    return sees_void_expansion(experiment, 0.35, 0.45);
+    return sees_void_expansion(experiment) && states_volume_fraction(experiment, 0.35, 0.45) &&
+           has_usual_coordination(*experiment.recipe);
 }
 
 }  // namespace

@@ -85,10 +85,23 @@ inline bool sees_recipe(const Experiment& experiment) {
     return experiment.recipe && sees_structure(experiment);
 }
 
-/// The same for void expansion at a stated volume fraction between these.
-inline bool sees_void_expansion(const Experiment& experiment, double lowest, double highest) {
-    const double stated = experiment.sample.volume_fraction;
-    return sees_recipe(experiment) && experiment.recipe->generator == "vem" && stated >= lowest && stated <= highest;
+/// The volume fraction that is stated lies between these.
+inline bool states_volume_fraction(const Experiment& experiment, double lowest, double highest) {
+    return experiment.sample.volume_fraction >= lowest && experiment.sample.volume_fraction <= highest;
+}
+
+inline bool sees_void_expansion(const Experiment& experiment) {
+    return sees_recipe(experiment) && experiment.recipe->generator == "vem";
+}
+
+/// A coordination that the generators come to at most volume fractions.
+inline bool has_usual_coordination(const StructureRecipe& recipe) {
+    return std::isnan(recipe.target_coordination) || (recipe.target_coordination >= 4.5 && recipe.target_coordination <= 4.9);
+}
+
+/// As many voids as half of the particles or fewer: where there are more, loose packings do not come to their coordination.
+inline bool has_few_voids(const StructureRecipe& recipe) {
+    return recipe.voids == 0 || (8 * recipe.voids >= recipe.particles && 2 * recipe.voids <= recipe.particles);
 }
 
 /// Whether what `of_row` says of the rows of all tables differs by more than a twentieth.

@@ -6,12 +6,13 @@ namespace {
 
 constexpr double quick_potential = 0.012;  // V: above it coagulation takes minutes
 
-/// Void expansion reaches the usual coordination from a volume fraction of 0.3 on, and has more contacts before any void has grown
-/// from 0.53 on.
+/// Void expansion reaches its coordination from a volume fraction of 0.3 on, and has more contacts before any void has grown from
+/// 0.53 on.
 bool can_be_diluted(const Experiment& experiment) {
-    const double stated = experiment.sample.volume_fraction;
-    return sees_recipe(experiment) && stated >= 0.355 && stated <= 0.455 &&
-           (experiment.recipe->generator == "vem" || experiment.recipe->surface_potential <= quick_potential);
+    return sees_recipe(experiment) && states_volume_fraction(experiment, 0.355, 0.455) &&
+           has_usual_coordination(*experiment.recipe) &&
+           (sees_void_expansion(experiment) ? has_few_voids(*experiment.recipe)
+                                            : experiment.recipe->surface_potential <= quick_potential);
 }
 
 }  // namespace
