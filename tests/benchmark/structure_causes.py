@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Samples whose volume fraction, coordination or number of voids is another than the recipe of the experiment says: what `coagula diagnose`
-says of their pores and of their coordinates. Run: tests/benchmark/structure_causes.py [--runs 8] [--coagula build/bin/coagula]
+says of their pores and of their coordinates. Run: tests/benchmark/structure_causes.py [--runs 8] [--hidden nothing] [--coagula build/bin/coagula]
 
 Each run sees two samples of 700 particles of their own, beside two structures of 500 by the recipe (volume fraction 0.4, coordination 4.69,
 a void for every other particle). The structures that the diagnosis makes again are made once for all runs.
@@ -56,23 +56,28 @@ def row(kind, cause, parameter, truth, found):
     runs = len(found)
     count = lambda holds: f"{sum(map(holds, found))}/{runs}"
     said = collections.Counter(", ".join(one["credible_set"]) or "nothing" for one in found).most_common(1)[0]
+    detected = count(lambda d: d["detected"])
     if cause is None:
-        return f"| nothing | {kind} | {count(lambda d: not d['detected'])} nothing | | | {said[0]} ({said[1]}) |"
+        return f"| nothing | {kind} | {detected} | | | | {said[0]} ({said[1]}) |"
     covers = lambda d: any(c["name"] == cause and c["parameters"][parameter]["low"] <= truth <= c["parameters"][parameter]["high"] for c in d["causes"])
-    return (f"| {cause} {truth:.4g} | {kind} | {count(lambda d: d['detected'])} found | {count(lambda d: cause in d['credible_set'])} in the set, "
-            f"{count(lambda d: d['verdict'] == 'named' and d['credible_set'] == [cause])} alone | {count(covers)} | {said[0]} ({said[1]}) |")
+    alone = count(lambda d: d["verdict"] == "named" and d["credible_set"] == [cause])
+    return (f"| {parameter} {truth:.4g} | {kind} | {detected} | {count(lambda d: cause in d['credible_set'])} | {alone} | {count(covers)} | "
+            f"{said[0]} ({said[1]}) |")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=8)
+    parser.add_argument("--hidden", choices=[cause or "nothing" for _, cause, _, _ in HIDDEN], help="this row alone")
     parser.add_argument("--coagula", default="build/bin/coagula")
     arguments = parser.parse_args()
     coagula = str(pathlib.Path(arguments.coagula).resolve())
-    print("| hidden | seen in | | the cause | 90 % interval covers | said most often |\n|---|---|---|---|---|---|", flush=True)
+    print("| hidden | seen in | found | in the set | named alone | 90 % interval covers | said most often |\n|---|---|---|---|---|---|---|", flush=True)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for number, (hidden, cause, parameter, truth) in enumerate(HIDDEN):
+            if arguments.hidden not in (None, cause or "nothing"):
+                continue
             seeds = [[1000 * (number + 1) + 2 * run + k for k in range(2)] for run in range(arguments.runs)]
             tables = [[sample(coagula, folder, hidden, seed) for seed in pair] for pair in seeds]
             for kind in ("pore-curve", "coordinates"):

@@ -65,16 +65,25 @@ class Recipe(ProgramTest):
         for change in ("--surface-potential 0.015 ", "--size-distribution lognormal:0.4 "):
             self.assertIn(change, cache)
 
-    def test_structures_are_made_again_by_the_words_of_generate(self):
-        """The sample has fewer voids than the recipe."""
-        self.succeed("generate", "vem", "--particles", "300", "--voids", "45", "--volume-fraction", "0.4", "--radius", "0.25um", "--seed", "9",
-                     "--quiet", "-o", "sample.h5")
+    def pores_of_void_expansion(self, voids, volume_fraction, causes):
+        """Diagnosis of the pores of 300 particles by a recipe of 0.4 and a void for every other particle."""
+        self.succeed("generate", "vem", "--particles", "300", "--voids", str(voids), "--volume-fraction", str(volume_fraction), "--radius",
+                     "0.25um", "--seed", "9", "--quiet", "-o", "sample.h5")
         curve = self.succeed_json("characterize", "sample.h5", "--only", "pores", "--radii", "40", "-o", "pores.h5")["pore_curve"]
         self.write("pores.csv", "pore_radius [m],exclusion_probability\n" +
                    "".join(f"{r},{p}\n" for r, p in zip(curve["radius"], curve["exclusion_probability"])))
         self.experiment('generator = "vem"', "pore-curve", "pores", particles=120)
-        found = self.succeed_json("diagnose", "experiment.toml", "-o", "results", "--causes", "volume-fraction,coordination,heterogeneity",
-                                  "--bootstrap", "299")
+        return self.succeed_json("diagnose", "experiment.toml", "-o", "results", "--causes", causes, "--bootstrap", "299")
+
+    def test_a_denser_sample_is_made_with_more_particles_in_the_volume(self):
+        found = self.pores_of_void_expansion(150, 0.44, "volume-fraction")
+        call = found["extended_structures"][0].split()
+        self.assertAlmostEqual(float(call[call.index("--volume-fraction") + 1]), 0.44, delta=0.015)
+        self.assertAlmostEqual(found["causes"][0]["parameters"]["volume_fraction_over_stated"]["value"], 1.1, delta=0.04)
+
+    def test_structures_are_made_again_by_the_words_of_generate(self):
+        """The sample has fewer voids than the recipe."""
+        found = self.pores_of_void_expansion(45, 0.4, "volume-fraction,coordination,heterogeneity")
         self.assertEqual(found["causes"][0]["name"], "heterogeneity")
         self.assertEqual(len(found["extended_structures"]), 2)
         voids = found["causes"][0]["parameters"]["voids_per_particle"]["value"]
