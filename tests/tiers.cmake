@@ -30,6 +30,7 @@ set(coagula_slow_tests
   "VolumeFractionGradient[.].*"
   "cli[.]diagnosis[.]Diagnosis[.](a_hidden_loss_is_named|nothing_of_the_folder_is_lost)"
   "cli[.](diagnosis_tables|raw_columns|setting_samples)[.].*"
+  "cli[.]measured_data[.]ReferenceStructure[.].*"
   "cli[.]power[.].*"
   "cli[.]recipe[.].*"
   "cli[.]report[.].*"
