@@ -75,7 +75,7 @@ std::vector<Bond> read_bonds(const Reader& file, std::size_t particles) {
         Bond& bond = bonds[entry];
         bond.first = particle(whole[0]);
         bond.second = particle(whole[1]);
-        bond.images << image(whole[2]), image(whole[3]), image(whole[4]);
+        bond.images = {image(whole[2]), image(whole[3]), image(whole[4])};
         bond.memory.bonded = whole[5] != 0;
         bond.memory.rest_length = real[0];
         bond.memory.shear_stiffness = real[1];
