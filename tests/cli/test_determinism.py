@@ -1,10 +1,12 @@
 """The same command with the same seed gives the same bytes in every data set, /provenance aside, for any number of threads."""
 
+import os
+import subprocess
 import unittest
 
 import h5py
 
-from support import ProgramTest, VEM
+from support import PROGRAM, ProgramTest, VEM
 
 
 def data_sets(path):
@@ -51,6 +53,21 @@ class SameBytes(ProgramTest):
         self.succeed("shear", "a.h5")
         self.assertEqual(first, data_sets(self.folder / "a.h5"))
         self.assertEqual(len(self.succeed_json("info", "a.h5")["provenance"]), 5)
+
+    def test_no_library_takes_more_threads(self):
+        """Left alone, CHOLMOD's loops take four."""
+        self.succeed(*VEM, "-o", "made.h5", "--quiet")
+        free = {name: value for name, value in os.environ.items() if not name.startswith(("OMP_", "GOMP_"))}
+        running = subprocess.Popen([PROGRAM, "shear", "made.h5", "--threads", "1", "--quiet"], cwd=self.folder, env=free,
+                                   stdin=subprocess.DEVNULL)
+        most = 0
+        while running.poll() is None:
+            try:
+                most = max(most, len(os.listdir(f"/proc/{running.pid}/task")))
+            except OSError:
+                break
+        self.assertEqual(running.wait(), 0)
+        self.assertIn(most, (1, 2))  # and one that OpenBLAS keeps
 
 
 if __name__ == "__main__":

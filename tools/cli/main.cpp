@@ -105,12 +105,35 @@ void run(std::vector<std::string> words) {
     verb.run(arguments);
 }
 
+/// The word after --threads, or what follows it and an equals sign; empty where it is not asked for.
+std::string threads_asked_for(char** argv) {
+    const std::string option = "--threads";
+    for (; *argv != nullptr; ++argv) {
+        const std::string word = *argv;
+        if (word == option && argv[1] != nullptr) {
+            return argv[1];
+        }
+        if (word.starts_with(option + "=")) {
+            return word.substr(option.size() + 1);
+        }
+    }
+    return {};
+}
+
+bool set_if_unset(const char* variable, const std::string& value) {
+    return std::getenv(variable) == nullptr && setenv(variable, value.c_str(), 1) == 0;
+}
+
 /// Threads that wait for each other shall spin for some microseconds only before they sleep: on a machine that also does other
-/// work a spinning thread keeps its partner from the processor, and the void expansion took four times as long. libgomp reads its
-/// environment before main, so the program starts itself once more; if that fails, it goes on as it is.
-void limit_spinning(char** argv) {
-    if (std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr &&
-        setenv("GOMP_SPINCOUNT", "3000", 1) == 0) {
+/// work a spinning thread keeps its partner from the processor, and the void expansion took four times as long. And no library shall
+/// take more threads than were asked for: CHOLMOD's loops ask for four of their own. libgomp reads its environment before main, so
+/// the program starts itself once more; if that fails, it goes on as it is.
+void restart_with_thread_settings(char** argv) {
+    const std::string threads = threads_asked_for(argv);
+    const bool number = !threads.empty() && threads.find_first_not_of("0123456789") == std::string::npos;
+    const bool limited = number && set_if_unset("OMP_THREAD_LIMIT", threads);
+    const bool spinning = std::getenv("OMP_WAIT_POLICY") == nullptr && set_if_unset("GOMP_SPINCOUNT", "3000");
+    if (limited || spinning) {
         execv("/proc/self/exe", argv);
     }
 }
@@ -126,7 +149,7 @@ int complain(const std::string& sentence, int code) {
 
 int main(int argc, char** argv) {
     using namespace coagula::tools;
-    limit_spinning(argv);
+    restart_with_thread_settings(argv);
     install_signal_handlers();
     try {
         run(std::vector<std::string>(argv + 1, argv + argc));
