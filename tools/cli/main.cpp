@@ -125,9 +125,9 @@ bool set_if_unset(const char* variable, const std::string& value) {
 }
 
 /// Threads that wait for each other shall spin for some microseconds only before they sleep: on a machine that also does other
-/// work a spinning thread keeps its partner from the processor, and the void expansion took four times as long. And no library shall
-/// take more threads than were asked for: CHOLMOD's loops ask for four of their own. libgomp reads its environment before main, so
-/// the program starts itself once more; if that fails, it goes on as it is.
+/// work a spinning thread keeps its partner from the processor, and the void expansion took four times as long. And no library
+/// shall take more threads than were asked for: CHOLMOD's loops ask for four of their own. libgomp reads its environment before
+/// main, so the program starts itself once more; if that fails, it goes on as it is.
 void restart_with_thread_settings(char** argv) {
     const std::string threads = threads_asked_for(argv);
     const bool number = !threads.empty() && threads.find_first_not_of("0123456789") == std::string::npos;

@@ -159,6 +159,11 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
         sweep.table(MeasurementKind::amplitude_sweep), again);
     add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
     if (std::isfinite(gap)) {
+        add(steady + "on a fresh sample at a third of the gap" + millimetres({gap / 3}) + ", with the first rows close together",
+            Plan(plan)
+                .gap(std::vector<double>(rows, gap / 3))
+                .time(logarithmic_steps(1e-3 * habits.duration, habits.duration, rows))
+                .table(MeasurementKind::time_sweep));
         add("an amplitude sweep on a fresh sample at a quarter of the gap" + millimetres({0.25 * gap}),
             Plan(sweep).gap(std::vector<double>(rows, 0.25 * gap)).table(MeasurementKind::amplitude_sweep));
     }

@@ -34,7 +34,7 @@ Eigen::MatrixXd slopes_of(const Inference& inference, const Fit& fit, Index erro
 
 Departures departures_of(const Inference& inference, const Fit& fit) {
     const DataSet& data = inference.errors().data();
-    const Prediction prediction = inference.forward().prediction(fit.model);
+    const Prediction prediction = inference.prediction(fit.model);
     const double stiffness = inference.stiffness_departure(std::log(fit.model.settings.normal_stiffness));
     const Index errors = prediction.errors.changes.cols();
     const Index samples = data.effect > 0 ? data.samples() : 0;
@@ -69,9 +69,9 @@ RowCorrelations correlations_by_base(const Forward& forward, const DataSet& data
     }
     const ErrorModel errors(data);
     const Inference inference(forward, errors);
-    const Prediction base = forward.prediction(inference.fit({}).model);
+    const Prediction base = inference.prediction(inference.fit({}).model);
     const Eigen::VectorXd effects = errors.effects(base);
-    Eigen::VectorXd left = data.values - base.values - base.errors.changes * effects.tail(base.errors.changes.cols());
+    Eigen::VectorXd left = data.values - base.with(effects.tail(base.errors.about.size()));
     for (Index row = 0; row < data.size(); ++row) {
         const Index sample = data.sample[static_cast<std::size_t>(row)];
         left[row] -= sample >= 0 ? base.level_slope[row] * effects[sample] : 0.0;

@@ -105,7 +105,9 @@ public:
     StepsTowards(const Inference& inference, const Fit& fit, const Mechanism& mechanism, const Eigen::MatrixXd& basis)
         : inference_(inference), fit_(fit), mechanism_(mechanism), basis_(basis), hypothesis_(fit.hypothesis) {
         hypothesis_.push_back(&mechanism);
-        here_ = inference.errors().whiten(inference.forward().predict(fit.model));
+        const Prediction about = inference.prediction(fit.model);
+        model_errors_ = about.errors.about;
+        here_ = inference.errors().whiten(about.values);
     }
 
     /// Over the prior: three places of every parameter but the first, of which there are at least five; more between two whose
@@ -138,7 +140,9 @@ private:
         values.insert(values.end(), others.begin(), others.end());
         const Model model(hypothesis_, values, fit_.model.settings.normal_stiffness);
         Eigen::VectorXd step = Eigen::VectorXd::Zero(basis_.rows());
-        step.head(here_.size()) = inference_.errors().whiten(inference_.forward().predict(model)) - here_;
+        Eigen::VectorXd errors = Eigen::VectorXd::Zero(inference_.forward().errors_of(model));
+        errors.tail(model_errors_.size()) = model_errors_;  // a mechanism that adds some puts them in front, or all are 0
+        step.head(here_.size()) = inference_.errors().whiten(inference_.forward().predict(model, errors)) - here_;
         const double length = step.norm();
         step -= basis_ * (basis_.transpose() * step);
         constexpr double visible = 1e-6;  // part of the step that the fitted quantities cannot make
@@ -182,6 +186,7 @@ private:
     const Mechanism& mechanism_;
     const Eigen::MatrixXd& basis_;
     Hypothesis hypothesis_;
+    Eigen::VectorXd model_errors_;  ///< about which the fit stands
     Eigen::VectorXd here_;
     std::vector<Eigen::VectorXd> steps_;
 };
@@ -329,7 +334,7 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
     const Departures departures = departures_of(inference, fit);
     const Index rows = departures.residual.size();
     const Eigen::MatrixXd basis = orthonormal_basis(departures.jacobian);
-    const double degrees = inference.forward().prediction(fit.model).errors.degrees;
+    const double degrees = inference.prediction(fit.model).errors.degrees;
     const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
     Detection result;
     result.statistics = statistics_of(inference, fit, causes, rows, basis);

@@ -78,10 +78,10 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
                   const std::vector<std::vector<bool>>& folds, Diagnosis& diagnosis) {
     const ErrorModel& errors = inference.errors();
     const Forward& forward = inference.forward();
-    Prediction by_base = forward.prediction(base);
-    Prediction by_extended = forward.prediction(extended);
+    Prediction by_base = inference.prediction(base);
+    Prediction by_extended = inference.prediction(extended);
     if (!forward.is_smooth()) {
-        by_extended.values = forward.predict(extended, true);
+        by_extended.values += forward.predict(extended, true) - forward.predict(extended);
     }
     const Eigen::VectorXd base_residual = errors.residual(by_base);
     const Eigen::VectorXd extended_residual = errors.residual(by_extended);
@@ -105,7 +105,7 @@ void predict_others(const Inference& inference, const std::string& best, Diagnos
     for (const Cause& cause : diagnosis.causes) {
         const bool is_model = !cause.parameters.empty() && cause.name != diagnosis.base.name && cause.name != best;
         if (is_model && diagnosis.others.size() < most) {
-            const Prediction prediction = inference.forward().prediction(cause.model);
+            const Prediction prediction = inference.prediction(cause.model);
             const Eigen::VectorXd values = inference.fitted(prediction);
             diagnosis.others.push_back({cause.name, {values.begin(), values.end()}, effects_of(inference.errors(), prediction)});
         }
@@ -152,7 +152,7 @@ std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
 bool leaves_most(const Comparison& comparison, const Inference& inference) {
     const ErrorModel& errors = inference.errors();
     const auto misfit = [&](const Fit& fit, const SmoothRemainder* on_top) {
-        Prediction prediction = inference.forward().prediction(fit.model);
+        Prediction prediction = inference.prediction(fit.model);
         if (on_top != nullptr) {
             prediction.values += on_top->departure;
         }
@@ -179,8 +179,7 @@ double log_weight_of_none(const Comparison& comparison, const Priors& priors, bo
 /// Whether the base model with a stiffness that nobody knows explains as much as the best cause with the known one.
 bool is_level_alone(const Inference& inference, const Fit& winner) {
     return std::isfinite(inference.stiffness_error()) &&
-           inference.density_of_free_level() >
-               inference.errors().log_density(inference.forward().prediction(winner.model)) - decisive;
+           inference.density_of_free_level() > inference.errors().log_density(inference.prediction(winner.model)) - decisive;
 }
 
 void rank_causes(const Comparison& comparison, const Inference& inference, const Priors& priors, Diagnosis& diagnosis) {
@@ -288,7 +287,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
     if (diagnosis.remainder.detected) {
         diagnosis.remainder.where =
-            place_of(*winner.remainder, data, inference.fitted(forward.prediction(winner.remainder->fit.model)));
+            place_of(*winner.remainder, data, inference.fitted(inference.prediction(winner.remainder->fit.model)));
     }
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);

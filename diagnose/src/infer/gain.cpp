@@ -37,7 +37,15 @@ std::vector<Index> rows_where(const std::vector<bool>& held_out, bool wanted) {
 }
 
 Prediction rows_of(const Prediction& all, const std::vector<Index>& rows) {
-    return {all.values(rows), all.level_slope(rows), {all.errors.changes(rows, Eigen::all), all.errors.degrees}};
+    ModelErrors errors = all.errors;
+    errors.changes = all.errors.changes(rows, Eigen::all);
+    return {all.values(rows), all.level_slope(rows), std::move(errors)};
+}
+
+/// Of every row, about those errors that the known rows alone make most probable.
+Prediction predicted(const Forward& everywhere, const Inference& known, const Model& model) {
+    const Prediction by_known = known.prediction(model);
+    return by_known.errors.straight ? everywhere.prediction(model) : everywhere.prediction(model, by_known.errors.about);
 }
 
 /// Sum of the squares of the relative differences. |G*| of a row is what both of its moduli are compared with.
@@ -54,14 +62,12 @@ double squares(const DataSet& held, const Eigen::VectorXd& prediction) {
 
 /// Log predictive density of each block of held-out neighbours, given the rest.
 std::vector<double> log_densities(const DataSet& data, const std::vector<Index>& known, const std::vector<Index>& held,
-                                  const Forward& everywhere, const Fit& fit) {
-    const DataSet rest = data.part(known);
-    const ErrorModel errors(rest);
+                                  const Forward& everywhere, const Inference& by_known, const Fit& fit) {
     std::vector<Prediction> predictions;
     std::vector<double> before;  // of the rest
     for (const Model& model : fit.drawn(draws)) {
-        predictions.push_back(everywhere.prediction(model));
-        before.push_back(errors.log_density(rows_of(predictions.back(), known)));
+        predictions.push_back(predicted(everywhere, by_known, model));
+        before.push_back(by_known.errors().log_density(rows_of(predictions.back(), known)));
     }
     std::vector<double> densities;
     for (std::size_t first = 0; first < held.size(); first += block_rows) {
@@ -218,8 +224,8 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
         const Fit base = inference.fit({});
         const Fit extended = chosen(inference, base, possible, options);
         const auto predicted_by = [&](const Model& model) {
-            const Prediction all_rows = everywhere.prediction(model);
-            return everywhere.fitted(all_rows, errors.effects(rows_of(all_rows, known_rows)));
+            const Prediction all_rows = predicted(everywhere, inference, model);
+            return shown(all_rows, errors.effects(rows_of(all_rows, known_rows)).tail(all_rows.errors.about.size()));
         };
         const Eigen::VectorXd by_base = predicted_by(base.model);
         const Eigen::VectorXd better = predicted_by(extended.model);
@@ -230,8 +236,8 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
         for (const Index row : held_rows) {
             gain.predictions.push_back({static_cast<std::size_t>(row), by_base[row], better[row], flexible[row]});
         }
-        const std::vector<double> of_base = log_densities(data, known_rows, held_rows, everywhere, base);
-        std::vector<double> of_extended = log_densities(data, known_rows, held_rows, everywhere, extended);
+        const std::vector<double> of_base = log_densities(data, known_rows, held_rows, everywhere, inference, base);
+        std::vector<double> of_extended = log_densities(data, known_rows, held_rows, everywhere, inference, extended);
         for (std::size_t block = 0; block < of_base.size(); ++block) {
             of_extended[block] -= of_base[block];
             gain.elpd_difference = (std::isnan(gain.elpd_difference) ? 0.0 : gain.elpd_difference) + of_extended[block];

@@ -92,15 +92,43 @@ struct Inference::AlongStiffness {
     double log_width() const { return std::log(deviation() * std::sqrt(2 * pi)); }
 };
 
+/// Gauss and Newton's method, in steps of one standard error at most, shorter each time that it turns. A model that needs errors
+/// that do not happen stands at the farthest that do.
+Prediction Inference::prediction(const Model& model, const Eigen::MatrixXd& further) const {
+    constexpr int most_steps = 20;
+    constexpr double converged = 0.03;  // standard errors
+    constexpr double farthest = 8;      // all errors together
+    Prediction here = forward_.prediction(model);
+    if (here.errors.straight) {
+        return here;
+    }
+    if (last_errors_.size() == here.errors.about.size()) {
+        here = forward_.prediction(model, last_errors_);
+    }
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(here.errors.about.size());
+    double longest = 1;
+    for (int steps = 0; steps < most_steps; ++steps) {
+        const Eigen::VectorXd& place = here.errors.about;
+        const Eigen::VectorXd whole = errors_.effects(here, further).tail(place.size()) - place;
+        longest *= whole.dot(step) < 0 ? 0.5 : 1.0;
+        const Eigen::VectorXd next = place + std::min(1.0, longest / whole.norm()) * whole;
+        step = std::min(1.0, farthest / next.norm()) * next - place;
+        if (!(step.norm() > converged)) {
+            break;
+        }
+        here = forward_.prediction(model, place + step);
+    }
+    last_errors_ = here.errors.about;
+    return here;
+}
+
 /// The prediction by its logarithmic derivative, by a difference, the density by itself.
 Inference::AlongStiffness Inference::density_along(Model model, double log_stiffness, Accuracy accuracy) const {
     constexpr double step = 1e-3;
-    const auto predict = [&](double place) {
-        model.settings.normal_stiffness = std::exp(place);
-        return forward_.prediction(model);
-    };
-    const Prediction here = predict(log_stiffness);
-    const Prediction there = predict(log_stiffness + step);
+    model.settings.normal_stiffness = std::exp(log_stiffness);
+    const Prediction here = prediction(model);
+    model.settings.normal_stiffness = std::exp(log_stiffness + step);
+    const Prediction there = forward_.prediction(model, here.errors.about);
     const auto density = [&](double offset) {
         Prediction moved = here;
         moved.values += offset / step * (there.values - here.values);
@@ -117,7 +145,7 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
 /// which on the node counts.
 Node Inference::best_stiffness(const Model& model, double start, double least) const {
     if (!scales_) {
-        const double density = errors_.log_density(forward_.prediction(model));
+        const double density = errors_.log_density(prediction(model));
         return {start, 0, density, density};
     }
     constexpr int most_steps = 40;
@@ -332,25 +360,25 @@ Fit Inference::fit(const Hypothesis& hypothesis) const {
     return fit;
 }
 
-Eigen::MatrixXd Inference::jacobian(const Fit& fit) const {
+Eigen::MatrixXd Inference::jacobian(const Fit& fit, const Eigen::MatrixXd& further) const {
     const std::vector<MechanismParameter> parameters = parameters_of(fit.hypothesis);
-    const Prediction prediction = forward_.prediction(fit.model);
-    const Eigen::VectorXd here = errors_.whiten(prediction.values);
+    const Prediction about = prediction(fit.model, further);
+    const Eigen::VectorXd here = errors_.whiten(about.values);
     Eigen::MatrixXd slopes(here.size(), static_cast<Index>(parameters.size()) + 1);
     constexpr double step = 1e-4;
     Model moved = fit.model;
     moved.settings.normal_stiffness *= std::exp(step);
-    slopes.col(0) = (errors_.whiten(forward_.predict(moved)) - here) / step;
+    slopes.col(0) = (errors_.whiten(forward_.predict(moved, about.errors.about)) - here) / step;
     for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
         std::vector<double> values = fit.values();
         const double place = parameters[axis].place_of(values[axis]);
         const double change = place > 0.5 ? -step : step;
         values[axis] = parameters[axis].at(place + change);
         const Model beside(fit.hypothesis, values, fit.model.settings.normal_stiffness);
-        slopes.col(static_cast<Index>(axis) + 1) = (errors_.whiten(forward_.predict(beside)) - here) / change;
+        slopes.col(static_cast<Index>(axis) + 1) = (errors_.whiten(forward_.predict(beside, about.errors.about)) - here) / change;
     }
     // Sample effects and the errors of the prediction are fitted, too.
-    const Eigen::MatrixXd effects = errors_.directions(prediction);
+    const Eigen::MatrixXd effects = errors_.directions(about);
     Eigen::MatrixXd all(slopes.rows(), slopes.cols() + effects.cols());
     all << slopes, effects;
     return all;

@@ -45,6 +45,11 @@ struct Fit {
     std::vector<Model> drawn(Index count) const;
 };
 
+/// What to show of a prediction with these errors: of one that stands at some, its straight lines there; of any other itself.
+inline Eigen::VectorXd shown(const Prediction& prediction, const Eigen::VectorXd& errors) {
+    return prediction.errors.about.isZero(0) ? prediction.values : prediction.with(errors);
+}
+
 /// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
 /// posterior is (along its principal axes where it is a narrow ridge), with the Laplace approximation for the stiffness, which
 /// scales the moduli. The prior of the stiffness is normal in its logarithm where the experiment knows it, else uniform over
@@ -57,8 +62,8 @@ public:
     Fit fit(const Hypothesis& hypothesis) const;
 
     /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places, the sample effects and
-    /// the errors of the prediction at a fit.
-    Eigen::MatrixXd jacobian(const Fit& fit) const;
+    /// the errors of the prediction at a fit. @param further as there.
+    Eigen::MatrixXd jacobian(const Fit& fit, const Eigen::MatrixXd& further = {}) const;
 
     /// Whether something measured depends on the stiffness of the particles, or on what else scales the material.
     bool shows_scale() const;
@@ -72,8 +77,14 @@ public:
     /// Largest log density of the data by the base model, whatever the stiffness.
     double density_of_free_level() const;
 
-    /// A prediction with those of its own errors that the data ask for, where it is nothing else (Forward::fitted).
-    Eigen::VectorXd fitted(const Prediction& prediction) const { return forward_.fitted(prediction, errors_.effects(prediction)); }
+    /// The prediction about those of its own errors that the data make most probable, where it bends with these.
+    /// @param further whitened directions, of unit deviation each, in which the data may depart besides.
+    Prediction prediction(const Model& model, const Eigen::MatrixXd& further = {}) const;
+
+    /// What to show of a prediction: with those errors that the data ask for where it stands at such, else without.
+    Eigen::VectorXd fitted(const Prediction& prediction) const {
+        return shown(prediction, errors_.effects(prediction).tail(prediction.errors.about.size()));
+    }
 
     const Forward& forward() const { return forward_; }
     const ErrorModel& errors() const { return errors_; }
@@ -99,7 +110,8 @@ private:
     const Forward& forward_;
     const ErrorModel& errors_;
     bool scales_;
-    double log_level_;  ///< logarithm of the stiffness [N/m] that the base model needs for half of the moduli
+    mutable Eigen::VectorXd last_errors_;  ///< about which the last prediction that bends was made: those of the next are near
+    double log_level_;                     ///< logarithm of the stiffness [N/m] that the base model needs for half of the moduli
 };
 
 }  // namespace coagula::diagnose

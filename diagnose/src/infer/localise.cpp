@@ -241,7 +241,7 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
 
 std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection) {
     const std::vector<Observation>& observations = inference.errors().data().observations;
-    const Prediction fitted = inference.forward().prediction(base.model);
+    const Prediction fitted = inference.prediction(base.model);
     const Eigen::VectorXd prediction = inference.fitted(fitted);
     const Eigen::VectorXd residual = inference.errors().residual(fitted);
     std::vector<const MisfitStatistic*> along;

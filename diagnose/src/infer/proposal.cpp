@@ -51,15 +51,14 @@ struct Belief {
 
 Belief belief_in(const Fit& fit, const Inference& inference) {
     Belief belief;
-    const Forward& forward = inference.forward();
-    const Prediction best = forward.prediction(fit.model);
+    const Prediction best = inference.prediction(fit.model);
     const Index errors = best.errors.changes.cols();
     belief.covariance = inference.errors().effect_covariance(best).bottomRightCorner(errors, errors);
     belief.errors.resize(errors, draws_per_cause);
     belief.draws = fit.drawn(draws_per_cause);
     for (std::size_t draw = 0; draw < belief.draws.size(); ++draw) {
         belief.errors.col(static_cast<Index>(draw)) =
-            inference.errors().effects(forward.prediction(belief.draws[draw])).tail(errors);
+            inference.errors().effects(inference.prediction(belief.draws[draw])).tail(errors);
     }
     return belief;
 }
@@ -101,8 +100,8 @@ Expectation expected_by(const Belief& belief, const Forward& forward, const std:
     expectation.predictions.resize(rows, draws_per_cause);
     Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(rows, belief.errors.rows());
     for (int draw = 0; draw < draws_per_cause; ++draw) {
-        const Prediction drawn = forward.prediction(belief.draws[static_cast<std::size_t>(draw)]);
-        expectation.predictions.col(draw) = drawn.values + drawn.errors.changes * belief.errors.col(draw);
+        const Prediction drawn = forward.prediction(belief.draws[static_cast<std::size_t>(draw)], belief.errors.col(draw));
+        expectation.predictions.col(draw) = drawn.values;
         changes += drawn.errors.changes / draws_per_cause;
     }
     const Eigen::VectorXd mean = expectation.predictions.rowwise().mean();

@@ -27,26 +27,31 @@ struct Start {
 };
 
 /// The prediction at the known stiffness, about which it may differ by its error, as far as a straight line from that of the fit
-/// leads there: what follows does so along such lines.
-Prediction about_known_stiffness(const Inference& inference, const Model& model) {
+/// leads there: what follows does so along such lines. @param further as in Inference::prediction.
+Prediction about_known_stiffness(const Inference& inference, const Model& model, const Eigen::MatrixXd& further) {
     constexpr double step = 1e-4;
     const Forward& forward = inference.forward();
-    Prediction prediction = forward.prediction(model);
+    Prediction prediction = inference.prediction(model, further);
     const double known = known_scale(forward.experiment()).value;
     if (std::isfinite(known)) {
         Model beside = model;
         beside.settings.normal_stiffness *= std::exp(step);
         const double way = std::log(known / model.settings.normal_stiffness) / step;
-        prediction.values += way * (forward.predict(beside) - prediction.values);
+        prediction.values += way * (forward.predict(beside, prediction.errors.about) - prediction.values);
     }
     return prediction;
 }
 
-/// About another fit of the same, with the deviations that it has already.
-void move_to(Start& start, const Inference& inference, Fit fit) {
+/// About another fit of the same, with the deviations that it has already. @param further as in Inference::prediction.
+void move_to(Start& start, const Inference& inference, Fit fit, const Eigen::MatrixXd& further) {
     start.fit = std::move(fit);
-    start.prediction = about_known_stiffness(inference, start.fit.model);
-    start.following = inference.jacobian(start.fit)(Eigen::all, start.follow) * start.deviations.asDiagonal();
+    start.prediction = about_known_stiffness(inference, start.fit.model, further);
+    start.following = inference.jacobian(start.fit, further)(Eigen::all, start.follow) * start.deviations.asDiagonal();
+}
+
+/// The prediction of a start beside further departures, which leave less to its own errors.
+Prediction beside_departures(const Inference& inference, const Start& start, const Eigen::MatrixXd& further) {
+    return start.prediction.errors.straight ? start.prediction : about_known_stiffness(inference, start.fit.model, further);
 }
 
 Start start_of(const Inference& inference, const Fit& fit) {
@@ -63,7 +68,7 @@ Start start_of(const Inference& inference, const Fit& fit) {
         }
     }
     start.deviations = Eigen::Map<const Eigen::VectorXd>(deviations.data(), static_cast<Index>(deviations.size()));
-    move_to(start, inference, fit);
+    move_to(start, inference, fit, {});
     return start;
 }
 
@@ -80,14 +85,16 @@ struct Followed {
     Eigen::VectorXd departure;   ///< of every number
 };
 
-Followed followed(const ErrorModel& errors, const Start& start, const Eigen::MatrixXd& factor) {
-    const Eigen::MatrixXd directions = errors.directions(start.prediction);
+Followed followed(const Inference& inference, const Start& start, const Eigen::MatrixXd& factor) {
+    const ErrorModel& errors = inference.errors();
+    const Eigen::MatrixXd apart = beside(start.following, errors.data().noise.whitened(factor));
+    const Prediction prediction = beside_departures(inference, start, apart);
+    const Eigen::MatrixXd directions = errors.directions(prediction);
     const Index samples = errors.data().samples();
     const Index follow = start.following.cols();
-    const Eigen::MatrixXd others =
-        beside(beside(directions.rightCols(directions.cols() - samples), start.following), errors.data().noise.whitened(factor));
+    const Eigen::MatrixXd others = beside(directions.rightCols(directions.cols() - samples), apart);
     const Eigen::VectorXd level = directions.leftCols(samples).rowwise().sum();
-    const Eigen::VectorXd plain = errors.whiten(errors.data().values - start.prediction.values);
+    const Eigen::VectorXd plain = errors.whiten(errors.data().values - prediction.without_errors());
     const std::vector<std::size_t> together(static_cast<std::size_t>(plain.size()), 0);
     NormalEffects effects(plain, level, errors.data().sample, samples, others, together, 1);
     effects.solve(errors.data().effect, Eigen::VectorXd::Ones(others.cols()), {1.0});
@@ -170,7 +177,8 @@ SmoothRemainder remainder_at(const Inference& inference, const Start& start, con
             const Eigen::MatrixXd factor = level.asDiagonal() * departure.factor;
             const Eigen::MatrixXd white = errors.data().noise.whitened(factor);
             for (const double amplitude : smooth_amplitudes) {
-                members.push_back(errors.log_density(start.prediction, beside(start.following, amplitude * white)) - alone);
+                const Eigen::MatrixXd further = beside(start.following, amplitude * white);
+                members.push_back(errors.log_density(beside_departures(inference, start, further), further) - alone);
                 if (members.back() > found.best) {
                     found.best = members.back();
                     found.along = departure.along;
@@ -191,19 +199,20 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const
     Start start = start_of(inference, fit);
     const double alone = density_alone(errors, start);
     SmoothRemainder found = remainder_at(inference, start, departures, alone);
-    Followed at_best = followed(errors, start, found.factor);
+    Followed at_best = followed(inference, start, found.factor);
     // Far from there neither the lines nor the amplitudes, shares of the level, are right.
     constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round) {
         Start moved = start;
-        move_to(moved, inference, moved_fit(inference, start, at_best));
+        move_to(moved, inference, moved_fit(inference, start, at_best),
+                beside(start.following, errors.data().noise.whitened(found.factor)));
         SmoothRemainder there = remainder_at(inference, moved, departures, alone);
         if (!(there.best > found.best)) {
             break;
         }
         start = std::move(moved);
         found = std::move(there);
-        at_best = followed(errors, start, found.factor);
+        at_best = followed(inference, start, found.factor);
     }
     found.fit = moved_fit(inference, start, at_best);
     found.fit.draws = draws_of(inference, start, at_best);
@@ -215,7 +224,8 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const
 double log_factor_along(const Inference& inference, const Fit& fit, const Eigen::MatrixXd& directions) {
     const ErrorModel& errors = inference.errors();
     const Start start = start_of(inference, fit);
-    return errors.log_density(start.prediction, beside(start.following, directions)) - density_alone(errors, start);
+    const Eigen::MatrixXd further = beside(start.following, directions);
+    return errors.log_density(beside_departures(inference, start, further), further) - density_alone(errors, start);
 }
 
 }  // namespace coagula::diagnose

@@ -127,7 +127,7 @@ Eigen::MatrixXd ErrorModel::directions(const Prediction& prediction) const {
 /// Departures of the data from a prediction with what they share.
 struct ErrorModel::Shared {
     Shared(const ErrorModel& model, const Prediction& prediction, const Eigen::MatrixXd& further)
-        : plain(model.white_ - model.whiten(prediction.values)) {
+        : plain(model.white_ - model.whiten(prediction.without_errors())) {
         const Eigen::MatrixXd all = model.directions(prediction);
         const Index samples = model.data_.samples();
         level = all.leftCols(samples).rowwise().sum();
@@ -158,10 +158,11 @@ struct ErrorModel::Shared {
     Index errors = 0;        ///< of the prediction
 };
 
-Eigen::VectorXd ErrorModel::effects(const Prediction& prediction) const {
-    const Shared shared(*this, prediction, {});
+Eigen::VectorXd ErrorModel::effects(const Prediction& prediction, const Eigen::MatrixXd& further) const {
+    const Shared shared(*this, prediction, further);
     Eigen::VectorXd all = shared.solved(*this).most_probable();
     all.head(data_.samples()) *= data_.effect;
+    all.conservativeResize(data_.samples() + shared.errors);
     return all;
 }
 
@@ -174,7 +175,7 @@ Eigen::MatrixXd ErrorModel::effect_covariance(const Prediction& prediction) cons
 }
 
 Eigen::VectorXd ErrorModel::residual(const Prediction& prediction) const {
-    return white_ - whiten(prediction.values) - directions(prediction) * effects(prediction);
+    return white_ - whiten(prediction.without_errors()) - directions(prediction) * effects(prediction);
 }
 
 /// At these deviations of effects and others, but for the rows' determinant. @param scales where to start, and what is most

@@ -38,7 +38,8 @@ public:
     /// if the model is true.
     Eigen::VectorXd residual(const Prediction& prediction) const;
     /// Most probable effects b, one per sample, then the errors of the prediction over their standard error.
-    Eigen::VectorXd effects(const Prediction& prediction) const;
+    /// @param further as in log_density.
+    Eigen::VectorXd effects(const Prediction& prediction, const Eigen::MatrixXd& further = {}) const;
     /// Covariance of these.
     Eigen::MatrixXd effect_covariance(const Prediction& prediction) const;
     /// Whitened directions in which these move the prediction: one column per sample, then those of the prediction's errors.

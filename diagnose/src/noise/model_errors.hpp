@@ -7,10 +7,12 @@
 
 namespace coagula::diagnose {
 
-/// Independent errors of a prediction.
+/// Independent errors of a prediction, over their standard errors.
 struct ModelErrors {
-    Eigen::MatrixXd changes = {};                              ///< numbers x errors: what one standard error changes them by
+    Eigen::MatrixXd changes = {};                              ///< numbers x errors: slopes of the numbers by these
     double degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which their common scale is known
+    Eigen::VectorXd about = {};  ///< errors at which numbers and slopes are those of the model; empty: 0
+    bool straight = true;        ///< the slopes hold at any errors
 };
 
 }  // namespace coagula::diagnose

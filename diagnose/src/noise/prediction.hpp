@@ -10,7 +10,7 @@
 namespace coagula::diagnose {
 
 struct Prediction {
-    Eigen::VectorXd values;
+    Eigen::VectorXd values;  ///< at the errors `errors.about`
     /// Change by the logarithm of the level of the material, which differs from sample to sample; the tool's own share stays.
     Eigen::VectorXd level_slope;
     ModelErrors errors = {};
@@ -18,7 +18,16 @@ struct Prediction {
     /// Of the material alone, which all scales with its level.
     Prediction(Eigen::VectorXd all) : values(std::move(all)), level_slope(values) {}  // NOLINT(google-explicit-constructor)
     Prediction(Eigen::VectorXd all, Eigen::VectorXd slope, ModelErrors model_errors)
-        : values(std::move(all)), level_slope(std::move(slope)), errors(std::move(model_errors)) {}
+        : values(std::move(all)), level_slope(std::move(slope)), errors(std::move(model_errors)) {
+        if (errors.about.size() == 0) {
+            errors.about.setZero(errors.changes.cols());
+        }
+    }
+
+    /// With these errors, along straight lines.
+    Eigen::VectorXd with(const Eigen::VectorXd& some) const { return values + errors.changes * (some - errors.about); }
+    /// Where straight lines through `values` lead without any error.
+    Eigen::VectorXd without_errors() const { return with(Eigen::VectorXd::Zero(errors.about.size())); }
 };
 
 }  // namespace coagula::diagnose

@@ -130,10 +130,11 @@ Complex Simulator::drag_response(const Settings& settings, double angular_freque
     return 1.0 + Complex(0, std::min(drag, drag_axis.high)) * std::exp(logarithm);
 }
 
-/// Independent standard errors of the drag in a group, over the mean drag, at the nodes.
-const Eigen::MatrixXd& Simulator::drag_scatter_of(std::size_t group) {
-    const auto found = drag_scatters_.find(group);
-    if (found != drag_scatters_.end()) {
+/// By how much the logarithm of the drag exceeds that of the mean over a group, at the nodes: expected, then independent standard
+/// errors.
+const Eigen::MatrixXd& Simulator::drag_excess_of(std::size_t group) {
+    const auto found = drag_excesses_.find(group);
+    if (found != drag_excesses_.end()) {
         return found->second;
     }
     const std::set<std::size_t> groups = distinct_groups();
@@ -156,34 +157,36 @@ const Eigen::MatrixXd& Simulator::drag_scatter_of(std::size_t group) {
     for (int node = 0; node < drag_axis.count; ++node) {
         drags[node] = drag_axis.node(node);
     }
-    DragScatter scatter = drag_scatter(drags, particles(group), logarithms, static_cast<Eigen::Index>(groups.size()),
-                                       static_cast<Eigen::Index>(members(group).size()));
+    const DragScatter scatter = drag_scatter(drags, particles(group), logarithms, static_cast<Eigen::Index>(groups.size()),
+                                             static_cast<Eigen::Index>(members(group).size()));
     drag_degrees_ = scatter.degrees;
-    return drag_scatters_.emplace(group, std::move(scatter.errors)).first->second;
+    Eigen::MatrixXd excess(drag_axis.count, 1 + scatter.errors.cols());
+    excess << scatter.excess, scatter.errors;
+    return drag_excesses_.emplace(group, std::move(excess)).first->second;
 }
 
 /// A change of the magnitude along the frequency turns the phase by pi/2 times its slope (Bode's relation, exact for power laws).
-std::vector<Complex> Simulator::drag_errors(const Settings& settings, double angular_frequency, std::size_t group) {
+Eigen::RowVectorXcd Simulator::drag_excess(const Settings& settings, double angular_frequency, std::size_t group) {
     constexpr double step = 0.1;
-    const Eigen::MatrixXd& scatter = drag_scatter_of(group);
+    const Eigen::MatrixXd& nodes = drag_excess_of(group);
     const double drag = reduced_drag(settings, angular_frequency);
-    const Complex mean = drag_response(settings, angular_frequency, group) - 1.0;
+    const auto at = [&](double where) {
+        return interpolate_nodes(drag_axis, where, [&](int node) { return Eigen::RowVectorXd(nodes.row(node)); });
+    };
+    const Eigen::RowVectorXd slope = (at(drag * std::exp(step)) - at(drag * std::exp(-step))) / (2 * step);
+    const Eigen::RowVectorXcd own = at(drag) + Complex(0, 0.5 * pi) * slope;
     const std::set<std::size_t> groups = distinct_groups();
     const auto place = std::distance(groups.begin(), groups.find(group));
-    const auto count = static_cast<std::size_t>(scatter.cols());
-    const std::size_t blocks = groups_.empty() ? 1 : groups.size() + 1;  // that of all structures together comes last
-    std::vector<Complex> errors(blocks * count, 0);
-    for (std::size_t error = 0; error < count; ++error) {
-        const auto column = scatter.col(static_cast<Eigen::Index>(error));
-        const auto at = [&](double where) { return interpolate_nodes(drag_axis, where, [&](int node) { return column[node]; }); };
-        const double slope = (at(drag * std::exp(step)) - at(drag * std::exp(-step))) / (2 * step);
-        errors[static_cast<std::size_t>(place) * count + error] = mean * Complex(at(drag), 0.5 * pi * slope);
-    }
-    return errors;
+    const auto blocks = static_cast<Eigen::Index>(groups_.empty() ? 1 : groups.size() + 1);  // that of all together comes last
+    const Eigen::Index count = own.size() - 1;
+    Eigen::RowVectorXcd excess = Eigen::RowVectorXcd::Zero(1 + blocks * count);
+    excess[0] = own[0];
+    excess.segment(1 + place * count, count) = own.tail(count);
+    return excess;
 }
 
 double Simulator::drag_degrees() {
-    drag_scatter_of(0);
+    drag_excess_of(0);
     return drag_degrees_;
 }
 

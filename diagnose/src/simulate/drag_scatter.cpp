@@ -14,19 +14,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 // tests/benchmark/drag_scatter.py measures what the next constants state.
-constexpr double particles_of_scatter = 400;  ///< the variance goes as one over their number
+constexpr double particles_of_scatter = 400;  ///< in a structure of which the next hold
 constexpr double least_scatter = 0.02;        ///< of the logarithm, where all particles are dragged along
-constexpr double slow_scatter = 0.12;         ///< added to that at a reduced drag of 1e-3, and more where it is less
-constexpr double largest_scatter = 1.7;       ///< added at most, where the slowest motions still follow
+constexpr double slow_scatter = 0.1;          ///< added to that at a reduced drag of 1e-3, and more where it is less
+constexpr double largest_scatter = 1.5;       ///< added at most, where the slowest motions still follow
 constexpr double decades = 2.2;               ///< over which errors are alike
-/// As much as the stated scale weighs: other coordinations scatter by up to 1.4 times that.
+/// As much as the stated scale weighs: other coordinations scatter by up to 1.5 times that.
 constexpr double stated_degrees = 6;
 constexpr double least_share = 1e-3;  ///< of the largest eigenvalue, which an error must have to count
 
-/// Standard deviation of the logarithm of the reduced viscosity of one structure.
+/// Standard deviation of the logarithm of the mean reduced viscosity of structures with so many particles together.
 ArrayXd stated_scatter(const ArrayXd& drags, double particles) {
-    const ArrayXd slow = slow_scatter * (drags / 1e-3).pow(-0.35);
-    return std::sqrt(particles_of_scatter / particles) * (least_scatter + slow.min(largest_scatter));
+    const ArrayXd slow = slow_scatter * (drags / 1e-3).pow(-1.0 / 3);
+    const ArrayXd one = least_scatter + slow.min(largest_scatter);
+    return (one.square().expm1() * (particles_of_scatter / particles)).log1p().sqrt();
 }
 
 /// Matern's of order 3/2: 0.94, 0.81 and 0.53 over half a decade, one and two. A smoother one would have shapes of the curve known
@@ -53,8 +54,10 @@ DragScatter drag_scatter(const ArrayXd& drags, double particles, const MatrixXd&
     const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(alike);
     const ArrayXd shares = axes.eigenvalues().array() / axes.eigenvalues().maxCoeff();
     const auto kept = std::count_if(shares.begin(), shares.end(), [](double share) { return share > least_share; });
-    const ArrayXd deviation = scatter * std::sqrt(variance / static_cast<double>(averaged));
-    return {deviation.matrix().asDiagonal() * axes.eigenvectors().rightCols(kept) *
+    const ArrayXd of_mean = stated_scatter(drags, particles * static_cast<double>(averaged));
+    const ArrayXd deviation = std::sqrt(variance) * of_mean;
+    return {0.5 * of_mean.square(),
+            deviation.matrix().asDiagonal() * axes.eigenvectors().rightCols(kept) *
                 axes.eigenvalues().tail(kept).cwiseSqrt().asDiagonal(),
             stated_degrees + degrees};
 }

@@ -5,14 +5,19 @@
 
 namespace coagula::diagnose {
 
-/// Relative errors of the mean reduced viscosity (G* / G - 1 over i times the reduced drag) of a few structures.
+/// By how much the logarithm of the reduced viscosity (G* / G - 1 over i times the reduced drag) of a large sample exceeds that of
+/// the mean of a few structures, normal.
 struct DragScatter {
+    Eigen::VectorXd excess;  ///< expected at the nodes
     Eigen::MatrixXd errors;  ///< nodes x independent standard errors
     double degrees;          ///< of freedom from which their common scale is known
 };
 
 /// Nearly floppy motions are few in a structure, and slow ones fewer. So the scatter falls with the reduced drag and with the
-/// number of particles, and it is smooth along the logarithm of the drag. Structures alone say too little about it: two of them
+/// number of particles, and it is smooth along the logarithm of the drag. Where structures differ by factors, the mean of few lacks
+/// those that lose most: its logarithm is expected below that of the mean of many by half the variance, and the variance is that of
+/// a mean of lognormal numbers (Fenton, IRE Trans. Commun. Syst. 8 (1960) 57), as which the parts of a large structure count, too.
+/// Structures alone say too little about it: two of them
 /// know one shape of many. Hence the stated scatter is that of 134 structures by void expansion, and the structures at hand correct
 /// its scale.
 ///

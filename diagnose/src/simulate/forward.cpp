@@ -118,52 +118,55 @@ Complex Forward::linear_response(const Settings& settings, const Observation& ob
     return response;
 }
 
-/// G* of the material at every observation for a scale of 1, to which it is proportional; of a fluid as it is. The most probable
-/// one, then with one standard error of each thing that is open about it.
-Eigen::MatrixXcd Forward::material(const Model& model, bool exact) const {
-    Eigen::MatrixXcd all;
+/// G* of the material at every observation for a scale of 1, to which it is proportional; of a fluid as it is.
+UncertainModuli Forward::material(const Model& model, bool exact) const {
+    UncertainModuli moduli;
     switch (experiment_.material.kind) {
         case MaterialKind::network:
-            all = network(model, exact);
+            moduli = network(model, exact);
             break;
         case MaterialKind::newtonian:
-            all = newtonian_moduli(observations_);
+            moduli = UncertainModuli(newtonian_moduli(observations_));
             break;
         case MaterialKind::smooth:
-            all = smooth_->moduli(smooth_->start());
+            moduli = smooth_->moduli();
             break;
     }
-    scale(all, model, exact);
-    return with_fluids(std::move(all));
+    scale(moduli, model, exact);
+    replace_fluids(moduli);
+    return moduli;
 }
 
 /// By what changes the material in a row.
-void Forward::scale(Eigen::MatrixXcd& moduli, const Model& model, bool exact) const {
+void Forward::scale(UncertainModuli& moduli, const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const SimulatedSample sample{experiment_, simulator_, settings, history_, exact};
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         if (is_modulus(observations_[k])) {
             model.for_each<ScalesMaterial>([&](const ScalesMaterial& effect, Values values) {
-                moduli.row(static_cast<Index>(k)) *= effect.factor(observations_[k], values, sample);
+                const Complex factor = effect.factor(observations_[k], values, sample);
+                moduli.mean[static_cast<Index>(k)] *= factor;
+                moduli.changes.row(static_cast<Index>(k)) *= factor;
             });
         }
     }
 }
 
-/// The same with a fluid where one was in place of the sample.
-Eigen::MatrixXcd Forward::with_fluids(Eigen::MatrixXcd moduli) const {
+/// A fluid where one was in place of the sample.
+void Forward::replace_fluids(UncertainModuli& moduli) const {
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         if (const Observation& observation = observations_[k]; is_fluid(observation)) {
             const double per_viscosity = is_steady(observation) ? 1 : observation.angular_frequency;
-            moduli.row(static_cast<Index>(k)).setConstant(Complex(0, observation.fluid_viscosity * per_viscosity));
+            moduli.mean[static_cast<Index>(k)] = Complex(0, observation.fluid_viscosity * per_viscosity);
+            moduli.changes.row(static_cast<Index>(k)).setZero();
+            moduli.dragged[static_cast<Index>(k)] = 0;
         }
     }
-    return moduli;
 }
 
-/// For a normal stiffness of 1 N/m; third harmonics over the first as they are. The mean over the structures, then with each error
-/// in how they yield and are dragged on.
-Eigen::MatrixXcd Forward::network(const Model& model, bool exact) const {
+/// For a normal stiffness of 1 N/m; third harmonics over the first as they are. The mean over the structures, with errors in how
+/// they yield and are dragged on.
+UncertainModuli Forward::network(const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const std::map<std::size_t, double> linear = linear_moduli(settings, exact);
     const std::vector<BondStrain> bonds = bond_strains(settings);
@@ -177,38 +180,34 @@ Eigen::MatrixXcd Forward::network(const Model& model, bool exact) const {
             modulus = linear.at(observation.structures) * linear_response(settings, observation, exact);
         }
     }
-    Eigen::MatrixXcd all = moduli.asDiagonal() * amplitude_factors(settings, exact);
+    const Eigen::MatrixXcd yielding = moduli.asDiagonal() * amplitude_factors(settings, exact);
+    UncertainModuli all(yielding.col(0), yielding.rightCols(yielding.cols() - 1).colwise() - yielding.col(0));
     if (!exact && settings.felt_viscosity > 0) {
-        const Eigen::MatrixXcd moved = moved_by_structures(settings, all.col(0));
-        const Index columns = all.cols();
-        all.conservativeResize(Eigen::NoChange, columns + moved.cols());
-        all.rightCols(moved.cols()) = moved;
+        add_drag_errors(settings, all);
     }
     return all;
 }
 
-/// These moduli with one standard error of the drag that each structure leaves, also where no row shows it.
-Eigen::MatrixXcd Forward::moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const {
-    const std::size_t structures = simulator_.drag_errors(settings, 1).size();
-    Eigen::MatrixXcd moved = moduli.replicate(1, static_cast<Index>(structures));
+/// Those that each structure leaves, also where no row shows them.
+void Forward::add_drag_errors(const Settings& settings, UncertainModuli& moduli) const {
+    moduli.logarithms.setZero(moduli.mean.size(), simulator_.drag_excess(settings, 1).size() - 1);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         if (!is_modulus(observation) || is_fluid(observation) || !std::isfinite(observation.angular_frequency)) {
             continue;
         }
-        const std::vector<Complex> errors = simulator_.drag_errors(settings, observation.angular_frequency, observation.structures);
         const Complex response = simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
-        for (std::size_t error = 0; error < errors.size(); ++error) {
-            moved(static_cast<Index>(k), static_cast<Index>(error)) *= 1.0 + errors[error] / response;
-        }
+        const Eigen::RowVectorXcd excess = simulator_.drag_excess(settings, observation.angular_frequency, observation.structures);
+        moduli.dragged[static_cast<Index>(k)] = 1.0 - 1.0 / response;
+        moduli.excess[static_cast<Index>(k)] = excess[0];
+        moduli.logarithms.row(static_cast<Index>(k)) = excess.tail(excess.size() - 1);
     }
-    return moved;
 }
 
-const Eigen::MatrixXcd& Forward::remembered_material(const Model& model, bool exact) const {
+const UncertainModuli& Forward::remembered_material(const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const std::vector<ActingMechanism> acting = acting_on_material(model);
-    if (exact || last_material_.rows() == 0 || !(settings == last_settings_ && acting == last_acting_)) {
+    if (exact || last_material_.mean.size() == 0 || !(settings == last_settings_ && acting == last_acting_)) {
         last_material_ = material(model, exact);
         last_settings_ = exact ? Settings{.normal_stiffness = unset} : settings;  // what is exact serves once
         last_acting_ = acting;
@@ -256,12 +255,16 @@ Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
                      [](const ActingMechanism& one) { return !std::holds_alternative<ChangesSimulation>(one.mechanism->effect); });
         return Forward(experiment_, observations_, simulator_.remade(change_of(settings))).predict(stated, true);
     }
-    return seen(model, remembered_material(model, exact).col(0), exact);
+    return smooth_ ? predict(model, smooth_->start()) : seen(model, remembered_material(model, exact).mean, exact);
+}
+
+Eigen::VectorXd Forward::predict(const Model& model, const Eigen::VectorXd& errors) const {
+    return seen(model, remembered_material(model, false).with(errors), false);
 }
 
 /// Of the errors that structures leave, the fewest.
 double Forward::degrees_of_errors(const Settings& settings, bool any) const {
-    double degrees = std::numeric_limits<double>::infinity();
+    double degrees = smooth_ ? SmoothMaterial::degrees : std::numeric_limits<double>::infinity();
     if (any && settings.felt_viscosity > 0) {
         degrees = simulator_.drag_degrees();
     }
@@ -272,40 +275,41 @@ double Forward::degrees_of_errors(const Settings& settings, bool any) const {
 }
 
 Prediction Forward::prediction(const Model& model) const {
-    const Eigen::MatrixXcd& moduli = remembered_material(model, false);
     if (!smooth_) {
-        return prediction_of(model, moduli, degrees_of_errors(model.simulated(), moduli.cols() > 1));
+        return prediction(model, Eigen::VectorXd::Zero(remembered_material(model, false).errors()));
     }
     // About the material that this instrument asks for: most instruments show it in proportion, slip and compliance nearly so.
     constexpr int rounds = 2;
     Eigen::VectorXd place = smooth_->start();
-    Prediction about = prediction_of(model, moduli, SmoothMaterial::degrees);
+    Prediction about = prediction(model, place);
     for (int round = 0; round < rounds; ++round) {
         place = smooth_->best(place, about.values, about.errors.changes);
-        about = prediction_of(model, with_fluids(smooth_->moduli(place)), SmoothMaterial::degrees);
+        about = prediction(model, place);
     }
-    about.values -= about.errors.changes * place;
     return about;
 }
 
-/// @param moduli of the material, then with each of its errors. @param degrees of freedom of these.
-Prediction Forward::prediction_of(const Model& model, const Eigen::MatrixXcd& moduli, double degrees) const {
+Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors) const {
     constexpr double step = 1e-5;
-    const Eigen::VectorXd mean = seen(model, moduli.col(0), false);
+    const UncertainModuli& material = remembered_material(model, false);
+    const Eigen::MatrixXcd moduli = material.tangents(errors);
+    const Eigen::VectorXd values = seen(model, moduli.col(0), false);
     // What neither geometry nor tool change is in proportion to the modulus of the material.
     const bool plain = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
         return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
                std::holds_alternative<ChangesTool>(one.mechanism->effect);
     });
-    Eigen::VectorXd level_slope = mean;
+    Eigen::VectorXd level_slope = values;
     if (!plain) {
-        level_slope = (seen(model, (1 + step) * moduli.col(0), false) - mean) / step;
+        level_slope = (seen(model, (1 + step) * moduli.col(0), false) - values) / step;
     }
-    Eigen::MatrixXd changes(moduli.rows(), moduli.cols() - 1);
+    Eigen::MatrixXd changes(values.size(), errors.size());
     for (Index error = 0; error < changes.cols(); ++error) {
-        changes.col(error) = seen(model, moduli.col(error + 1), false) - mean;
+        changes.col(error) = seen(model, moduli.col(0) + moduli.col(error + 1), false) - values;
     }
-    return {mean, std::move(level_slope), {std::move(changes), degrees}};
+    return {values,
+            std::move(level_slope),
+            {std::move(changes), degrees_of_errors(model.simulated(), errors.size() > 0), errors, material.logarithms.cols() == 0}};
 }
 
 Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {

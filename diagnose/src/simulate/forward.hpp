@@ -11,6 +11,7 @@
 #include "noise/prediction.hpp"
 #include "observables/observations.hpp"
 #include "smooth_material.hpp"
+#include "uncertain_moduli.hpp"
 
 #include <Eigen/Core>
 
@@ -41,11 +42,18 @@ public:
 
     /// @param exact run the simulator at the settings themselves instead of between the nodes of its grids.
     Eigen::VectorXd predict(const Model& model, bool exact = false) const;
+    /// Between the nodes, with these errors of the prediction.
+    Eigen::VectorXd predict(const Model& model, const Eigen::VectorXd& errors) const;
 
     /// The same between the nodes, with how it changes with the level of a sample and with the independent standard errors that so
     /// few structures leave: in how they yield (Simulator::amplitude_response) and in how a solvent drags on them
-    /// (Simulator::drag_errors).
+    /// (Simulator::drag_excess). About those errors of a smooth material that the data ask for; else about none.
     Prediction prediction(const Model& model) const;
+    /// The same about these errors.
+    Prediction prediction(const Model& model, const Eigen::VectorXd& errors) const;
+
+    /// How many errors the prediction of a model has.
+    Index errors_of(const Model& model) const { return remembered_material(model, false).errors(); }
 
     const Experiment& experiment() const { return experiment_; }
 
@@ -56,14 +64,6 @@ public:
 
     /// The same for the level of all other rows, relative to it.
     double level_error() const { return experiment_.material.kind == MaterialKind::network ? simulator_.structure_error() : 0.0; }
-
-    /// The prediction where its own errors are those that data ask for: of a smooth material, which is nothing but what data show;
-    /// else as it is.
-    /// @param effects most probable ones of samples, then errors of the prediction.
-    Eigen::VectorXd fitted(const Prediction& prediction, const Eigen::VectorXd& effects) const {
-        const Eigen::MatrixXd& changes = prediction.errors.changes;
-        return smooth_ ? Eigen::VectorXd(prediction.values + changes * effects.tail(changes.cols())) : prediction.values;
-    }
 
     bool is_smooth() const { return smooth_.has_value(); }
 
@@ -90,14 +90,13 @@ private:
     Eigen::MatrixXcd amplitude_factors(const Settings& given, bool exact) const;
     std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
     std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
-    Eigen::MatrixXcd material(const Model& model, bool exact) const;
-    Eigen::MatrixXcd network(const Model& model, bool exact) const;
-    void scale(Eigen::MatrixXcd& moduli, const Model& model, bool exact) const;
-    Eigen::MatrixXcd with_fluids(Eigen::MatrixXcd moduli) const;
-    Eigen::MatrixXcd moved_by_structures(const Settings& settings, const Eigen::VectorXcd& moduli) const;
-    Prediction prediction_of(const Model& model, const Eigen::MatrixXcd& moduli, double degrees) const;
+    UncertainModuli material(const Model& model, bool exact) const;
+    UncertainModuli network(const Model& model, bool exact) const;
+    void scale(UncertainModuli& moduli, const Model& model, bool exact) const;
+    void replace_fluids(UncertainModuli& moduli) const;
+    void add_drag_errors(const Settings& settings, UncertainModuli& moduli) const;
     double degrees_of_errors(const Settings& settings, bool any) const;
-    const Eigen::MatrixXcd& remembered_material(const Model& model, bool exact) const;
+    const UncertainModuli& remembered_material(const Model& model, bool exact) const;
     Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
 
     const Experiment& experiment_;
@@ -110,7 +109,7 @@ private:
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
     mutable std::vector<ActingMechanism> last_acting_;
-    mutable Eigen::MatrixXcd last_material_;
+    mutable UncertainModuli last_material_;
 };
 
 }  // namespace coagula::diagnose

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace coagula::diagnose {
 
@@ -34,7 +35,7 @@ auto interpolate_nodes(const AnyAxis& axis, double value, const At& at) {
     const double t = place - first;
     const std::array<double, 4> weight{-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2,
                                        t * (t - 1) * (t - 2) / 6};
-    auto sum = weight[0] * at(first);
+    std::decay_t<decltype(at(first))> sum = weight[0] * at(first);
     for (int k = 1; k < 4; ++k) {
         sum += weight[static_cast<std::size_t>(k)] * at(first + k);
     }

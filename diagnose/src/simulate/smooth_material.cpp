@@ -191,13 +191,6 @@ SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, boo
     start_ = best(Eigen::VectorXd::Zero(seen.cols()), Eigen::VectorXd::Zero(size), seen);
 }
 
-Eigen::MatrixXcd SmoothMaterial::moduli(const Eigen::VectorXd& coefficients) const {
-    Eigen::MatrixXcd all(functions_.rows(), functions_.cols() + 1);
-    all.col(0) = functions_ * coefficients;
-    all.rightCols(functions_.cols()) = functions_.colwise() + all.col(0);
-    return all;
-}
-
 Eigen::VectorXd SmoothMaterial::best(const Eigen::VectorXd& coefficients, const Eigen::VectorXd& seen,
                                      const Eigen::MatrixXd& changes) const {
     const Eigen::MatrixXd white = weights_.asDiagonal() * changes;

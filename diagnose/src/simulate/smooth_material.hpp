@@ -2,6 +2,7 @@
 #pragma once
 
 #include "observables/observations.hpp"
+#include "uncertain_moduli.hpp"
 
 #include <Eigen/Core>
 
@@ -21,8 +22,8 @@ public:
     /// @param ages whether it varies with its age, too.
     SmoothMaterial(const std::vector<Observation>& observations, bool ages);
 
-    /// Numbers x (1 + functions): G* with these coefficients, then with each by one more.
-    Eigen::MatrixXcd moduli(const Eigen::VectorXd& coefficients) const;
+    /// By the coefficients: nothing without them.
+    UncertainModuli moduli() const { return {Eigen::VectorXcd::Zero(functions_.rows()), functions_}; }
 
     /// Where a fit begins: what meets the data best if the instrument shows the material as it is.
     const Eigen::VectorXd& start() const { return start_; }

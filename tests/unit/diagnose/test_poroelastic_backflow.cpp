@@ -104,6 +104,9 @@ TEST(PoroelasticBackflow, IsTiedWithWhatSetsAtOneGap) {
     EXPECT_EQ(found.verdict, Verdict::tied);
     EXPECT_TRUE(in_set(found, "poroelastic-backflow"));
     EXPECT_TRUE(in_set(found, "ageing-saturating"));
+    ASSERT_FALSE(found.proposals.empty());
+    EXPECT_NE(found.proposals.front().what.find("at a third of the gap (0.333 mm)"), std::string::npos)
+        << found.proposals.front().what;
 }
 
 TEST(PoroelasticBackflow, IsNotWhatSetsInOneTimeAtTwoGaps) {

@@ -97,9 +97,9 @@ public:
     /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; what the
     /// contacts lose beside their springs is in both.
     std::complex<double> drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
-    /// What independent standard errors of the mean over so few structures change that by (src/simulate/drag_scatter.hpp): as many
-    /// values for every group of structures and for all of them together, 0 for those of other groups.
-    std::vector<std::complex<double>> drag_errors(const Settings& settings, double angular_frequency, std::size_t group = 0);
+    /// What more structures would add to the logarithm of that less 1 (src/simulate/drag_scatter.hpp): what is expected, then each
+    /// independent standard error; as many for every group of structures and for all of them together, 0 for those of other groups.
+    Eigen::RowVectorXcd drag_excess(const Settings& settings, double angular_frequency, std::size_t group = 0);
     /// Degrees of freedom from which their common scale is known.
     double drag_degrees();
     std::complex<double> exact_drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
@@ -159,7 +159,7 @@ private:
     const std::vector<double>& drag_nodes(std::size_t structure);
     const std::vector<std::complex<double>>& drag_curve(std::size_t group);
     const std::vector<std::complex<double>>& own_drag_curve(std::size_t structure);
-    const Eigen::MatrixXd& drag_scatter_of(std::size_t group);
+    const Eigen::MatrixXd& drag_excess_of(std::size_t group);
     double reduced_drag(const Settings& settings, double angular_frequency) const;
     std::vector<double> shells(double plane, double axis);
     const std::vector<double>& shell_node(int plane, int axis);
@@ -180,7 +180,7 @@ private:
     std::map<std::pair<int, int>, std::vector<double>> image_nodes_;
     std::map<std::size_t, std::vector<std::complex<double>>> drag_curves_;      ///< by group
     std::map<std::size_t, std::vector<std::complex<double>>> own_drag_curves_;  ///< by structure
-    std::map<std::size_t, Eigen::MatrixXd> drag_scatters_;                      ///< nodes x errors, by group
+    std::map<std::size_t, Eigen::MatrixXd> drag_excesses_;                      ///< nodes x (expected, errors), by group
     double drag_degrees_ = 0;                                                   ///< once one of these has been asked for
     double scatter_ = -1;                                                       ///< between structures, once it has been asked for
     SimulationCache& cache_;

@@ -1,0 +1,31 @@
+// Moduli of a material of which something is open.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace coagula::diagnose {
+
+/// G* of every number that was measured, by independent standard errors: first those that add to it, then those of what a solvent
+/// drags along, which is known up to factors and differs from structure to structure by powers of ten. Without the drag
+///
+///     G* = mean + changes e,    and with it    G* (1 + dragged (exp(excess + logarithms e') - 1))
+struct UncertainModuli {
+    Eigen::VectorXcd mean;
+    Eigen::MatrixXcd changes;     ///< numbers x errors that add
+    Eigen::VectorXcd dragged;     ///< part of the mean that the drag adds
+    Eigen::VectorXcd excess;      ///< logarithm of the factor on that part that is expected
+    Eigen::MatrixXcd logarithms;  ///< numbers x errors of the drag
+
+    /// Of which nothing is open.
+    explicit UncertainModuli(Eigen::VectorXcd known = {});
+    UncertainModuli(Eigen::VectorXcd expected, Eigen::MatrixXcd added);
+
+    Eigen::Index errors() const { return changes.cols() + logarithms.cols(); }
+
+    /// With these errors.
+    Eigen::VectorXcd with(const Eigen::VectorXd& errors) const;
+    /// The same, and the slope by each error.
+    Eigen::MatrixXcd tangents(const Eigen::VectorXd& errors) const;
+};
+
+}  // namespace coagula::diagnose
