@@ -18,7 +18,7 @@ NARROW, WIDE = 12.5e-3, 25e-3            # plates
 FOUND = {"weak": (1.5e-8, 3e-8, 0.01, 0.01), "strong": (2.5e-8, 6e-8, 0.03, 0.03)}  # as in Hidden.images
 SIZES = (0.08, 0.16)
 POTENTIALS = (0.014, 0.015)
-TENSIONS = (3e-3, 9e-3)
+TENSIONS = (6e-3, 9e-3)
 BUILD_UP = (0.15, 0.6)                   # exponents
 
 
@@ -96,7 +96,6 @@ ROWS = {"contact-nonlinearity": hertz, "ageing-up-and-down": ageing_up_and_down,
         "ageing-after-shear": after_shear, "ageing-sheared": ageing_after_shears("ageing"),
         "torque-offset": flow("torque-offset", "torque", 1e-5, True),
         "torque-offset-plates": flow("torque-offset", "torque", 1e-5, True, plates=(NARROW, NARROW, WIDE, WIDE), gaps=(1e-3,) * 4),
-        "bearing-damping-flow": flow("bearing-damping", "braking", 1e-4, False, plates=(NARROW, NARROW, WIDE, WIDE), gaps=(1e-3,) * 4),
         "thinning-oil": flow("thinning", "thinning", 1.0, False),
         "localisation-error": localisation, "polydispersity": sizes, "surface-potential": potential,
         "null-coordinates": sharp("coordinates", "vem"), "null-pores": sharp("pore-curve", "brownian")}
