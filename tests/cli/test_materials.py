@@ -337,6 +337,23 @@ class FlowCurves(Tables):
             stress = found["causes"][0]["parameters"]["stress_offset"]
             self.assertTrue(stress["low"] < offset < stress["high"], stress)
 
+    def test_show_a_torque_that_is_less_of_a_stress_under_a_wider_plate(self):
+        number = random.Random(3)
+        torque = 1e-7
+        text = f'[material]\nkind = "newtonian"\n\n[instrument]\ngeometry = "plate-plate"\nplate_radius = {self.RADIUS}\ngap = 1e-3\n\n{NOISE}'
+        stress = lambda radius: 2 * torque / (math.pi * radius**3)
+        for place, radius in enumerate((self.RADIUS / 2, self.RADIUS)):
+            rates = [10**(k / 4 - 1) for k in range(13)]
+            rows = [(rate, (1 + stress(radius) / rate) * (1 + number.gauss(0, 0.01))) for rate in rates]
+            self.table(f"plate{place}.csv", ("shear_rate [1/s]", "viscosity [Pa.s]"), rows)
+            text += (f'[[measurement]]\nkind = "flow-curve"\nfile = "plate{place}.csv"\nsample = "{place}"\n'
+                     f"values = {{ plate_radius = {radius} }}\n\n")
+        found = self.diagnosis(text)
+        self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["torque-offset"]))
+        offset = found["causes"][0]["parameters"]["stress_offset"]
+        self.assertTrue(offset["low"] < stress(self.RADIUS) < offset["high"], offset)
+        self.assertFalse(found["remainder"]["detected"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -19,19 +19,21 @@ from pathlib import Path
 
 import numpy
 
-from cases import ROWS, SETTLING_LOOK_ALIKES
+import shown_cases
+from cases import ROWS as SESSION_ROWS, SETTLING_LOOK_ALIKES
 from days import placed
 from material import Material
 from session import follow_up
 from table import BREAKING, in_set, print_table
 
 
+ROWS = {**SESSION_ROWS, **shown_cases.ROWS}
 DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "single", "pair", "tie", "outside"]
 BREAKING_ROWS = {*BREAKING, "tie-yield"}
 RUPTURE_ROWS = {"activated-rupture", "bond-strength-rates"}
 SETTLING_ROWS = {"sedimentation", "volume-fraction-gradient", *(f"{name}-gaps" for name in SETTLING_LOOK_ALIKES)}
-SERIES_ROWS = {"null-series", "structure-series", "missing-contacts"}
-CONTACT_ROWS = {"structure-series", "tie-level"}
+SERIES_ROWS = {"null-series", "structure-series", "missing-contacts", "prestress", "bond-bending-series"}
+CONTACT_ROWS = {"structure-series", "tie-level", "bond-bending-series"}
 
 
 def diagnose(program, experiment, cache, *words):
@@ -121,7 +123,7 @@ def run(row, number, program, folder):
                                 if cause["posterior"] > 0.01 or cause["name"] == session.hidden.name]
     entry["found"]["stated"] = stated_share(found["causes"])
     told = session.hidden.name
-    in_catalogue = row not in ("outside", "contacts-removed", "volume-fraction") and told != "nothing" and " + " not in told
+    in_catalogue = row not in ("outside", "contacts-removed", "volume-fraction", "thinning-oil") and told != "nothing" and " + " not in told
     if in_catalogue and found["detected"] and found["causes"][0]["name"] != told:
         entry["told"] = diagnose(program, experiment, folder / "simulations.txt", "--causes", told, *seed).get("gain")
     if row in ("tie", "tie-stiffening", "tie-yield") and found["verdict"] == "tied" and "proposed_measurement" in found:
@@ -150,7 +152,8 @@ def main():
     Material(program, folder / "bank").prepare(jobs=chosen.jobs, breaking=not BREAKING_ROWS.isdisjoint(chosen.rows),
                                                    series=not SERIES_ROWS.isdisjoint(chosen.rows), contacts=not CONTACT_ROWS.isdisjoint(chosen.rows),
                                                    dragged="drag" in chosen.rows, rupture=not RUPTURE_ROWS.isdisjoint(chosen.rows),
-                                                   settling=not SETTLING_ROWS.isdisjoint(chosen.rows))
+                                                   settling=not SETTLING_ROWS.isdisjoint(chosen.rows),
+                                                   hertzian="contact-nonlinearity" in chosen.rows)
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

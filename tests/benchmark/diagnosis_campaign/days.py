@@ -95,6 +95,15 @@ def rest_day():
     return list(placed([replace(table, cone=True) for table in tables]))
 
 
+def sheared_day():
+    """Three samples, each sheared before every run: from seconds to an hour, twice, and frequencies in between."""
+    tables = []
+    for name in "ABC":
+        tables += [replace(sweep("time-sweep", name, order, numpy.full(14, SMALL_STRAIN), 1.0, 5), time=numpy.geomspace(5, 3600, 14)) for order in (0, 2)]
+        tables.append(sweep("frequency-sweep", name, 1, SMALL_STRAIN, numpy.geomspace(0.1, 30, 8), 20))
+    return list(placed(tables))
+
+
 def rates_day(largest_strain, rows, frequencies):
     """Sweeps of strain at several frequencies under a cone, each on samples of its own."""
     return list(placed([replace(sweep("amplitude-sweep", f"{name}{number}", 0, largest_strain * numpy.arange(1, rows + 1) / rows, frequency, 10), cone=True)

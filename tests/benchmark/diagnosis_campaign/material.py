@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy
 
+import hertz
 import network
 import poroelastic
 
@@ -24,6 +25,8 @@ DRAGGED = 64   # of which each sample in a solvent that drags is made anew: flop
 LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
 SWEEP_ROWS = 14
 RUPTURE_ROWS, RUPTURE_LOAD = 28, 8.0  # of the sweeps of bonds whose strength depends on the rate
+HERTZ_STRUCTURES = 4
+HERTZ_LOADS = tuple(0.05 * 10**(step / 4) for step in range(17))  # strains over the overlap at rest, over the radius
 STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
 CONTACT = STIFFNESS / 2
 RADIUS = 0.25e-6
@@ -50,7 +53,7 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, jobs, breaking, series, contacts, dragged, rupture, settling):
+    def prepare(self, jobs, breaking, series, contacts, dragged, rupture, settling, hertzian):
         """Everything that is not drawn: moduli of structures, with breaking, series, other contacts, a dragging solvent, bonds that heat helps to
         break and layers of several volume fractions if asked for; and those structures that the diagnosis may know."""
         coordinations = COORDINATIONS if series else ()
@@ -64,6 +67,7 @@ class Material:
         tasks += [("elastic", number) for number in range(DRAGGED) if dragged]
         tasks += [("rupture", number) for number in range(BREAKING) if rupture]
         tasks += [("modulus", number, "volume-fraction", fraction) for fraction in FRACTIONS for number in range(STRUCTURES) if settling]
+        tasks += [("hertz_curve", number) for number in range(HERTZ_STRUCTURES) if hertzian]
         for number in range(DRAGGED if dragged else BREAKING if breaking or rupture else STRUCTURES):
             self.structure(number)
         for coordination in coordinations:
@@ -137,18 +141,44 @@ class Material:
     def thinned(self, number, missing, coordination=None):
         """G' over that of all contacts where this share of them is missing at random, mean of three draws, by the solver of network.py."""
         def compute():
-            path = self.structure(number, coordination=coordination)
-            points = self.folder / "points.csv"
-            self.run("export", path, "--format", "csv", "-o", points, "--force")
-            box = numpy.array(self.run("info", path)["box"])
-            header, *rows = points.read_text().splitlines()
-            columns = dict(zip((name.split()[0] for name in header.split(",")), numpy.array([row.split(",") for row in rows], float).T))
-            places = numpy.stack([columns[name] for name in "xyz"], axis=1)
-            bonds = network.bonds_of(places, columns["radius"], box)
+            places, radii, box = self.particles(self.structure(number, coordination=coordination))
+            bonds = network.bonds_of(places, radii, box)
             generator = numpy.random.default_rng([number, round(1000 * missing), round(100 * (coordination or 0))])
             modulus = lambda some: network.shear_modulus(len(places), some, box, CONTACT, 0.1 * CONTACT)
             return float(numpy.mean([modulus(network.without(bonds, missing, generator)) for _ in range(3)]) / modulus(bonds))
         return self.remembered(f"thinned {number} {missing} {coordination}", compute)
+
+    def particles(self, path):
+        """Centres, radii and edges of the box of a structure [m]."""
+        points = self.folder / "points.csv"
+        self.run("export", path, "--format", "csv", "-o", points, "--force")
+        header, *rows = points.read_text().splitlines()
+        columns = dict(zip((name.split()[0] for name in header.split(",")), numpy.array([row.split(",") for row in rows], float).T))
+        return numpy.stack([columns[name] for name in "xyz"], axis=1), columns["radius"], numpy.array(self.run("info", path)["box"])
+
+    def pulled(self, number, tension, coordination=None):
+        """G' over that without where all contacts pull at rest with this force over their stiffness times the diameter (network.py)."""
+        def compute():
+            places, radii, box = self.particles(self.structure(number, coordination=coordination))
+            bonds = network.bonds_of(places, radii, box)
+            modulus = lambda pull: network.shear_modulus(len(places), bonds, box, CONTACT, 0.1 * CONTACT, pull * CONTACT)
+            return modulus(tension) / modulus(0.0)
+        return self.remembered(f"pulled {number} {tension} {coordination}", compute)
+
+    def hertz_curve(self, number):
+        """Stress over strain of a structure of Hertz contacts at HERTZ_LOADS over that of small strains (hertz.py)."""
+        def compute():
+            places, radii, box = self.particles(self.structure(number))
+            return hertz.secants(places, network.bonds_of(places, radii, box), box, HERTZ_LOADS, number % 3)
+        return self.remembered(f"hertz {number}", compute)
+
+    def hertz(self, preload, strains):
+        """G' of the fundamental over that of small strains, of Hertz contacts pressed in by `preload` radii, of several structures together."""
+        curve = numpy.mean([self.hertz_curve(number) for number in range(HERTZ_STRUCTURES)], axis=0)
+        phases = (numpy.arange(200) + 0.5) / 200 * numpy.pi / 2
+        loads = numpy.log(numpy.outer(numpy.atleast_1d(strains), numpy.sin(phases)) / preload)
+        secants = numpy.exp(numpy.interp(loads, numpy.log(HERTZ_LOADS), numpy.log(curve)))
+        return 2 * numpy.mean(secants * numpy.sin(phases)**2, axis=1)
 
     def left_by_bonds(self, number, share):
         """G' over that of all bonds where these shares of them are there, along straight lines."""
@@ -180,6 +210,8 @@ class Material:
     def modulus(self, number, cause="", value=0.0, coordination=None):
         """G' of a structure with springs of unit stiffness and perhaps another contact, by small oscillations."""
         def compute():
+            if cause == "prestress":
+                return self.modulus(number, coordination=coordination) * self.pulled(number, value, coordination)
             if cause == "missing-contacts":
                 return self.modulus(number, coordination=coordination) * self.thinned(number, value, coordination)
             model = self.folder / "contact.toml"
@@ -308,7 +340,7 @@ class Sketch:
     def __init__(self, material):
         self.modulus, self.mean_modulus, self.mean_breaking = material.modulus, material.mean_modulus, material.mean_breaking
         self.left_by_bonds, self.mean_rupture, self.layers = material.left_by_bonds, material.mean_rupture, material.layers
-        self.consolidation = material.consolidation
+        self.consolidation, self.hertz = material.consolidation, material.hertz
 
     def losses(self, number, ratio, exponent, frequencies):
         return 1 + ratio * (1j * numpy.asarray(frequencies))**exponent

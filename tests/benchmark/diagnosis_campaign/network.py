@@ -19,8 +19,9 @@ def cross(vector):
     return numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
 
 
-def shear_modulus(count, bonds, box, normal, shear):
-    """Mean over the three planes [Pa]. A contact in the middle of two equal spheres has springs `normal` and `shear` [N/m]; particles turn."""
+def shear_modulus(count, bonds, box, normal, shear, tension=0.0):
+    """Mean over the three planes [Pa]. A contact in the middle of two equal spheres has springs `normal` and `shear` [N/m]; particles turn. A bond
+    that pulls at rest resists with that tension over its length [N/m] when its ends move sideways."""
     first, second, branch = bonds
     length = numpy.linalg.norm(branch, axis=1).mean()
     blocks, rows, columns = [], [], []
@@ -35,13 +36,15 @@ def shear_modulus(count, bonds, box, normal, shear):
         # Displacement at the contact: u_j - u_i - (turn_i + turn_j) x arm / 2; turns are those of the surfaces, in units of the mean length.
         turn = cross(arm) / 2 / length
         moved = numpy.hstack([-numpy.eye(3), turn, numpy.eye(3), turn])
+        centres = numpy.hstack([-numpy.eye(3), numpy.zeros((3, 3)), numpy.eye(3), numpy.zeros((3, 3))])
+        sideways = tension * (numpy.eye(3) - numpy.outer(axis, axis))
         places = numpy.r_[6 * i:6 * i + 6, 6 * j:6 * j + 6]
-        blocks.append(moved.T @ local @ moved)
+        blocks.append(moved.T @ local @ moved + centres.T @ sideways @ centres)
         rows.append(numpy.repeat(places, 12))
         columns.append(numpy.tile(places, 12))
         affine = numpy.array([plane @ arm for plane in planes]).T
-        forces[places] += moved.T @ local @ affine
-        energy += numpy.einsum("ik,ij,jk->k", affine, local, affine)
+        forces[places] += moved.T @ local @ affine + centres.T @ sideways @ affine
+        energy += numpy.einsum("ik,ij,jk->k", affine, local + sideways, affine)
     stiffness = scipy.sparse.csc_matrix((numpy.ravel(blocks), (numpy.ravel(rows), numpy.ravel(columns))), shape=(6 * count, 6 * count))
     stiffness += 1e-9 * normal * scipy.sparse.identity(6 * count, format="csc")  # what nothing holds
     relaxed = scipy.sparse.linalg.splu(stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}).solve(forces)

@@ -45,6 +45,12 @@ class Hidden:
     turned: float = 0.0     # of the phase, by the instrument [rad]
     density: float = 0.0    # of a sample through which waves pass [kg/m3]
     overfill: float = 0.0   # by which the sample is wider than its plate [m]
+    torque: float = 0.0     # that does not come from the sample [N.m]
+    thinning: float = 0.0   # of the viscosity at a rate of 1/s, as one over the root of the rate
+    images: tuple = ()      # errors in the plane and along z [m], shares of missed and of false centres
+    sizes: float = 0.0      # relative deviation of the particles' radii
+    potential: float = 0.0  # of the surfaces on which particles coagulated [V]
+    hertz: float = 0.0      # overlap of Hertz contacts at rest, over the radius
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
 
 
@@ -72,6 +78,7 @@ class Session:
     storage_only: bool = False
     mean_of: tuple = ()          # structures as large as which together the sample is, in a solvent that drags
     told_noise: bool = False     # the file states the errors that there are
+    sheared: bool = False        # before each run, which destroys the structure
     two_fractions: bool = False  # the structures of the diagnosis have another volume fraction each
 
     def write(self, material, folder, generator):
@@ -85,6 +92,8 @@ class Session:
                  f"plate_radius = {PLATE}", f"gap = {GAP}", "", "[structures]", f"files = {[str(each) for each in structures]}", ""]
         if self.known_stiffness:
             lines[3:3] = [f"normal_stiffness = {self.stiffness}", "normal_stiffness_error = 0.05"]
+        if self.sheared:
+            lines[3:3] = ["sheared_before = true"]
         if self.told_noise:
             lines += ["[noise]", f"stated_relative = {self.noise.torque}", f"stated_phase = {self.noise.phase}",
                       f"stated_sample = {self.noise.sample}", ""]
@@ -205,8 +214,11 @@ def true_modulus(material, session, table):
         modulus *= material.mean_drag(hidden.viscosity / session.stiffness, table.frequency, session.mean_of)
     if hidden.loads and table.kind == "amplitude-sweep":
         modulus *= material.mean_breaking(*hidden.loads, rim=hidden.rim and not table.cone)
+    age = table.time if session.sheared else table.start + table.time
+    if hidden.hertz:
+        modulus *= material.hertz(hidden.hertz, table.strain)
     if hidden.ageing:
-        modulus *= 1 + hidden.ageing * numpy.log10(1 + table.start + table.time)
+        modulus *= 1 + hidden.ageing * numpy.log10(1 + age)
     if hidden.bump:
         size, place, width = hidden.bump
         modulus += 1j * size * abs(modulus) * numpy.exp(-0.5 * (numpy.log10(table.frequency / place) / width)**2)
@@ -218,10 +230,10 @@ def true_modulus(material, session, table):
     clock = table.start + table.time
     if hidden.power:
         exponent, begin = hidden.power
-        modulus *= ((begin + clock) / begin)**exponent
+        modulus *= ((begin + age) / begin)**exponent
     if hidden.setting:
         growth, begin = hidden.setting
-        modulus *= 1 + growth - growth / numpy.exp(clock / begin)
+        modulus *= 1 + growth - growth / numpy.exp(age / begin)
     if hidden.cooling:
         difference, settling = hidden.cooling
         modulus *= numpy.exp(difference / numpy.exp(clock / settling))

@@ -1,0 +1,101 @@
+"""Causes that show in coordinates, pores, steady flow, repeated sweeps and after a shear: rows of the table beside those of cases.py, each at two
+strengths."""
+
+from dataclasses import replace
+
+import numpy
+
+import images
+from cases import draw_session, effects, scaled
+from days import sheared_day, up_and_down
+from flow import Flow
+from images import Images
+from series import Series
+from session import Hidden
+
+GAINS = (40, 200)                        # of an effect whose strength is free
+NARROW, WIDE = 12.5e-3, 25e-3            # plates
+FOUND = {"weak": (1.5e-8, 3e-8, 0.01, 0.01), "strong": (2.5e-8, 6e-8, 0.03, 0.03)}  # as in Hidden.images
+SIZES = (0.08, 0.16)
+POTENTIALS = (0.014, 0.015)
+TENSIONS = (6e-3, 9e-3)
+BUILD_UP = (0.15, 0.6)                   # exponents
+
+
+def within(low, high, generator):
+    return float(numpy.exp(generator.uniform(numpy.log(low), numpy.log(high))))
+
+
+def hertz(generator, material):
+    """Up and down, where contacts that stiffen do not show what comes with time."""
+    session = draw_session(generator, material, tables=up_and_down())
+    return scaled(session, material, float(generator.choice(GAINS)),
+                  lambda place: Hidden("contact-nonlinearity", hertz=3e-2 * (1e-5 / 3e-2)**place))
+
+
+def ageing_up_and_down(generator, material):
+    """What looks like Hertz contacts on the way up."""
+    session = draw_session(generator, material, tables=up_and_down())
+    return scaled(session, material, float(generator.choice(GAINS)), effects(generator, session)["ageing"])
+
+
+def prestress(generator, material):
+    return Series(Hidden("prestress", contact=("prestress", float(generator.choice(TENSIONS)))), within(20, 200, generator))
+
+
+def bending_series(generator, material):
+    """What looks like tension in a series of coordinations."""
+    return Series(Hidden("bond-bending", contact=("bond-bending", float(generator.choice([0.003, 0.03])))), within(20, 200, generator))
+
+
+def after_shear(generator, material):
+    """As large as it is."""
+    hidden = Hidden("ageing-after-shear", power=(float(generator.choice(BUILD_UP)), within(3, 300, generator)))
+    return replace(draw_session(generator, material, hidden, tables=sheared_day()), sheared=True)
+
+
+def ageing_after_shears(name):
+    """Other laws of the same age."""
+    def draw(generator, material):
+        session = replace(draw_session(generator, material, tables=sheared_day()), sheared=True)
+        return scaled(session, material, float(generator.choice(GAINS)), effects(generator, session)[name])
+    return draw
+
+
+def flow(name, part, largest, signed, plates=(NARROW,) * 3, gaps=(1e-3,) * 3):
+    """An oil in steady flow with one effect of a drawn gain."""
+    def draw(generator, material):
+        sign = float(generator.choice([-1, 1])) if signed else 1.0
+        oil = Flow(Hidden(), within(0.1, 10, generator), plates, gaps)
+        return scaled(oil, material, float(generator.choice(GAINS)), lambda place: Hidden(name, **{part: sign * largest * 1e-6**(1 - place)}))
+    return draw
+
+
+def localisation(generator, material):
+    return Images(Hidden("localisation-error", images=FOUND[str(generator.choice(list(FOUND)))]), "coordinates", pair(generator))
+
+
+def sizes(generator, material):
+    return Images(Hidden("polydispersity", sizes=float(generator.choice(SIZES))), "coordinates", pair(generator))
+
+
+def potential(generator, material):
+    return Images(Hidden("surface-potential", potential=float(generator.choice(POTENTIALS))), "pore-curve", pair(generator), "brownian")
+
+
+def sharp(kind, maker):
+    """Nothing hidden."""
+    return lambda generator, material: Images(Hidden(), kind, pair(generator), maker)
+
+
+def pair(generator):
+    return tuple(int(number) for number in generator.choice(images.POOL, 2, replace=False))
+
+
+ROWS = {"contact-nonlinearity": hertz, "ageing-up-and-down": ageing_up_and_down, "prestress": prestress, "bond-bending-series": bending_series,
+        "ageing-after-shear": after_shear, "ageing-sheared": ageing_after_shears("ageing"),
+        "torque-offset": flow("torque-offset", "torque", 1e-5, True),
+        "torque-offset-plates": flow("torque-offset", "torque", 1e-5, True, plates=(NARROW, NARROW, WIDE, WIDE), gaps=(1e-3,) * 4),
+        "thinning-oil": flow("thinning", "thinning", 1.0, False),
+        "localisation-error": localisation, "polydispersity": sizes, "surface-potential": potential,
+        "null-coordinates": sharp("coordinates", "vem"), "null-pores": sharp("pore-curve", "brownian")}
