@@ -18,6 +18,7 @@ set(coagula_slow_tests
   "PoreCurves[.].*"
   "Power[.].*"
   "Prestress[.].*"
+  "Remainder[.]AValueAtTheEnd.*"
   "StructureError[.].*"
   "StructureSeries[.].*"
   "Sedimentation[.].*"

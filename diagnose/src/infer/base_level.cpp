@@ -1,4 +1,4 @@
-// The stiffness that the base model needs.
+// The stiffness that a model needs.
 #include "hypothesis.hpp"
 
 #include "data/median.hpp"
@@ -11,9 +11,8 @@
 
 namespace coagula::diagnose {
 
-double Inference::log_level() const {
+double Inference::log_level(Model model) const {
     const std::vector<Observation>& observations = errors_.data().observations;
-    Model model;
     for (int round = 0; round < 2; ++round) {  // an instrument does not scale
         const Eigen::VectorXd predicted = forward_.predict(model);
         std::vector<double> ratios;
@@ -26,6 +25,20 @@ double Inference::log_level() const {
         model.settings.normal_stiffness *= ratios.empty() ? 1.0 : median(std::move(ratios));
     }
     return std::log(model.settings.normal_stiffness);
+}
+
+/// Far from the data the density has long tails, in which a search may stay: it begins where the model lies among the data, or
+/// where it was before if that is nearer to them or the prediction bends.
+double Inference::better_start(Model model, double before) const {
+    if (!scales_ || forward_.bends(model)) {
+        return before;
+    }
+    const double level = log_level(model);
+    const auto density = [&](double place) {
+        model.settings.normal_stiffness = std::exp(place);
+        return errors_.log_density(forward_.prediction(model), {}, Accuracy::middle) + log_prior(place);
+    };
+    return density(level) > density(before) ? level : before;
 }
 
 /// Where part of the rows lies far off, the density of the base model has several maxima along the stiffness: the highest one.

@@ -44,8 +44,8 @@ Prediction rows_of(const Prediction& all, const std::vector<Index>& rows) {
 
 /// Of every row, about those errors that the known rows alone make most probable.
 Prediction predicted(const Forward& everywhere, const Inference& known, const Model& model) {
-    const Prediction by_known = known.prediction(model);
-    return by_known.errors.straight ? everywhere.prediction(model) : everywhere.prediction(model, by_known.errors.about);
+    return everywhere.bends(model) ? everywhere.prediction(model, known.prediction(model).errors.about)
+                                   : everywhere.prediction(model);
 }
 
 /// Sum of the squares of the relative differences. |G*| of a row is what both of its moduli are compared with.

@@ -94,17 +94,14 @@ struct Inference::AlongStiffness {
 
 /// Gauss and Newton's method, in steps of one standard error at most, shorter each time that it turns. A model that needs errors
 /// that do not happen stands at the farthest that do.
-Prediction Inference::prediction(const Model& model, const Eigen::MatrixXd& further) const {
-    constexpr int most_steps = 20;
+Prediction Inference::prediction(const Model& model, const Eigen::MatrixXd& further, int most_steps) const {
     constexpr double converged = 0.03;  // standard errors
     constexpr double farthest = 8;      // all errors together
-    Prediction here = forward_.prediction(model);
-    if (here.errors.straight) {
-        return here;
+    if (!forward_.bends(model)) {
+        return forward_.prediction(model);
     }
-    if (last_errors_.size() == here.errors.about.size()) {
-        here = forward_.prediction(model, last_errors_);
-    }
+    const bool near = last_errors_.size() == forward_.errors_of(model);
+    Prediction here = near ? forward_.prediction(model, last_errors_) : forward_.prediction(model);
     Eigen::VectorXd step = Eigen::VectorXd::Zero(here.errors.about.size());
     double longest = 1;
     for (int steps = 0; steps < most_steps; ++steps) {
@@ -126,7 +123,9 @@ Prediction Inference::prediction(const Model& model, const Eigen::MatrixXd& furt
 Inference::AlongStiffness Inference::density_along(Model model, double log_stiffness, Accuracy accuracy) const {
     constexpr double step = 1e-3;
     model.settings.normal_stiffness = std::exp(log_stiffness);
-    const Prediction here = prediction(model);
+    // On the way the errors follow the stiffness; at its end they are found.
+    constexpr int steps_on_the_way = 2;
+    const Prediction here = prediction(model, {}, accuracy == Accuracy::whole ? many_steps : steps_on_the_way);
     model.settings.normal_stiffness = std::exp(log_stiffness + step);
     const Prediction there = forward_.prediction(model, here.errors.about);
     const auto density = [&](double offset) {
@@ -261,7 +260,8 @@ PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
     double start = log_level_;
     double best = -std::numeric_limits<double>::infinity();
     const auto evaluate = [&](const Eigen::VectorXd& place) {
-        const Node node = best_stiffness(model_at(hypothesis, place, 1), start, best - negligible);
+        const Model model = model_at(hypothesis, place, 1);
+        const Node node = best_stiffness(model, better_start(model, start), best - negligible);
         start = node.log_stiffness;
         best = std::max(best, node.log_weight);
         return node;

@@ -45,6 +45,9 @@ struct Fit {
     std::vector<Model> drawn(Index count) const;
 };
 
+/// Steps after which errors of a prediction are found, or do not happen.
+inline constexpr int many_steps = 20;
+
 /// What to show of a prediction with these errors: of one that stands at some, its straight lines there; of any other itself.
 inline Eigen::VectorXd shown(const Prediction& prediction, const Eigen::VectorXd& errors) {
     return prediction.errors.about.isZero(0) ? prediction.values : prediction.with(errors);
@@ -79,7 +82,7 @@ public:
 
     /// The prediction about those of its own errors that the data make most probable, where it bends with these.
     /// @param further whitened directions, of unit deviation each, in which the data may depart besides.
-    Prediction prediction(const Model& model, const Eigen::MatrixXd& further = {}) const;
+    Prediction prediction(const Model& model, const Eigen::MatrixXd& further = {}, int most_steps = many_steps) const;
 
     /// What to show of a prediction: with those errors that the data ask for where it stands at such, else without.
     Eigen::VectorXd fitted(const Prediction& prediction) const {
@@ -99,7 +102,8 @@ private:
     std::optional<PosteriorGrid> grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
                                                  const EvaluateNode& evaluate) const;
     bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
-    double log_level() const;
+    double log_level(Model model = {}) const;
+    double better_start(Model model, double before) const;
     std::pair<double, double> highest_maximum(const std::function<double(double)>& density) const;
     double density_of_base(double log_stiffness) const;
     double log_prior(double log_stiffness) const;

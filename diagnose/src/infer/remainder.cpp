@@ -51,7 +51,8 @@ void move_to(Start& start, const Inference& inference, Fit fit, const Eigen::Mat
 
 /// The prediction of a start beside further departures, which leave less to its own errors.
 Prediction beside_departures(const Inference& inference, const Start& start, const Eigen::MatrixXd& further) {
-    return start.prediction.errors.straight ? start.prediction : about_known_stiffness(inference, start.fit.model, further);
+    const bool bends = inference.forward().bends(start.fit.model);
+    return bends ? about_known_stiffness(inference, start.fit.model, further) : start.prediction;
 }
 
 Start start_of(const Inference& inference, const Fit& fit) {

@@ -12,7 +12,6 @@ struct ModelErrors {
     Eigen::MatrixXd changes = {};                              ///< numbers x errors: slopes of the numbers by these
     double degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which their common scale is known
     Eigen::VectorXd about = {};  ///< errors at which numbers and slopes are those of the model; empty: 0
-    bool straight = true;        ///< the slopes hold at any errors
 };
 
 }  // namespace coagula::diagnose

@@ -21,7 +21,7 @@ constexpr double largest_scatter = 1.5;       ///< added at most, where the slow
 constexpr double decades = 2.2;               ///< over which errors are alike
 /// As much as the stated scale weighs: other coordinations scatter by up to 1.5 times that.
 constexpr double stated_degrees = 6;
-constexpr double least_share = 1e-3;  ///< of the largest eigenvalue, which an error must have to count
+constexpr double least_share = 1e-2;  ///< of the largest eigenvalue, which an error must have to count
 
 /// Standard deviation of the logarithm of the mean reduced viscosity of structures with so many particles together.
 ArrayXd stated_scatter(const ArrayXd& drags, double particles) {

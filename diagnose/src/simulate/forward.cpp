@@ -307,9 +307,7 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
     for (Index error = 0; error < changes.cols(); ++error) {
         changes.col(error) = seen(model, moduli.col(0) + moduli.col(error + 1), false) - values;
     }
-    return {values,
-            std::move(level_slope),
-            {std::move(changes), degrees_of_errors(model.simulated(), errors.size() > 0), errors, material.logarithms.cols() == 0}};
+    return {values, std::move(level_slope), {std::move(changes), degrees_of_errors(model.simulated(), errors.size() > 0), errors}};
 }
 
 Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {

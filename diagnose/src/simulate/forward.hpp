@@ -52,6 +52,8 @@ public:
     /// The same about these errors.
     Prediction prediction(const Model& model, const Eigen::VectorXd& errors) const;
 
+    /// Whether the prediction of a model bends with its errors.
+    bool bends(const Model& model) const { return remembered_material(model, false).logarithms.cols() > 0; }
     /// How many errors the prediction of a model has.
     Index errors_of(const Model& model) const { return remembered_material(model, false).errors(); }
 
