@@ -62,7 +62,8 @@ Start start_of(const Inference& inference, const Fit& fit) {
     std::vector<double> deviations;
     for (Index column = 0; column <= static_cast<Index>(fit.active_end.size()); ++column) {
         const double slope = slopes.col(column).norm();
-        const bool stays = column > 0 && fit.active_end[static_cast<std::size_t>(column) - 1];
+        // A smooth material follows by its own functions; a line along a parameter beside them leads out of its range.
+        const bool stays = inference.forward().is_smooth() || (column > 0 && fit.active_end[static_cast<std::size_t>(column) - 1]);
         if (!stays && slope > 0) {
             start.follow.push_back(column);
             deviations.push_back(column == 0 && std::isfinite(error) ? error : free_deviation / slope);
