@@ -24,6 +24,11 @@ def data_sets(path):
     return found
 
 
+def free_of_openmp():
+    """The environment without what the tests set."""
+    return {name: value for name, value in os.environ.items() if not name.startswith(("OMP_", "GOMP_"))}
+
+
 class SameBytes(ProgramTest):
     def make(self, name, threads, seed=1):
         common = ["--threads", threads, "--quiet"]
@@ -57,8 +62,7 @@ class SameBytes(ProgramTest):
     def test_no_library_takes_more_threads(self):
         """Left alone, CHOLMOD's loops take four."""
         self.succeed(*VEM, "-o", "made.h5", "--quiet")
-        free = {name: value for name, value in os.environ.items() if not name.startswith(("OMP_", "GOMP_"))}
-        running = subprocess.Popen([PROGRAM, "shear", "made.h5", "--threads", "1", "--quiet"], cwd=self.folder, env=free,
+        running = subprocess.Popen([PROGRAM, "shear", "made.h5", "--threads", "1", "--quiet"], cwd=self.folder, env=free_of_openmp(),
                                    stdin=subprocess.DEVNULL)
         most = 0
         while running.poll() is None:
@@ -68,6 +72,10 @@ class SameBytes(ProgramTest):
                 break
         self.assertEqual(running.wait(), 0)
         self.assertIn(most, (1, 2))  # and one that OpenBLAS keeps
+
+    def test_no_library_complains_of_a_wrong_number_of_threads(self):
+        for count in ("0", "00", "-1", "99999999999999999999999", "two", ""):
+            self.fail_with(2, *VEM, "--threads", count, "-o", "none.h5", says="--threads", env=free_of_openmp())
 
 
 if __name__ == "__main__":

@@ -130,8 +130,9 @@ bool set_if_unset(const char* variable, const std::string& value) {
 /// main, so the program starts itself once more; if that fails, it goes on as it is.
 void restart_with_thread_settings(char** argv) {
     const std::string threads = threads_asked_for(argv);
-    const bool number = !threads.empty() && threads.find_first_not_of("0123456789") == std::string::npos;
-    const bool limited = number && set_if_unset("OMP_THREAD_LIMIT", threads);
+    // libgomp has a sentence of its own for what is no number of threads; the program says it once.
+    const bool number = threads.find_first_not_of("0123456789") == std::string::npos && threads.size() < 5;
+    const bool limited = number && !threads.empty() && threads.front() != '0' && set_if_unset("OMP_THREAD_LIMIT", threads);
     const bool spinning = std::getenv("OMP_WAIT_POLICY") == nullptr && set_if_unset("GOMP_SPINCOUNT", "3000");
     if (limited || spinning) {
         execv("/proc/self/exe", argv);
