@@ -102,12 +102,16 @@ void add_harmonics(const std::vector<Observation>& observations, std::vector<Mis
 /// Steps from a fit towards a mechanism, as unit vectors orthogonal to what the fitted quantities move.
 class StepsTowards {
 public:
-    StepsTowards(const Inference& inference, const Fit& fit, const Mechanism& mechanism, const Eigen::MatrixXd& basis)
-        : inference_(inference), fit_(fit), mechanism_(mechanism), basis_(basis), hypothesis_(fit.hypothesis) {
+    StepsTowards(const Inference& inference, const Fit& fit, const Prediction& about, const Mechanism& mechanism,
+                 const Eigen::MatrixXd& basis)
+        : inference_(inference),
+          fit_(fit),
+          mechanism_(mechanism),
+          basis_(basis),
+          hypothesis_(fit.hypothesis),
+          model_errors_(about.errors.about),
+          here_(inference.errors().whiten(about.values)) {
         hypothesis_.push_back(&mechanism);
-        const Prediction about = inference.prediction(fit.model);
-        model_errors_ = about.errors.about;
-        here_ = inference.errors().whiten(about.values);
     }
 
     /// Over the prior: three places of every parameter but the first, of which there are at least five; more between two whose
@@ -192,14 +196,14 @@ private:
 };
 
 /// A step towards every one of these mechanisms that the fit does not have.
-void add_causes(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows, const Eigen::MatrixXd& basis,
-                std::vector<MisfitStatistic>& all) {
+void add_causes(const Inference& inference, const Fit& fit, const Prediction& about, const Hypothesis& causes, Index rows,
+                const Eigen::MatrixXd& basis, std::vector<MisfitStatistic>& all) {
     for (const Mechanism* mechanism : causes) {
         if (std::find(fit.hypothesis.begin(), fit.hypothesis.end(), mechanism) != fit.hypothesis.end()) {
             continue;
         }
         MisfitStatistic one{.observable = "all", .cause = mechanism->name};
-        const std::vector<Eigen::VectorXd> directions = StepsTowards(inference, fit, *mechanism, basis).all();
+        const std::vector<Eigen::VectorXd> directions = StepsTowards(inference, fit, about, *mechanism, basis).all();
         if (!directions.empty()) {
             one.directions.resize(rows, static_cast<Index>(directions.size()));
             for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -210,9 +214,9 @@ void add_causes(const Inference& inference, const Fit& fit, const Hypothesis& ca
     }
 }
 
-/// All ways to fail. @param basis orthonormal, of what the fitted quantities move.
-std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit& fit, const Hypothesis& causes, Index rows,
-                                           const Eigen::MatrixXd& basis) {
+/// All ways to fail. @param about prediction of the fit. @param basis orthonormal, of what the fitted quantities move.
+std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit& fit, const Prediction& about,
+                                           const Hypothesis& causes, Index rows, const Eigen::MatrixXd& basis) {
     const DataSet& data = inference.errors().data();
     const auto between = [](Index from, Index to) {
         std::vector<Index> range(static_cast<std::size_t>(to - from));
@@ -229,7 +233,7 @@ std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit
     }
     add_harmonics(data.observations, all);
     add_smooth(data.observations, all);
-    add_causes(inference, fit, causes, rows, basis, all);
+    add_causes(inference, fit, about, causes, rows, basis, all);
     return all;
 }
 
@@ -334,10 +338,10 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
     const Departures departures = departures_of(inference, fit);
     const Index rows = departures.residual.size();
     const Eigen::MatrixXd basis = orthonormal_basis(departures.jacobian);
-    const double degrees = inference.prediction(fit.model).errors.degrees;
+    const Prediction about = inference.prediction(fit.model);
     const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
     Detection result;
-    result.statistics = statistics_of(inference, fit, causes, rows, basis);
+    result.statistics = statistics_of(inference, fit, about, causes, rows, basis);
     const auto kinds = static_cast<Index>(result.statistics.size());
     Eigen::MatrixXd values(kinds, bootstrap + 1);  // the data themselves come last
     for (int sample = 0; sample <= bootstrap; ++sample) {
@@ -349,7 +353,8 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
                 return normal_number(seed, static_cast<std::uint64_t>(sample),
                                      static_cast<std::uint64_t>(1000000 + rows - 1 - row));
             };
-            const double scale = std::isfinite(degrees) ? 1 / std::sqrt(scaled_chi_square(degrees, normal(rows))) : 1.0;
+            const double scale =
+                std::isfinite(about.errors.degrees) ? 1 / std::sqrt(scaled_chi_square(about.errors.degrees, normal(rows))) : 1.0;
             for (Index row = errors.size(); row < rows; ++row) {
                 drawn[row] = (row < last_error ? scale : 1.0) * normal(row);
             }

@@ -17,9 +17,8 @@ struct DragScatter {
 /// number of particles, and it is smooth along the logarithm of the drag. Where structures differ by factors, the mean of few lacks
 /// those that lose most: its logarithm is expected below that of the mean of many by half the variance, and the variance is that of
 /// a mean of lognormal numbers (Fenton, IRE Trans. Commun. Syst. 8 (1960) 57), as which the parts of a large structure count, too.
-/// Structures alone say too little about it: two of them
-/// know one shape of many. Hence the stated scatter is that of 134 structures by void expansion, and the structures at hand correct
-/// its scale.
+/// Structures alone say too little about it: two of them know one shape of many. Hence the stated scatter is that of 134 structures
+/// by void expansion, and the structures at hand correct its scale.
 ///
 /// @param drags reduced ones at the nodes, equally spaced in the logarithm.
 /// @param particles mean number in a structure.

@@ -4,7 +4,6 @@
 
 namespace coagula::diagnose {
 
-using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 
@@ -15,23 +14,24 @@ UncertainModuli::UncertainModuli(VectorXcd expected, MatrixXcd added)
       excess(VectorXcd::Zero(mean.size())),
       logarithms(MatrixXcd::Zero(mean.size(), 0)) {}
 
-UncertainModuli::UncertainModuli(VectorXcd known) : UncertainModuli(std::move(known), {}) {
-    changes = MatrixXcd::Zero(mean.size(), 0);
+UncertainModuli::UncertainModuli(const VectorXcd& known) : UncertainModuli(known, MatrixXcd(known.size(), 0)) {}
+
+UncertainModuli::Parts UncertainModuli::parts(const Eigen::VectorXd& errors) const {
+    const VectorXcd moduli = mean + changes * errors.head(changes.cols());
+    const VectorXcd growth = (excess + logarithms * errors.tail(logarithms.cols())).array().exp();
+    return {moduli, growth, 1.0 + dragged.array() * (growth.array() - 1.0)};
 }
 
 VectorXcd UncertainModuli::with(const Eigen::VectorXd& errors) const {
-    return tangents(errors).col(0);
+    const Parts here = parts(errors);
+    return here.moduli.cwiseProduct(here.factor);
 }
 
 MatrixXcd UncertainModuli::tangents(const Eigen::VectorXd& errors) const {
-    const Index adding = changes.cols();
-    const VectorXcd moduli = mean + changes * errors.head(adding);
-    const VectorXcd growth = (excess + logarithms * errors.tail(logarithms.cols())).array().exp();
-    const VectorXcd factor = 1.0 + dragged.array() * (growth.array() - 1.0);
+    const Parts here = parts(errors);
     MatrixXcd all(mean.size(), 1 + errors.size());
-    all.col(0) = moduli.cwiseProduct(factor);
-    all.middleCols(1, adding) = factor.asDiagonal() * changes;
-    all.rightCols(logarithms.cols()) = moduli.cwiseProduct(dragged).cwiseProduct(growth).asDiagonal() * logarithms;
+    all << here.moduli.cwiseProduct(here.factor), here.factor.asDiagonal() * changes,
+        here.moduli.cwiseProduct(dragged).cwiseProduct(here.growth).asDiagonal() * logarithms;
     return all;
 }
 

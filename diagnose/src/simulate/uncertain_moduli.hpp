@@ -17,7 +17,7 @@ struct UncertainModuli {
     Eigen::MatrixXcd logarithms;  ///< numbers x errors of the drag
 
     /// Of which nothing is open.
-    explicit UncertainModuli(Eigen::VectorXcd known = {});
+    explicit UncertainModuli(const Eigen::VectorXcd& known = {});
     UncertainModuli(Eigen::VectorXcd expected, Eigen::MatrixXcd added);
 
     Eigen::Index errors() const { return changes.cols() + logarithms.cols(); }
@@ -26,6 +26,14 @@ struct UncertainModuli {
     Eigen::VectorXcd with(const Eigen::VectorXd& errors) const;
     /// The same, and the slope by each error.
     Eigen::MatrixXcd tangents(const Eigen::VectorXd& errors) const;
+
+private:
+    struct Parts {
+        Eigen::VectorXcd moduli;  ///< without errors of the drag
+        Eigen::VectorXcd growth;  ///< of the dragged part
+        Eigen::VectorXcd factor;  ///< on these
+    };
+    Parts parts(const Eigen::VectorXd& errors) const;
 };
 
 }  // namespace coagula::diagnose

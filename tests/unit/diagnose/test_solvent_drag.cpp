@@ -232,6 +232,46 @@ TEST(SolventDrag, ExtendedModelRunsToTheSamePrediction) {
     }
 }
 
+/// What drags in a large sample is expected to exceed what drags in a few structures; the springs do not.
+TEST(SolventDrag, IsExpectedAboveThatOfTheStructures) {
+    Experiment experiment;
+    experiment.measurements = {sweep({0.1, 10}, std::vector<Complex>(2, 1.0), 0, 1)};
+    const std::vector<Observation> rows = observations_of(experiment);
+    const Forward forward(experiment, rows, simulator());
+    const Settings settings = with_drag(1e-6);
+    const Eigen::VectorXd few = forward.predict(settings);
+    const Eigen::VectorXd many = forward.predict(settings, Eigen::VectorXd::Zero(forward.errors_of(settings)));
+    for (Eigen::Index row = 0; row < few.size(); ++row) {
+        const Observation& one = rows[static_cast<std::size_t>(row)];
+        const Complex drag = simulator().drag_response(settings, one.angular_frequency) - 1.0;
+        const Complex excess = simulator().drag_excess(settings, one.angular_frequency)[0];
+        EXPECT_GT(excess.real(), 0.03);  // half the variance of so many particles together
+        const auto part = [&](Complex response) { return one.loss ? response.imag() : response.real(); };
+        EXPECT_NEAR(many[row] / few[row], part(1.0 + drag * std::exp(excess)) / part(1.0 + drag), 1e-9);
+    }
+}
+
+/// A change of the size of the drag along the frequency turns its phase: between two structures as much as Bode's relation says.
+TEST(SolventDrag, ErrorsTurnThePhaseAsStructuresDo) {
+    SimulationCache cache;
+    Simulator one({structure(200, 1)}, {"alone 1"}, cache);
+    Simulator other({structure(200, 2)}, {"alone 2"}, cache);
+    const auto ratio = [&](double reduced) {
+        return std::log((one.drag_response(with_drag(reduced), 1) - 1.0) / (other.drag_response(with_drag(reduced), 1) - 1.0));
+    };
+    double product = 0;
+    double square = 0;
+    for (const double reduced : logarithmic_steps(1e-6, 1e-3, 13)) {
+        const double turned = 0.25 * pi * (ratio(reduced * std::exp(1)).real() - ratio(reduced / std::exp(1)).real());
+        product += turned * ratio(reduced).imag();
+        square += turned * turned;
+        const auto excess = [&](double place) { return one.drag_excess(with_drag(place), 1); };
+        const Eigen::RowVectorXd slope = (excess(1.02 * reduced) - excess(reduced / 1.02)).real() / (2 * std::log(1.02));
+        EXPECT_LT((excess(reduced).imag() - 0.5 * pi * slope).norm(), 0.05 * slope.norm()) << reduced;
+    }
+    EXPECT_NEAR(product / square, 1, 0.3);
+}
+
 /// A sample whose drag is several times that of the structures: errors of a factor meet it, as the prediction is made about them.
 TEST(SolventDrag, IsPredictedAboutTheErrorsThatTheDataAskFor) {
     const std::vector<double> frequencies = logarithmic_steps(0.1, 100, 16);
