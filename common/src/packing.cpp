@@ -98,6 +98,7 @@ void check(const Packing& packing, const std::string& name) {
         check_one(packing, particle, name);
     }
     require_positive(solid_volume(packing), name + ": the volume of the spheres", "m^3");
+    require_positive(volume_fraction(packing), name + ": the volume fraction");
     check_distinct_centres(packing, name);
 }
 

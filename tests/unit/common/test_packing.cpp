@@ -58,6 +58,9 @@ TEST(CheckPacking, RefusesLengthsWhoseCubesAreNoNumbers) {
     Packing packing = random_points(2, 1, Cell::periodic(Eigen::Vector3d::Ones()), Eigen::Vector3d::Zero(), 1);
     packing.radii.setConstant(1e-150);
     EXPECT_EQ(complaint([&] { check(packing, "p"); }), "p: the volume of the spheres is 0 m^3, but must be finite and positive");
+    packing.radii.setConstant(1e-107);
+    packing.cell = Cell::periodic(Eigen::Vector3d::Constant(10));
+    EXPECT_EQ(complaint([&] { check(packing, "p"); }), "p: the volume fraction is 0, but must be finite and positive");
 }
 
 }  // namespace
