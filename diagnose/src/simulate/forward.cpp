@@ -181,11 +181,31 @@ UncertainModuli Forward::network(const Model& model, bool exact) const {
         }
     }
     const Eigen::MatrixXcd yielding = moduli.asDiagonal() * amplitude_factors(settings, exact);
-    UncertainModuli all(yielding.col(0), yielding.rightCols(yielding.cols() - 1).colwise() - yielding.col(0));
+    const Eigen::Index yield_errors = yielding.cols() - 1;
+    const Eigen::MatrixXd stiffening = exact ? Eigen::MatrixXd(moduli.size(), 0) : stiffening_errors(settings);
+    Eigen::MatrixXcd changes(moduli.size(), yield_errors + stiffening.cols());
+    changes << yielding.rightCols(yield_errors).colwise() - yielding.col(0), yielding.col(0).asDiagonal() * stiffening;
+    UncertainModuli all(yielding.col(0), std::move(changes));
     if (!exact && settings.felt_viscosity > 0) {
         add_drag_errors(settings, all);
     }
     return all;
+}
+
+/// Of Hertz contacts, relative: observations x errors, none where contacts are linear springs.
+Eigen::MatrixXd Forward::stiffening_errors(const Settings& settings) const {
+    Eigen::MatrixXd errors(static_cast<Index>(observations_.size()), 0);
+    for (std::size_t k = 0; settings.contact_preload > 0 && k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        if (is_modulus(observation) && !observation.third_harmonic && !is_fluid(observation) && std::isfinite(observation.strain)) {
+            const Eigen::RowVectorXd one = simulator_.contact_errors(settings, observation.strain);
+            if (errors.cols() == 0) {
+                errors.setZero(errors.rows(), one.size());
+            }
+            errors.row(static_cast<Index>(k)) = one;
+        }
+    }
+    return errors;
 }
 
 /// Those that each structure leaves, also where no row shows them.
@@ -266,7 +286,10 @@ Eigen::VectorXd Forward::predict(const Model& model, const Eigen::VectorXd& erro
 double Forward::degrees_of_errors(const Settings& settings, bool any) const {
     double degrees = smooth_ ? SmoothMaterial::degrees : std::numeric_limits<double>::infinity();
     if (any && settings.felt_viscosity > 0) {
-        degrees = simulator_.drag_degrees();
+        degrees = std::min(degrees, simulator_.drag_degrees());
+    }
+    if (any && settings.contact_preload > 0) {
+        degrees = std::min(degrees, simulator_.contact_degrees());
     }
     if (any && std::isfinite(with_weakest_bonds(settings).critical_strain)) {
         degrees = std::min(degrees, simulator_.yield_degrees());

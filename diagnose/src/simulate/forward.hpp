@@ -46,8 +46,9 @@ public:
     Eigen::VectorXd predict(const Model& model, const Eigen::VectorXd& errors) const;
 
     /// The same between the nodes, with how it changes with the level of a sample and with the independent standard errors that so
-    /// few structures leave: in how they yield (Simulator::amplitude_response) and in how a solvent drags on them
-    /// (Simulator::drag_excess). About those errors of a smooth material that the data ask for; else about none.
+    /// few structures leave: in how they yield (Simulator::amplitude_response), in how Hertz contacts stiffen
+    /// (Simulator::contact_errors) and in how a solvent drags on them (Simulator::drag_excess). About those errors of a smooth
+    /// material that the data ask for; else about none.
     Prediction prediction(const Model& model) const;
     /// The same about these errors.
     Prediction prediction(const Model& model, const Eigen::VectorXd& errors) const;
@@ -96,6 +97,7 @@ private:
     UncertainModuli network(const Model& model, bool exact) const;
     void scale(UncertainModuli& moduli, const Model& model, bool exact) const;
     void replace_fluids(UncertainModuli& moduli) const;
+    Eigen::MatrixXd stiffening_errors(const Settings& settings) const;
     void add_drag_errors(const Settings& settings, UncertainModuli& moduli) const;
     double degrees_of_errors(const Settings& settings, bool any) const;
     const UncertainModuli& remembered_material(const Model& model, bool exact) const;

@@ -25,7 +25,6 @@ DRAGGED = 64   # of which each sample in a solvent that drags is made anew: flop
 LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
 SWEEP_ROWS = 14
 RUPTURE_ROWS, RUPTURE_LOAD = 28, 8.0  # of the sweeps of bonds whose strength depends on the rate
-HERTZ_STRUCTURES = 4
 HERTZ_LOADS = tuple(0.05 * 10**(step / 4) for step in range(17))  # strains over the overlap at rest, over the radius
 STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
 CONTACT = STIFFNESS / 2
@@ -67,7 +66,7 @@ class Material:
         tasks += [("elastic", number) for number in range(DRAGGED) if dragged]
         tasks += [("rupture", number) for number in range(BREAKING) if rupture]
         tasks += [("modulus", number, "volume-fraction", fraction) for fraction in FRACTIONS for number in range(STRUCTURES) if settling]
-        tasks += [("hertz_curve", number) for number in range(HERTZ_STRUCTURES) if hertzian]
+        tasks += [("hertz_curve", number) for number in range(STRUCTURES) if hertzian]
         for number in range(DRAGGED if dragged else BREAKING if breaking or rupture else STRUCTURES):
             self.structure(number)
         for coordination in coordinations:
@@ -166,15 +165,16 @@ class Material:
         return self.remembered(f"pulled {number} {tension} {coordination}", compute)
 
     def hertz_curve(self, number):
-        """Stress over strain of a structure of Hertz contacts at HERTZ_LOADS over that of small strains (hertz.py)."""
+        """Stress over strain of a structure of Hertz contacts at HERTZ_LOADS over that of small strains, mean of three planes (hertz.py)."""
         def compute():
             places, radii, box = self.particles(self.structure(number))
-            return hertz.secants(places, network.bonds_of(places, radii, box), box, HERTZ_LOADS, number % 3)
-        return self.remembered(f"hertz {number}", compute)
+            bonds = network.bonds_of(places, radii, box)
+            return numpy.mean([hertz.secants(places, bonds, box, HERTZ_LOADS, plane) for plane in range(3)], axis=0).tolist()
+        return self.remembered(f"hertz in three planes {number}", compute)
 
     def hertz(self, preload, strains):
         """G' of the fundamental over that of small strains, of Hertz contacts pressed in by `preload` radii, of several structures together."""
-        curve = numpy.mean([self.hertz_curve(number) for number in range(HERTZ_STRUCTURES)], axis=0)
+        curve = numpy.mean([self.hertz_curve(number) for number in range(STRUCTURES)], axis=0)
         phases = (numpy.arange(200) + 0.5) / 200 * numpy.pi / 2
         loads = numpy.log(numpy.outer(numpy.atleast_1d(strains), numpy.sin(phases)) / preload)
         secants = numpy.exp(numpy.interp(loads, numpy.log(HERTZ_LOADS), numpy.log(curve)))

@@ -59,7 +59,7 @@ TEST(CheckPacking, RefusesLengthsWhoseCubesAreNoNumbers) {
     packing.radii.setConstant(1e-150);
     EXPECT_EQ(complaint([&] { check(packing, "p"); }), "p: the volume of the spheres is 0 m^3, but must be finite and positive");
     packing.radii.setConstant(1e-107);
-    packing.cell = Cell::periodic(Eigen::Vector3d::Constant(10));
+    packing.cell = Cell::periodic(Eigen::Vector3d::Constant(1000));
     EXPECT_EQ(complaint([&] { check(packing, "p"); }), "p: the volume fraction is 0, but must be finite and positive");
 }
 

@@ -32,6 +32,8 @@ struct Yielded {
     double settled = 0;          ///< G' / G in the next one, in which nothing breaks any more
 };
 
+struct HertzScatter;
+
 /// Moduli of some structures of one sample (mean over them and over the orientations).
 ///
 /// `linear_modulus` and `amplitude_response` run the solvers at nodes of a grid and interpolate between them (cubic, in
@@ -87,7 +89,12 @@ public:
     /// in it.
     double contact_response(const Settings& settings, double amplitude);
 
-    /// The same of stress over strain at a momentary strain.
+    /// What more structures could change in it, over it, by each independent standard error (src/simulate/hertz_scatter.hpp).
+    Eigen::RowVectorXd contact_errors(const Settings& settings, double amplitude);
+    /// Degrees of freedom from which their common scale is known.
+    double contact_degrees();
+
+    /// As contact_response, of stress over strain at a momentary strain.
     double contact_secant(const Settings& settings, double strain);
 
     /// G' / G of bonds that break while the strain amplitude x sin(phase) [rad] runs for the first time, `before` being the largest
@@ -151,8 +158,9 @@ private:
     std::vector<std::vector<Yielded>> nodes_of_strength_curves();
     std::vector<double> unbroken_strains(const Settings& settings);
     const YieldCurves& strength_curves();
-    double secant_modulus(std::size_t structure, double load);
+    const std::vector<double>& secant_moduli(std::size_t structure);
     const std::vector<double>& secant_curve();
+    const HertzScatter& contact_scatter();
     double prestressed_modulus(std::size_t structure, const Settings& settings);
     double thinned_modulus(std::size_t structure, const Settings& settings, double missing);
     const std::vector<double>& thinned_curve(std::size_t group);
@@ -190,9 +198,10 @@ private:
     std::map<StructureChange, std::unique_ptr<Simulator>> remade_;
     std::map<std::size_t, PoreCurve> pore_curves_;
     std::map<std::array<double, 4>, PoreCurve> imaged_pores_;
-    std::vector<double> shells_about_places_;     ///< once it has been asked for
-    std::vector<double> secant_curve_;            ///< likewise
-    std::optional<YieldCurves> strength_curves_;  ///< likewise
+    std::vector<double> shells_about_places_;              ///< once it has been asked for
+    std::vector<double> secant_curve_;                     ///< likewise
+    std::shared_ptr<const HertzScatter> contact_scatter_;  ///< likewise
+    std::optional<YieldCurves> strength_curves_;           ///< likewise
 };
 
 }  // namespace coagula::diagnose

@@ -1,0 +1,22 @@
+// How far the stiffening of Hertz contacts in a large sample can be from that in a few structures.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace coagula::diagnose {
+
+/// Of the logarithm of the secant modulus at the nodes of hertz_axis over that of small strains.
+struct HertzScatter {
+    Eigen::MatrixXd errors;  ///< nodes x independent standard errors of the mean over the structures
+    double degrees;          ///< of freedom from which their common scale is known
+};
+
+/// Structures differ in what they bear once the contacts have stiffened, all at large strains alike, so that few of them tell the
+/// shape of the errors badly. Hence it is a stated one, that of 40 structures by void expansion, which falls with the root of the
+/// number of particles; the structures at hand correct its scale.
+///
+/// @param particles mean number in a structure.
+/// @param logarithms nodes x structures: of their secant moduli over that of small strains.
+HertzScatter hertz_scatter(double particles, const Eigen::MatrixXd& logarithms);
+
+}  // namespace coagula::diagnose
