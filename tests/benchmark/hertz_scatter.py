@@ -21,9 +21,9 @@ sys.path.append(str(Path(__file__).parent / "diagnosis_campaign"))
 import hertz
 import network
 
-LOADS = 0.05 * 10.0**(numpy.arange(9) / 2)  # strains over the overlap at rest, over the radius
+LOADS = 0.1 * 10.0**(numpy.arange(15) / 4)  # strains over the overlap at rest, over the radius
 CASES = ((400, 4.69, 40), (400, 5.2, 20), (1600, 4.69, 12))  # particles, coordination, structures
-STEPS = 2  # between those
+STEPS = 2  # from one of those to the next
 
 
 def run(program, *words):
@@ -45,7 +45,7 @@ def curve(program, folder, case, seed):
     centres = numpy.stack([columns[axis] for axis in "xyz"], axis=1)
     box = numpy.array(json.loads(run(program, "info", path, "--json"))["box"])
     bonds = network.bonds_of(centres, columns["radius"], box)
-    loads = 0.05 * 10.0**(numpy.arange(8 * STEPS + 1) / (2 * STEPS))
+    loads = LOADS[0] * 10.0**(numpy.arange(14 * STEPS + 1) / (4 * STEPS))
     planes = [hertz.secants(centres, bonds, box, loads, plane)[::STEPS] for plane in range(3)]
     return numpy.log(numpy.mean(planes, axis=0))
 

@@ -5,6 +5,7 @@
 #include <coagula/common/general_contact.hpp>
 #include <coagula/mechanics/linear.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -14,9 +15,10 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr double preload = 1e-4;    // only the load counts
-constexpr double converged = 1e-3;  // of the modulus: nodes half a decade apart do not tell more
+constexpr double converged = 1e-3;  // of the modulus
 constexpr int most_iterations = 20;
-constexpr double share_of_new = 0.7;  // in the overlaps of the next iteration: stiffer bonds stretch less, so that they overshoot
+constexpr double least_secant = 0.05;  ///< of a contact that is sheared back, over its tangent
+constexpr double share_of_new = 0.7;   // in the overlaps of the next iteration: stiffer bonds stretch less, so that they overshoot
 
 /// Plane a-b and its place among the strains (Voigt).
 struct Plane {
@@ -34,67 +36,105 @@ public:
     /// Secant moduli [Pa] while the strain grows in this direction.
     std::vector<double> moduli(const Plane& plane, double direction, const std::vector<double>& loads) const {
         std::vector<double> found;
-        Eigen::VectorXd change = Eigen::VectorXd::Zero(bonds_.size());
-        double before = loads.front();
+        State state{0, Eigen::MatrixX2d::Zero(bonds_.size(), 2), Eigen::VectorXd::Zero(bonds_.size())};
         for (const double load : loads) {
-            change *= load / std::exchange(before, load);
-            found.push_back(equilibrium(plane, direction * load * preload, change));
+            found.push_back(equilibrium(plane, direction * load * preload, state));
         }
         return found;
     }
 
 private:
+    struct State {
+        double strain;
+        Eigen::MatrixX2d moved;  ///< change of every bond's overlap from that at rest, and how far its contact was sheared [m]
+        Eigen::VectorXd shear;   ///< force [N]
+    };
+
     ContactModel model() const {
         Settings settings;
         settings.contact_preload = preload;
         return contact_model_of(settings, radius_);
     }
 
-    /// By secant stiffnesses. @param change of the overlaps from those at rest [m]: a guess, then that of the equilibrium.
-    double equilibrium(const Plane& plane, double strain, Eigen::VectorXd& change) const {
+    /// The next one while the strain grows, by secant stiffnesses.
+    double equilibrium(const Plane& plane, double strain, State& state) const {
+        const bool first = state.strain == 0;
+        Eigen::MatrixX2d moved = state.moved * (first ? 0.0 : strain / state.strain);
         double modulus = 0;
         for (int iteration = 0; iteration < most_iterations; ++iteration) {
             mechanics::LinearOptions options;
             for (Index bond = 0; bond < bonds_.size(); ++bond) {
-                options.bond_tangents.push_back(secant(bond, change[bond]));
+                options.bond_tangents.push_back(secant(bond, moved.row(bond), state));
             }
             const mechanics::LinearResponse response = mechanics::solve_linear(packing_, bonds_, options, progress_);
-            const auto place = static_cast<std::size_t>(plane.strain);
-            const Eigen::VectorXd next = strain * overlaps_per_strain(plane, response.displacement[place]);
-            change = iteration == 0 && change.isZero(0) ? next : (1 - share_of_new) * change + share_of_new * next;
+            const Eigen::MatrixX2d next = std::abs(strain) * moved_per_strain(plane, strain > 0 ? 1 : -1, response);
+            moved = first && iteration == 0 ? next : (1 - share_of_new) * moved + share_of_new * next;
             const double before = std::exchange(modulus, response.elastic_tensor(plane.strain, plane.strain));
             if (modulus <= 0 || std::abs(modulus - before) < converged * modulus) {
                 break;
             }
         }
+        for (Index bond = 0; bond < bonds_.size(); ++bond) {
+            state.shear[bond] = shear_force(bond, moved.row(bond), state);
+        }
+        state.moved = moved;
+        state.strain = strain;
         return modulus;
     }
 
-    /// Secant stiffness of a bond whose overlap changed from that at rest, where another force balances it. Mindlin's shear stiffness
-    /// grows on the way as the normal one does, so that their secants keep the ratio.
-    ContactTangent secant(Index bond, double change) const {
+    double effective_radius(Index bond) const {
         const double first = packing_.radii[bonds_.ends(0, bond)];
         const double second = packing_.radii[bonds_.ends(1, bond)];
-        const double effective_radius = first * second / (first + second);
-        const double overlap = preload * radius_;
-        const NormalResponse rest = law_.normal(overlap, effective_radius, true);
-        const bool moved = std::abs(change) > 1e-9 * overlap;
-        const double force = law_.normal(overlap + change, effective_radius, true).force;
-        const double normal = moved ? (force - rest.force) / change : rest.stiffness;
-        return {.normal = normal, .shear = normal * rest.shear_stiffness / rest.stiffness};
+        return first * second / (first + second);
     }
 
-    /// Of every bond by a unit shear strain (engineering) with the displacements found for it [m].
-    Eigen::VectorXd overlaps_per_strain(const Plane& plane, const Eigen::Matrix3Xd& displacement) const {
-        Eigen::VectorXd overlap(bonds_.size());
+    /// Mean of the normal stiffness of a bond over overlaps between these changes from that at rest.
+    double normal_between(Index bond, double from, double to) const {
+        const double overlap = preload * radius_;
+        const double radius = effective_radius(bond);
+        const NormalResponse start = law_.normal(overlap + from, radius, true);
+        const bool moved = std::abs(to - from) > 1e-9 * overlap;
+        return moved ? (law_.normal(overlap + to, radius, true).force - start.force) / (to - from) : start.stiffness;
+    }
+
+    /// Mindlin's shear stiffness grows as the normal one does.
+    double shear_between(Index bond, double from, double to) const {
+        const NormalResponse rest = law_.normal(preload * radius_, effective_radius(bond), true);
+        return rest.shear_stiffness / rest.stiffness * normal_between(bond, from, to);
+    }
+
+    /// Grows with the shear stiffness of the moment.
+    double shear_force(Index bond, const Eigen::RowVector2d& moved, const State& before) const {
+        return before.shear[bond] + shear_between(bond, before.moved(bond, 0), moved[0]) * (moved[1] - before.moved(bond, 1));
+    }
+
+    /// Secant stiffness of a bond, whose normal force at rest another one balances.
+    ContactTangent secant(Index bond, const Eigen::RowVector2d& moved, const State& before) const {
+        const double tangent = shear_between(bond, before.moved(bond, 0), moved[0]);
+        const double shear = moved[1] > 0 ? shear_force(bond, moved, before) / moved[1] : tangent;
+        return {.normal = normal_between(bond, 0, moved[0]), .shear = std::max(shear, least_secant * tangent)};
+    }
+
+    /// Change of overlaps, and how far contacts are sheared, by a unit strain (engineering) in this direction.
+    Eigen::MatrixX2d moved_per_strain(const Plane& plane, double direction, const mechanics::LinearResponse& response) const {
+        const auto place = static_cast<std::size_t>(plane.strain);
+        const Eigen::Matrix3Xd& displacement = response.displacement[place];
+        const Eigen::Matrix3Xd& rotation = response.rotation[place];
+        Eigen::MatrixX2d found(bonds_.size(), 2);
         for (Index bond = 0; bond < bonds_.size(); ++bond) {
+            const Index i = bonds_.ends(0, bond);
+            const Index j = bonds_.ends(1, bond);
             const Eigen::Vector3d branch = bonds_.branch.col(bond);
-            Eigen::Vector3d moved = displacement.col(bonds_.ends(1, bond)) - displacement.col(bonds_.ends(0, bond));
-            moved[plane.a] += 0.5 * branch[plane.b];
-            moved[plane.b] += 0.5 * branch[plane.a];
-            overlap[bond] = -moved.dot(branch) / branch.norm();
+            const Eigen::Vector3d axis = branch.normalized();
+            Eigen::Vector3d ends = displacement.col(j) - displacement.col(i);
+            ends[plane.a] += 0.5 * branch[plane.b];
+            ends[plane.b] += 0.5 * branch[plane.a];
+            const double along = ends.dot(axis);
+            const Eigen::Vector3d turned = (packing_.radii[i] * rotation.col(i) + packing_.radii[j] * rotation.col(j)) /
+                                           (packing_.radii[i] + packing_.radii[j]);
+            found.row(bond) << -direction * along, (ends - turned.cross(branch) - along * axis).norm();
         }
-        return overlap;
+        return found;
     }
 
     const Packing& packing_;

@@ -25,7 +25,7 @@ DRAGGED = 64   # of which each sample in a solvent that drags is made anew: flop
 LOADS = (4.0, 8.0)  # largest strain of a sweep over the critical one
 SWEEP_ROWS = 14
 RUPTURE_ROWS, RUPTURE_LOAD = 28, 8.0  # of the sweeps of bonds whose strength depends on the rate
-HERTZ_LOADS = tuple(0.05 * 10**(step / 4) for step in range(17))  # strains over the overlap at rest, over the radius
+HERTZ_LOADS = tuple(0.05 * 10**(step / 8) for step in range(33))  # strains over the overlap at rest, over the radius
 STIFFNESS = 100.0  # of a particle [N/m]; moduli are proportional to it
 CONTACT = STIFFNESS / 2
 RADIUS = 0.25e-6
@@ -170,7 +170,7 @@ class Material:
             places, radii, box = self.particles(self.structure(number))
             bonds = network.bonds_of(places, radii, box)
             return numpy.mean([hertz.secants(places, bonds, box, HERTZ_LOADS, plane) for plane in range(3)], axis=0).tolist()
-        return self.remembered(f"hertz in three planes {number}", compute)
+        return self.remembered(f"hertz in three planes, steps of an eighth {number}", compute)
 
     def hertz(self, preload, strains):
         """G' of the fundamental over that of small strains, of Hertz contacts pressed in by `preload` radii, of several structures together."""
