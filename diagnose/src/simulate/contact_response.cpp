@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <type_traits>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -85,6 +86,7 @@ double Simulator::contact_response(const Settings& settings, double amplitude) {
     return fundamental(amplitude, [&](double strain) { return contact_secant(settings, strain); });
 }
 
+/// Of the fundamental at amplitudes of the nodes, relative.
 const HertzScatter& Simulator::contact_scatter() {
     if (!contact_scatter_) {
         Eigen::MatrixXd logarithms(hertz_axis.count, static_cast<Index>(structures_.size()));
@@ -93,7 +95,19 @@ const HertzScatter& Simulator::contact_scatter() {
             logarithms.col(static_cast<Index>(structure)) =
                 Eigen::Map<const Eigen::ArrayXd>(one.data(), hertz_axis.count).log() - std::log(one.front());
         }
-        contact_scatter_ = std::make_shared<HertzScatter>(hertz_scatter(particles(), logarithms));
+        const HertzScatter secants = hertz_scatter(particles(), logarithms);
+        const auto error = [&](int node) -> Eigen::RowVectorXd { return secants.errors.row(node); };
+        Settings settings;
+        settings.contact_preload = 1;
+        HertzScatter fundamentals = secants;
+        for (int node = 0; node < hertz_axis.count; ++node) {
+            const double amplitude = hertz_axis.node(node);
+            const auto moved = [&](double load) {
+                return Eigen::RowVectorXd(contact_secant(settings, load) * interpolate_nodes(hertz_axis, load, error));
+            };
+            fundamentals.errors.row(node) = fundamental(amplitude, moved) / contact_response(settings, amplitude);
+        }
+        contact_scatter_ = std::make_shared<HertzScatter>(std::move(fundamentals));
     }
     return *contact_scatter_;
 }
@@ -103,13 +117,9 @@ double Simulator::contact_degrees() {
 }
 
 Eigen::RowVectorXd Simulator::contact_errors(const Settings& settings, double amplitude) {
-    const Eigen::MatrixXd& nodes = contact_scatter().errors;
-    const Eigen::RowVectorXd moved = fundamental(amplitude, [&](double strain) {
-        const double load = strain / settings.contact_preload;
-        const auto node = [&](int k) -> Eigen::RowVectorXd { return nodes.row(k); };
-        return Eigen::RowVectorXd(contact_secant(settings, strain) * interpolate_nodes(hertz_axis, load, node));
-    });
-    return moved / contact_response(settings, amplitude);
+    const Eigen::MatrixXd& errors = contact_scatter().errors;
+    const auto at = [&](int node) -> Eigen::RowVectorXd { return errors.row(node); };
+    return interpolate_nodes(hertz_axis, amplitude / settings.contact_preload, at);
 }
 
 }  // namespace coagula::diagnose
