@@ -4,30 +4,18 @@
 Structures by void expansion are sheared at reduced drags (drag on a particle times angular frequency over its stiffness) from 1e-7 to 100. Printed are,
 of the logarithm of G'' over the mean G' and over the reduced drag, the standard deviation between structures and how it is correlated along the drag."""
 
-import argparse
-import json
-import subprocess
-from pathlib import Path
-
 import numpy
 
-RADIUS = 0.25e-6
+from scatter_structures import RADIUS, program_and_folder, run, structure
+
 STIFFNESS = 100.0  # of a particle [N/m]
 DRAGS = 10.0**numpy.linspace(-7, 2, 19)
 CASES = ((400, 4.69, 80), (400, 5.2, 30), (1600, 4.69, 24))  # particles, coordination, structures
 
 
-def run(program, *words):
-    done = subprocess.run([program, *map(str, words), "--threads", "1", "--json"], capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
-
-
 def losses(program, folder, particles, coordination, seed):
     """Linear modulus, and loss modulus at all reduced drags, of one structure."""
-    path = folder / f"{particles}_{coordination}_{seed}.h5"
-    if not path.exists():
-        run(program, "generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", 0.4, "--radius", RADIUS,
-            "--seed", 5000 + seed, "--target-coordination", coordination, "-o", path)
+    path = structure(program, folder, particles, coordination, seed)
     model = folder / "drag.toml"
     model.write_text("solvent_viscosity = 1.0\n")
     frequencies = DRAGS * STIFFNESS / (2 * numpy.pi * 6 * numpy.pi * RADIUS)
@@ -38,13 +26,9 @@ def losses(program, folder, particles, coordination, seed):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
-    parser.add_argument("folder", type=Path)
-    chosen = parser.parse_args()
-    chosen.folder.mkdir(parents=True, exist_ok=True)
+    program, folder = program_and_folder(__doc__)
     for particles, coordination, structures in CASES:
-        found = [losses(chosen.program.resolve(), chosen.folder, particles, coordination, seed) for seed in range(structures)]
+        found = [losses(program, folder, particles, coordination, seed) for seed in range(structures)]
         linear = numpy.mean([each[0] for each in found])
         logarithms = numpy.log(numpy.array([each[1] for each in found]) / linear / DRAGS)
         deviation = logarithms.std(axis=0, ddof=1)

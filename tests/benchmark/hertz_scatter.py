@@ -5,11 +5,6 @@ Networks of Hertz contacts in structures by void expansion are sheared in small 
 both directions. Printed are, of the logarithm of the secant modulus over that of small strains, the mean, the standard deviation between structures and the
 principal errors, all at strains of so many times the overlap at rest."""
 
-import argparse
-import csv
-import io
-import json
-import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -17,49 +12,34 @@ from pathlib import Path
 
 import numpy
 
+from scatter_structures import program_and_folder, run, structure
+
 sys.path.append(str(Path(__file__).parent / "diagnosis_campaign"))
 import hertz
 import network
+from material import particles_of
 
 LOADS = 0.1 * 10.0**(numpy.arange(15) / 4)  # strains over the overlap at rest, over the radius
 CASES = ((400, 4.69, 40), (400, 5.2, 20), (1600, 4.69, 12))  # particles, coordination, structures
 STEPS = 2  # from one of those to the next
 
 
-def run(program, *words):
-    done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, check=True)
-    return done.stdout
-
-
 def curve(program, folder, case, seed):
     """Logarithms of the secant modulus of one structure over that of small strains."""
-    particles, coordination = case
-    path = folder / f"{particles}_{coordination}_{seed}.h5"
-    if not path.exists():
-        run(program, "generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", 0.4, "--radius", 0.25e-6,
-            "--seed", 5000 + seed, "--target-coordination", coordination, "--threads", 1, "-o", path)
-    points = path.with_suffix(".csv")
-    run(program, "export", path, "--format", "csv", "-o", points, "--force")
-    header, *rows = csv.reader(io.StringIO(points.read_text()))
-    columns = dict(zip((name.split()[0] for name in header), numpy.array(rows, float).T))
-    centres = numpy.stack([columns[axis] for axis in "xyz"], axis=1)
-    box = numpy.array(json.loads(run(program, "info", path, "--json"))["box"])
-    bonds = network.bonds_of(centres, columns["radius"], box)
+    path = structure(program, folder, *case, seed)
+    centres, radii, box = particles_of(partial(run, program), path, path.with_suffix(".csv"))
+    bonds = network.bonds_of(centres, radii, box)
     loads = LOADS[0] * 10.0**(numpy.arange(14 * STEPS + 1) / (4 * STEPS))
     planes = [hertz.secants(centres, bonds, box, loads, plane)[::STEPS] for plane in range(3)]
     return numpy.log(numpy.mean(planes, axis=0))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
-    parser.add_argument("folder", type=Path)
-    chosen = parser.parse_args()
-    chosen.folder.mkdir(parents=True, exist_ok=True)
+    program, folder = program_and_folder(__doc__)
     numpy.set_printoptions(linewidth=150, precision=4, suppress=True)
     for particles, coordination, structures in CASES:
         with ProcessPoolExecutor() as pool:
-            found = numpy.array(list(pool.map(partial(curve, chosen.program.resolve(), chosen.folder, (particles, coordination)), range(structures))))
+            found = numpy.array(list(pool.map(partial(curve, program, folder, (particles, coordination)), range(structures))))
         print(f"{structures} structures of {particles} particles, coordination {coordination}")
         print("  strain over overlap ", LOADS)
         print("  mean                ", numpy.exp(found.mean(axis=0)))

@@ -195,7 +195,10 @@ UncertainModuli Forward::network(const Model& model, bool exact) const {
 /// Of Hertz contacts, relative: observations x errors, none where contacts are linear springs.
 Eigen::MatrixXd Forward::stiffening_errors(const Settings& settings) const {
     Eigen::MatrixXd errors(static_cast<Index>(observations_.size()), 0);
-    for (std::size_t k = 0; settings.contact_preload > 0 && k < observations_.size(); ++k) {
+    if (settings.contact_preload <= 0) {
+        return errors;
+    }
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         if (is_modulus(observation) && !observation.third_harmonic && !is_fluid(observation) && std::isfinite(observation.strain)) {
             const Eigen::RowVectorXd one = simulator_.contact_errors(settings, observation.strain);

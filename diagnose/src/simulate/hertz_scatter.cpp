@@ -20,8 +20,8 @@ const Eigen::Matrix<double, 3, hertz_axis.count> principal_errors{
     {0, 0, 0.0004, 0, -0.0020, -0.0023, -0.0007, 0.0011, 0.0027, 0.0017, 0.0003, -0.0008}};
 /// As much as that scale weighs.
 constexpr double stated_degrees = 6;
-/// Of the curve itself, over the first of these errors: shear keeps its direction in it, and steps are long. It was 1.001, 1.005,
-/// 1.009 and 1.012 times that by small steps (hertz.py) at loads of 2, 6, 18 and 100.
+/// Of the curve itself, over the first of these errors: shear keeps its direction in it, and steps are long. That of one structure
+/// was 1.001, 1.005, 1.009 and 1.012 times that by small steps (hertz.py) at loads of 2, 6, 18 and 100.
 constexpr double of_path = 0.5;
 
 }  // namespace

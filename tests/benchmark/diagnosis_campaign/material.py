@@ -148,12 +148,7 @@ class Material:
         return self.remembered(f"thinned {number} {missing} {coordination}", compute)
 
     def particles(self, path):
-        """Centres, radii and edges of the box of a structure [m]."""
-        points = self.folder / "points.csv"
-        self.run("export", path, "--format", "csv", "-o", points, "--force")
-        header, *rows = points.read_text().splitlines()
-        columns = dict(zip((name.split()[0] for name in header.split(",")), numpy.array([row.split(",") for row in rows], float).T))
-        return numpy.stack([columns[name] for name in "xyz"], axis=1), columns["radius"], numpy.array(self.run("info", path)["box"])
+        return particles_of(self.run, path, self.folder / "points.csv")
 
     def pulled(self, number, tension, coordination=None):
         """G' over that without where all contacts pull at rest with this force over their stiffness times the diameter (network.py)."""
@@ -326,6 +321,14 @@ def shown_at(sweep, strains):
     energy = numpy.concatenate([[0], numpy.cumsum(sweep.imag * rows[1:]**2)])
     storage = numpy.interp(strains, rows, numpy.concatenate([[1], sweep.real]))
     return storage + 1j * numpy.diff(numpy.interp(numpy.concatenate([[0], strains]), rows, energy)) / strains**2
+
+
+def particles_of(run, path, points):
+    """Centres, radii and edges of the box of a structure [m]. run(words) runs the program; `points` is a file for what it exports."""
+    run("export", path, "--format", "csv", "-o", points, "--force")
+    header, *rows = points.read_text().splitlines()
+    columns = dict(zip((name.split()[0] for name in header.split(",")), numpy.array([row.split(",") for row in rows], float).T))
+    return numpy.stack([columns[name] for name in "xyz"], axis=1), columns["radius"], numpy.array(run("info", path)["box"])
 
 
 def computed(task):

@@ -93,6 +93,21 @@ TEST(ContactNonlinearity, IsTheLinearSolversModulusAtSmallStrain) {
     EXPECT_NEAR(simulator().contact_response(settings, 1e-6) / (hertz / springs), 1, 0.005);
 }
 
+/// Newton's method in steps of a 24th of a decade, in three planes and both directions
+/// (tests/benchmark/diagnosis_campaign/hertz.py), of the same places.
+TEST(ContactNonlinearity, IsThatOfSmallStepsByNewtonsMethod) {
+    const std::vector<double> by_newton{1, 0.9982, 0.9918, 0.9668, 0.9311, 0.9461, 1.0563, 1.2724, 1.6029, 2.0701, 2.7270, 3.6152};
+    std::vector<double> loads;
+    for (int node = 0; node < hertz_axis.count; ++node) {
+        loads.push_back(hertz_axis.node(node));
+    }
+    const Packing packing = structure(100, 3);
+    const std::vector<double> curve = hertz_curve(packing, find_contacts(packing, 0.01), loads);
+    for (std::size_t node = 0; node < loads.size(); ++node) {
+        EXPECT_NEAR(curve[node] / curve.front() / by_newton[node], 1, 0.01) << loads[node];
+    }
+}
+
 /// Turned and mirrored, a structure is sheared in other planes and in the other direction.
 TEST(ContactNonlinearity, OfAStructureDoesNotDependOnHowItLies) {
     Packing packing = structure(100, 3);
