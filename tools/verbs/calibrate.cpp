@@ -174,6 +174,12 @@ Json to_json(const Arguments& arguments, const Structures& structures, const std
     return json;
 }
 
+/// What rounding leaves of moduli of this size is nothing.
+double beyond_rounding(double modulus, double size) {
+    constexpr double rounding = 1e-12;
+    return std::abs(modulus) > rounding * size ? modulus : 0.0;
+}
+
 void append_series(Table& table, const Structures& structures) {
     for (std::size_t k = 0; k < structures.size(); ++k) {
         const StiffnessSeries& series = structures.series[k];
@@ -196,8 +202,8 @@ void append_series(Table& table, const Structures& structures) {
         const StiffnessSeries& series = structures.series[k];
         table.emplace_back("line of structure " + std::to_string(k + 1),
                            with_unit(series.line.slope, "1") + " Pa/(N/m), at zero stiffness " +
-                               with_unit(series.line.intercept, "Pa") + "; through the origin " +
-                               with_unit(series.line_through_origin.slope, "1") + " Pa/(N/m)");
+                               with_unit(beyond_rounding(series.line.intercept, series.modulus.maxCoeff()), "Pa") +
+                               "; through the origin " + with_unit(series.line_through_origin.slope, "1") + " Pa/(N/m)");
     }
 }
 
