@@ -10,6 +10,7 @@
 #include <coagula/io/structure_file.hpp>
 #include <coagula/report/structure_page.hpp>
 
+#include <cmath>
 #include <filesystem>
 
 namespace coagula::tools {
@@ -55,9 +56,10 @@ void run(const Arguments& arguments) {
     tell_apart(pages, arguments.inputs());
     const std::string html = report::structure_page(pages, version_text());
     io::write_file(output, html, arguments.flag("force"));
+    const double megabytes = std::round(static_cast<double>(html.size()) / 1e5) / 10;
     report(arguments, Json{{"output", output}, {"structures", pages.size()}, {"bytes", html.size()}},
            {{"structures", std::to_string(pages.size())},
-            {"size", with_unit(static_cast<double>(html.size()) / 1e6, "MB")},
+            {"size", with_unit(megabytes, "MB")},
             {"written to", output}});
 }
 
