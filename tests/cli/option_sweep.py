@@ -21,7 +21,7 @@ from pathlib import Path
 
 STRANGE = ["0", "-1", "5e-324", "-5e-324", "1e-300", "1e150", "-1e150", "1e300", "1.8e308", "nan", "inf"]
 STRANGE_COUNTS = ["0", "-1", "9223372036854775807", "-9223372036854775808", "1e300", "nan"]
-PATIENCE = 1  # seconds until Ctrl-C
+PATIENCE = 0.5  # seconds until Ctrl-C
 HANGING = 5  # seconds after that
 USUAL_PATIENCE = 120  # of a call as it is meant, on a busy machine
 MEMORY = 4 << 30
