@@ -58,9 +58,7 @@ void run(const Arguments& arguments) {
     io::write_file(output, html, arguments.flag("force"));
     const double megabytes = std::round(static_cast<double>(html.size()) / 1e5) / 10;
     report(arguments, Json{{"output", output}, {"structures", pages.size()}, {"bytes", html.size()}},
-           {{"structures", std::to_string(pages.size())},
-            {"size", with_unit(megabytes, "MB")},
-            {"written to", output}});
+           {{"structures", std::to_string(pages.size())}, {"size", with_unit(megabytes, "MB")}, {"written to", output}});
 }
 
 }  // namespace
