@@ -98,11 +98,14 @@ Expectation expected_by(const Belief& belief, const Forward& forward, const std:
     Expectation expectation;
     const auto rows = static_cast<Index>(observations.size());
     expectation.predictions.resize(rows, draws_per_cause);
-    Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(rows, belief.errors.rows());
+    Eigen::MatrixXd changes =
+        Eigen::MatrixXd::Zero(rows, belief.errors.rows());  // those of earlier images, which are last, change none
     for (int draw = 0; draw < draws_per_cause; ++draw) {
-        const Prediction drawn = forward.prediction(belief.draws[static_cast<std::size_t>(draw)], belief.errors.col(draw));
+        const Model& model = belief.draws[static_cast<std::size_t>(draw)];
+        const Index known = forward.errors_of(model);
+        const Prediction drawn = forward.prediction(model, belief.errors.col(draw).head(known));
         expectation.predictions.col(draw) = drawn.values;
-        changes += drawn.errors.changes / draws_per_cause;
+        changes.leftCols(known) += drawn.errors.changes / draws_per_cause;
     }
     const Eigen::VectorXd mean = expectation.predictions.rowwise().mean();
     Eigen::MatrixXd covariance = changes * belief.covariance * changes.transpose();

@@ -39,6 +39,27 @@ std::vector<double> Simulator::shells(double plane, double axis) {
     });
 }
 
+/// As of the function.
+const std::vector<double>& Simulator::neighbour_spread() {
+    if (spread_of_neighbours_.empty()) {
+        constexpr std::size_t count = shell_count * (1 + 2 * shell_count);
+        spread_of_neighbours_ = mean_over_structures("spread of neighbours", count, {}, spread_of_neighbours);
+    }
+    return spread_of_neighbours_;
+}
+
+Eigen::MatrixXd Simulator::neighbour_errors_of_structures() {
+    double particles = 0;
+    for (std::size_t k = 0; k < structures_.size(); ++k) {
+        particles += static_cast<double>(structures_.particles(k));
+    }
+    return errors_of_structures(neighbour_spread(), particles);
+}
+
+Eigen::MatrixXd Simulator::neighbour_errors_of_image(double centres, double mutual) {
+    return errors_of_density(neighbour_spread(), centres, mutual);
+}
+
 const std::vector<double>& Simulator::shell_node(int plane, int axis) {
     std::vector<double>& node = shell_nodes_[{plane, axis}];
     if (node.empty()) {

@@ -6,6 +6,8 @@
 #include <coagula/common/contact_network.hpp>
 #include <coagula/common/random.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,32 +25,68 @@ int shell_at(double distance) {
     return shell >= 0 && shell < shell_count ? shell : -1;
 }
 
+/// Of a periodic structure: the pairs within the reach, and the neighbours of every particle, shells x particles.
+struct Neighbours {
+    ContactNetwork pairs;
+    Eigen::MatrixXd counts;
+};
+
+Neighbours neighbours_of(const Packing& packing, double diameter) {
+    Packing seen = packing;
+    seen.radii.setConstant(diameter / 2);  // the shells are distances of centres, whatever the sizes
+    Neighbours all{find_contacts(seen, shell_reach - 1), Eigen::MatrixXd::Zero(shell_count, packing.size())};
+    for (Index pair = 0; pair < all.pairs.size(); ++pair) {
+        if (const int shell = shell_at(all.pairs.branch.col(pair).norm() / diameter); shell >= 0) {
+            all.counts(shell, all.pairs.ends(0, pair)) += 1;
+            all.counts(shell, all.pairs.ends(1, pair)) += 1;
+        }
+    }
+    return all;
+}
+
+/// Of the spread over that of independent pairs, of which a share is counted from both ends, what is above `least`: as standard
+/// errors of one particle. An empty shell stays so.
+Eigen::MatrixXd errors_above(const std::vector<double>& spread, double mutual, double least) {
+    const Eigen::Map<const Eigen::MatrixXd> all(spread.data(), shell_count, 1 + 2 * shell_count);
+    const Eigen::VectorXd deviation = ((1 + mutual) * all.col(0)).cwiseSqrt();
+    const Eigen::VectorXd inverse = (deviation.array() > 0).select(deviation.cwiseInverse(), 0);
+    const Eigen::MatrixXd covariance = all.middleCols<shell_count>(1) + mutual * all.rightCols<shell_count>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * covariance * inverse.asDiagonal());
+    const Eigen::VectorXd above = (solver.eigenvalues().array() - least).max(0).sqrt();
+    const Index some = (above.array() > 0).count();
+    return deviation.asDiagonal() * (solver.eigenvectors() * above.asDiagonal()).rightCols(some);
+}
+
 }  // namespace
 
 NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diameter) {
-    NeighbourShells shells;
-    shells.mean.assign(shell_count, 0);
     const Eigen::Array3d low = positions.rowwise().minCoeff().array() + shell_reach * diameter;
     const Eigen::Array3d high = positions.rowwise().maxCoeff().array() - shell_reach * diameter;
+    const auto is_centre = [&](Index point) {
+        return (positions.col(point).array() >= low).all() && (positions.col(point).array() <= high).all();
+    };
+    NeighbourShells shells;
+    Eigen::ArrayXd neighbours = Eigen::ArrayXd::Zero(shell_count);
+    Eigen::ArrayXd mutual = neighbours;
     for (Index centre = 0; centre < positions.cols(); ++centre) {
-        const Eigen::Array3d here = positions.col(centre).array();
-        if ((here < low).any() || (here > high).any()) {
+        if (!is_centre(centre)) {
             continue;
         }
         ++shells.centres;
         for (Index other = 0; other < positions.cols(); ++other) {
             const int shell = other == centre ? -1 : shell_at((positions.col(other) - positions.col(centre)).norm() / diameter);
             if (shell >= 0) {
-                shells.mean[static_cast<std::size_t>(shell)] += 1;
+                neighbours[shell] += 1;
+                mutual[shell] += is_centre(other) ? 1 : 0;
             }
         }
     }
-    const auto count = static_cast<double>(std::max<Index>(1, shells.centres));
-    for (double& mean : shells.mean) {
-        // Most pairs are counted from both ends.
-        shells.standard_errors.push_back(std::sqrt(2 * std::max(mean, 1.0)) / count);
-        mean /= count;
-    }
+    const auto centres = static_cast<double>(std::max<Index>(1, shells.centres));
+    const Eigen::ArrayXd mean = neighbours / centres;
+    const Eigen::ArrayXd errors = (neighbours + mutual).max(1).sqrt() / centres;  // a pair of centres is counted twice
+    shells.mean.assign(mean.begin(), mean.end());
+    shells.standard_errors.assign(errors.begin(), errors.end());
+    shells.mutual = mutual.sum() / std::max(1.0, neighbours.sum());
     return shells;
 }
 
@@ -57,18 +95,35 @@ std::vector<double> shells_of_structure(const Packing& packing, double sigma_pla
     const bool sharp = sigma_plane == 0 && sigma_axis == 0;
     const Index draws = sharp ? 1 : 1 + least_particles_of_shells / packing.size();
     Packing seen = packing;
-    seen.radii.setConstant(diameter / 2);  // the shells are distances of centres, whatever the sizes
-    std::vector<double> mean(shell_count, 0);
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(shell_count);
     for (Index draw = 0; draw < draws; ++draw) {
         seen.positions = with_errors(packing.positions, sigma_plane, sigma_axis, seed_of_shells, static_cast<std::uint64_t>(draw));
-        const ContactNetwork pairs = find_contacts(seen, shell_reach - 1);
-        for (Index pair = 0; pair < pairs.size(); ++pair) {
-            if (const int shell = shell_at(pairs.branch.col(pair).norm() / diameter); shell >= 0) {
-                mean[static_cast<std::size_t>(shell)] += 2.0 / static_cast<double>(draws * packing.size());
-            }
-        }
+        mean += neighbours_of(seen, diameter).counts.rowwise().mean() / static_cast<double>(draws);
     }
-    return mean;
+    return {mean.begin(), mean.end()};
+}
+
+std::vector<double> spread_of_neighbours(const Packing& packing) {
+    const auto [pairs, counts] = neighbours_of(packing, 2 * mean_radius(packing));
+    const Eigen::VectorXd mean = counts.rowwise().mean();
+    const Eigen::MatrixXd own = counts.colwise() - mean;
+    Eigen::MatrixXd others = Eigen::MatrixXd::Zero(own.rows(), own.cols());
+    for (Index pair = 0; pair < pairs.size(); ++pair) {
+        others.col(pairs.ends(0, pair)) += own.col(pairs.ends(1, pair));
+        others.col(pairs.ends(1, pair)) += own.col(pairs.ends(0, pair));
+    }
+    const auto particles = static_cast<double>(packing.size());
+    Eigen::MatrixXd spread(shell_count, 1 + 2 * shell_count);
+    spread << mean, own * own.transpose() / particles, own * others.transpose() / particles;
+    return {spread.reshaped().begin(), spread.reshaped().end()};
+}
+
+Eigen::MatrixXd errors_of_structures(const std::vector<double>& spread, double particles) {
+    return errors_above(spread, 1, 0) / std::sqrt(particles);
+}
+
+Eigen::MatrixXd errors_of_density(const std::vector<double>& spread, double centres, double mutual) {
+    return errors_above(spread, mutual, 1) / std::sqrt(centres);
 }
 
 std::vector<double> shells_about_free_places(const Packing& packing) {

@@ -16,9 +16,11 @@ constexpr double first_shell = 0.55;  ///< where the first begins
 constexpr double shell_reach = first_shell + shell_count * shell_width;
 
 struct NeighbourShells {
-    std::vector<double> mean;             ///< neighbours of a particle, one per shell
-    std::vector<double> standard_errors;  ///< as if pairs were independent; of an empty shell, as if it had one
+    std::vector<double> mean;  ///< neighbours of a particle, one per shell
+    std::vector<double>
+        standard_errors;  ///< as if pairs were independent (beside errors_of_density); of an empty shell, as if it had one
     Index centres = 0;
+    double mutual = 0;  ///< share of the neighbours that are centres, too
 };
 
 /// Of measured coordinates: particles farther than the reach of the shells from the faces of the box around all are the centres.
@@ -29,6 +31,18 @@ NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diame
 /// plane and along z [m], drawn from a fixed seed, several times where the structure is small. Packings too small for the reach are
 /// refused by std::invalid_argument.
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis);
+
+/// How the neighbours of the particles of a periodic structure vary: their mean number in each shell, then, column by column, the
+/// covariance of those of a particle, and that of a particle with all others within the reach of the shells together.
+std::vector<double> spread_of_neighbours(const Packing& packing);
+
+/// Errors of the mean over so many particles of structures with such a spread, as independent standard errors: shells x errors.
+Eigen::MatrixXd errors_of_structures(const std::vector<double>& spread, double particles);
+
+/// What independent pairs leave out in an image of such structures: where particles lie close, all have many neighbours. The part
+/// of the spread that is above that of independent pairs, likewise.
+/// @param mutual share of the neighbours that are centres, too: as NeighbourShells.
+Eigen::MatrixXd errors_of_density(const std::vector<double>& spread, double centres, double mutual);
 
 /// Mean number of particles of a periodic structure in the shells about random places that are not nearer than half a diameter to a
 /// centre: where a search for particles finds one that is none. Nearer than that it takes both for one (the separation that Crocker

@@ -167,6 +167,8 @@ std::vector<Observation> neighbours_in(const std::vector<Eigen::Matrix3Xd>& imag
         for (const NeighbourShells& one : shells) {
             all.back().value += one.mean[shell] / static_cast<double>(shells.size());
             all.back().standard_error += one.standard_errors[shell] / static_cast<double>(shells.size());
+            all.back().centres += static_cast<double>(one.centres) / static_cast<double>(shells.size());
+            all.back().mutual += one.mutual / static_cast<double>(shells.size());
         }
     }
     return all;

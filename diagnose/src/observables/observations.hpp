@@ -53,7 +53,8 @@ struct Observation {
     double distance = unset;  ///< middle of the shell over the diameter
     // ... or what differs between images of the same particles; rows after those of the shells.
     std::optional<ImageDifference> difference = {};
-    double centres = 0;  ///< that are compared in these
+    double centres = 0;  ///< whose neighbours were counted, or that are compared
+    double mutual = 0;   ///< share of the neighbours that are centres, too
     // Of a pore curve: the value is the share of the void space farther from any surface than this.
     double pore_radius = unset;  ///< [m]
 };

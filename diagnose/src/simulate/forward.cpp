@@ -74,6 +74,34 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
     if (experiment_.material.kind == MaterialKind::smooth) {
         smooth_.emplace(observations_, experiment_.material.ages);
     }
+    of_images_ = errors_of_images();
+}
+
+/// Those of the structures, which all images share, then each image's own.
+Eigen::MatrixXd Forward::errors_of_images() const {
+    Eigen::MatrixXd all(static_cast<Index>(observations_.size()), 0);
+    Eigen::MatrixXd of_structures;
+    Eigen::MatrixXd own;
+    std::size_t image = observations_.size();  // the measurement whose own errors are the last columns
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Observation& observation = observations_[k];
+        if (!std::isfinite(observation.distance)) {
+            continue;
+        }
+        if (all.cols() == 0) {
+            of_structures = simulator_.neighbour_errors_of_structures();
+            all.setZero(all.rows(), of_structures.cols());
+        }
+        if (image != observation.measurement) {
+            image = observation.measurement;
+            own = simulator_.neighbour_errors_of_image(observation.centres, observation.mutual);
+            all.conservativeResizeLike(Eigen::MatrixXd::Zero(all.rows(), all.cols() + own.cols()));
+        }
+        const auto shell = static_cast<Index>(observation.row);
+        all.row(static_cast<Index>(k)).head(of_structures.cols()) = of_structures.row(shell);
+        all.row(static_cast<Index>(k)).tail(own.cols()) = own.row(shell);
+    }
+    return all;
 }
 
 /// Under plates or a cone, by a tool.
@@ -282,7 +310,9 @@ Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
 }
 
 Eigen::VectorXd Forward::predict(const Model& model, const Eigen::VectorXd& errors) const {
-    return seen(model, remembered_material(model, false).with(errors), false);
+    const Index shared = of_images_.cols();
+    return seen(model, remembered_material(model, false).with(errors.head(errors.size() - shared)), false) +
+           of_images_ * errors.tail(shared);
 }
 
 /// Of the errors that structures leave, the fewest.
@@ -302,7 +332,7 @@ double Forward::degrees_of_errors(const Settings& settings, bool any) const {
 
 Prediction Forward::prediction(const Model& model) const {
     if (!smooth_) {
-        return prediction(model, Eigen::VectorXd::Zero(remembered_material(model, false).errors()));
+        return prediction(model, Eigen::VectorXd::Zero(errors_of(model)));
     }
     // About the material that this instrument asks for: most instruments show it in proportion, slip and compliance nearly so.
     constexpr int rounds = 2;
@@ -318,7 +348,9 @@ Prediction Forward::prediction(const Model& model) const {
 Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors) const {
     constexpr double step = 1e-5;
     const UncertainModuli& material = remembered_material(model, false);
-    const Eigen::MatrixXcd moduli = material.tangents(errors);
+    const Index of_material = material.errors();
+    const Index shared = of_images_.cols();
+    const Eigen::MatrixXcd moduli = material.tangents(errors.head(of_material));
     const Eigen::VectorXd values = seen(model, moduli.col(0), false);
     // What neither geometry nor tool change is in proportion to the modulus of the material.
     const bool plain = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
@@ -330,10 +362,13 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
         level_slope = (seen(model, (1 + step) * moduli.col(0), false) - values) / step;
     }
     Eigen::MatrixXd changes(values.size(), errors.size());
-    for (Index error = 0; error < changes.cols(); ++error) {
+    for (Index error = 0; error < of_material; ++error) {
         changes.col(error) = seen(model, moduli.col(0) + moduli.col(error + 1), false) - values;
     }
-    return {values, std::move(level_slope), {std::move(changes), degrees_of_errors(model.simulated(), errors.size() > 0), errors}};
+    changes.rightCols(shared) = of_images_;
+    return {values + of_images_ * errors.tail(shared),
+            std::move(level_slope),
+            {std::move(changes), degrees_of_errors(model.simulated(), of_material > 0), errors}};
 }
 
 Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {

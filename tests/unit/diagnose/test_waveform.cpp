@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double frequency = 10;  // rad/s
+constexpr double frequency_of_waveform = 10;  // rad/s
 
 /// @param times [s]. @param stress of the phase w t.
 template <class Strain, class Stress>
@@ -21,10 +21,10 @@ Measurement waveform(const std::vector<double>& times, const Strain& strain, con
     table.columns = {{"time", "s", times},
                      {"strain", "1", {}},
                      {"stress", "Pa", {}},
-                     {"angular_frequency", "rad/s", std::vector<double>(times.size(), frequency)}};
+                     {"angular_frequency", "rad/s", std::vector<double>(times.size(), frequency_of_waveform)}};
     for (const double time : times) {
-        table.columns[1].values.push_back(strain(frequency * time));
-        table.columns[2].values.push_back(stress(frequency * time));
+        table.columns[1].values.push_back(strain(frequency_of_waveform * time));
+        table.columns[2].values.push_back(stress(frequency_of_waveform * time));
     }
     return table;
 }
@@ -32,7 +32,7 @@ Measurement waveform(const std::vector<double>& times, const Strain& strain, con
 std::vector<double> steps(double periods, int count) {
     std::vector<double> times;
     for (int k = 0; k < count; ++k) {
-        times.push_back(2 * pi / frequency * periods * k / count);
+        times.push_back(2 * pi / frequency_of_waveform * periods * k / count);
     }
     return times;
 }
@@ -52,7 +52,7 @@ TEST(Waveform, HasTheModuliItWasMadeWith) {
     const auto found = harmonics_of(table);
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(found->strain, 0.02, 1e-10);
-    EXPECT_EQ(found->angular_frequency, frequency);
+    EXPECT_EQ(found->angular_frequency, frequency_of_waveform);
     EXPECT_NEAR(found->storage_modulus, 500, 1e-6);
     EXPECT_NEAR(found->loss_modulus, 80, 1e-6);
     EXPECT_NEAR(found->third_harmonic, 50 / std::hypot(500, 80), 1e-8);

@@ -123,6 +123,11 @@ public:
     /// Mean number of neighbours of a particle in a shell of distance (src/neighbour_shells.hpp) as measured coordinates would show
     /// it, mean over the structures.
     double neighbours(const Settings& settings, std::size_t shell, bool exact = false);
+    /// Errors of these that so few structures leave open, as independent standard errors: shells x errors.
+    Eigen::MatrixXd neighbour_errors_of_structures();
+    /// Those that dense and thin places give an image of so many centres, beside those of independent pairs, likewise.
+    /// @param mutual share of the neighbours that are centres, too.
+    Eigen::MatrixXd neighbour_errors_of_image(double centres, double mutual);
 
     /// What images of the same particles differ by, which no structure enters but through wrong matches: standard deviations of a
     /// centre in the plane and along z over the diameter, and the share of the centres that the next image does not have
@@ -170,6 +175,7 @@ private:
     const Eigen::MatrixXd& drag_excess_of(std::size_t group);
     double reduced_drag(const Settings& settings, double angular_frequency) const;
     std::vector<double> shells(double plane, double axis);
+    const std::vector<double>& neighbour_spread();
     const std::vector<double>& shell_node(int plane, int axis);
     const std::vector<double>& shells_about_places();
     std::vector<double> matched_images(double plane, double axis);
@@ -199,6 +205,7 @@ private:
     std::map<std::size_t, PoreCurve> pore_curves_;
     std::map<std::array<double, 4>, PoreCurve> imaged_pores_;
     std::vector<double> shells_about_places_;              ///< once it has been asked for
+    std::vector<double> spread_of_neighbours_;             ///< likewise
     std::vector<double> secant_curve_;                     ///< likewise
     std::shared_ptr<const HertzScatter> contact_scatter_;  ///< likewise
     std::optional<YieldCurves> strength_curves_;           ///< likewise

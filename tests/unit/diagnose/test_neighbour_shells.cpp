@@ -1,0 +1,125 @@
+// Errors of the neighbours that an image shows, where particles lie closer in some places than in others: single particles and
+// triangles of touching ones, at random on a lattice.
+#include "observables/neighbour_shells.hpp"
+
+#include "remade_structures.hpp"
+
+#include "simulate/forward.hpp"
+
+#include <coagula/common/random.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace coagula::diagnose {
+namespace {
+
+constexpr int sites_along = 8;
+constexpr double spacing = 3.5;  // diameters: the next site is beyond the reach of the shells
+constexpr double triangles = 0.1;
+constexpr double in_triangles = 3 * triangles / (1 + 2 * triangles);  // share of the particles
+constexpr Index contact = 4;                                          // the shell about a distance of one diameter
+
+Packing singles_and_triangles(std::uint64_t seed) {
+    std::vector<Eigen::Vector3d> positions;
+    for (std::uint64_t site = 0; site < sites_along * sites_along * sites_along; ++site) {
+        const Eigen::Vector3d place =
+            spacing * Eigen::Vector3d(static_cast<double>(site % sites_along), static_cast<double>(site / sites_along % sites_along),
+                                      static_cast<double>(site / (sites_along * sites_along)));
+        positions.push_back(place);
+        if (random_uniform(seed, RandomPurpose::diagnosis, 0, site)[0] < triangles) {
+            positions.emplace_back(place + Eigen::Vector3d(1, 0, 0));
+            positions.emplace_back(place + Eigen::Vector3d(0.5, std::sqrt(0.75), 0));
+        }
+    }
+    const auto count = static_cast<Index>(positions.size());
+    Packing packing{.cell = Cell::periodic(Eigen::Vector3d::Constant(spacing * sites_along)),
+                    .positions = Eigen::Matrix3Xd(3, count),
+                    .radii = Eigen::VectorXd::Constant(count, 0.5)};
+    for (Index particle = 0; particle < count; ++particle) {
+        packing.positions.col(particle) = positions[static_cast<std::size_t>(particle)];
+    }
+    return packing;
+}
+
+double variance(const std::vector<double>& values) {
+    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), static_cast<Index>(values.size()));
+    return (all - all.mean()).square().sum() / static_cast<double>(all.size() - 1);
+}
+
+double share_in_triangles(const Packing& packing) {
+    const double sites = sites_along * sites_along * sites_along;
+    const auto particles = static_cast<double>(packing.size());
+    return 1.5 * (particles - sites) / particles;
+}
+
+TEST(NeighbourShells, OfStructuresVaryWithAllThatAreNear) {
+    const Packing packing = singles_and_triangles(1);
+    const double p = share_in_triangles(packing);
+    const Eigen::MatrixXd errors = errors_of_structures(spread_of_neighbours(packing), 1);
+    // Two neighbours or none; in a triangle the other two have as many.
+    EXPECT_NEAR(errors.row(contact).squaredNorm(), 4 * p * (1 - p) + 8 * p * (1 - p) * (1 - p), 1e-9);
+    EXPECT_EQ(errors.row(contact + 1).squaredNorm(), 0);  // an empty shell
+}
+
+TEST(NeighbourShells, OfAnImageHaveTheErrorsOfIndependentPairsAndThoseOfDensity) {
+    const Packing packing = singles_and_triangles(1);
+    const double p = share_in_triangles(packing);
+    const double mutual = 0.8;
+    const Eigen::MatrixXd errors = errors_of_density(spread_of_neighbours(packing), 100, mutual);
+    const double independent = (1 + mutual) * 2 * p;
+    const double all = 4 * p * (1 - p) + mutual * 8 * p * (1 - p) * (1 - p);
+    ASSERT_GT(all, 1.3 * independent);
+    EXPECT_NEAR(errors.row(contact).squaredNorm(), (all - independent) / 100, 1e-9);
+}
+
+TEST(NeighbourShells, OfIndependentPairsHaveNoErrorsOfDensity) {
+    // Each has as many neighbours as a pair that is counted from one end, or from both, makes it have.
+    Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(shell_count, 1 + 2 * shell_count);
+    spread.col(0).setConstant(2);
+    spread.middleCols<shell_count>(1).diagonal().setConstant(2);
+    spread.rightCols<shell_count>().diagonal().setConstant(2);
+    const std::vector<double> flat(spread.reshaped().begin(), spread.reshaped().end());
+    for (const double mutual : {0.0, 0.5, 1.0}) {
+        EXPECT_LT(errors_of_density(flat, 1, mutual).norm(), 1e-6) << mutual;
+    }
+}
+
+TEST(NeighbourShells, ScatterFromImageToImageAsStated) {
+    std::vector<double> seen;
+    double stated = 0;
+    double independent = 0;
+    constexpr std::uint64_t images = 400;
+    const std::vector<double> spread = spread_of_neighbours(singles_and_triangles(1000));
+    for (std::uint64_t image = 0; image < images; ++image) {
+        const NeighbourShells shells = shells_of_points(singles_and_triangles(image).positions, 1);
+        const double own = std::pow(shells.standard_errors[contact], 2) / images;
+        seen.push_back(shells.mean[contact]);
+        independent += own;
+        stated += own + errors_of_density(spread, static_cast<double>(shells.centres), shells.mutual).row(contact).squaredNorm() / images;
+    }
+    EXPECT_NEAR(stated / variance(seen), 1, 0.25);  // the spread is that of 600 particles, the variance one of 400 images
+    EXPECT_LT(independent / variance(seen), 0.7);
+    EXPECT_NEAR(in_triangles, share_in_triangles(singles_and_triangles(1000)), 0.06);
+}
+
+TEST(NeighbourShells, OfTwoImagesShareTheErrorsOfTheStructures) {
+    const Packing hidden = structure(500, 79);
+    const Experiment experiment = experiment_of_recipe({seen_by_microscope(hidden, 0, 0, 0, 1), seen_by_microscope(hidden, 0, 0, 0.3, 2)});
+    const std::vector<Observation> observations = observations_of(experiment);
+    ASSERT_EQ(observations.size(), 2U * shell_count);
+    const Eigen::MatrixXd errors = Forward(experiment, observations, recipe().simulator).prediction(Model{}).errors.changes;
+    const Index shared = recipe().simulator.neighbour_errors_of_structures().cols();
+    ASSERT_GT(shared, 0);
+    EXPECT_EQ(errors.topLeftCorner(shell_count, shared), errors.bottomLeftCorner(shell_count, shared));
+    // The rest is of one image or of the other.
+    ASSERT_GT(errors.cols(), shared + 1);
+    for (Index own = shared; own < errors.cols(); ++own) {
+        EXPECT_NE(errors.col(own).head(shell_count).norm() > 0, errors.col(own).tail(shell_count).norm() > 0) << own;
+    }
+}
+
+}  // namespace
+}  // namespace coagula::diagnose
