@@ -58,6 +58,17 @@ void sort_along(const std::vector<Observation>& observations, std::vector<Index>
     });
 }
 
+/// Half waves over so many rows, as unit vectors: rows x components.
+Eigen::MatrixXd waves(Index rows) {
+    const auto count = static_cast<double>(rows);
+    Eigen::MatrixXd all = Eigen::MatrixXd::Constant(rows, components, std::sqrt(1 / count));
+    for (Index order = 1; order < components; ++order) {
+        all.col(order) = std::sqrt(2 / count) *
+                         (pi * static_cast<double>(order) / count * Eigen::ArrayXd::LinSpaced(rows, 0.5, count - 0.5)).cos();
+    }
+    return all;
+}
+
 /// Each observable along each coordinate over all tables.
 void add_smooth(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
     std::vector<std::string> observables;
@@ -79,6 +90,7 @@ void add_smooth(const std::vector<Observation>& observations, std::vector<Misfit
             if (one.rows.size() >= fewest_rows && varies(observations, one.rows, coordinate)) {
                 sort_along(observations, one.rows, coordinate);
                 all.push_back(one);
+                all.back().directions = waves(static_cast<Index>(one.rows.size()));
                 one.autocorrelation = true;
                 all.push_back(one);
             }
@@ -237,30 +249,44 @@ std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit
     return all;
 }
 
-double evaluate(const MisfitStatistic& statistic, const Eigen::VectorXd& residual) {
+/// Of each column.
+Eigen::RowVectorXd evaluate(const MisfitStatistic& statistic, const Eigen::MatrixXd& residuals) {
     if (!statistic.cause.empty()) {
-        return std::pow(std::max(0.0, (statistic.directions.transpose() * residual).maxCoeff()), 2);
+        return (statistic.directions.transpose() * residuals).colwise().maxCoeff().array().max(0).square();
     }
+    const Eigen::MatrixXd own = residuals(statistic.rows, Eigen::all);
     if (statistic.coordinate == Coordinate::none) {
-        return residual(statistic.rows).squaredNorm();
+        return own.colwise().squaredNorm();
     }
-    const auto count = static_cast<double>(statistic.rows.size());
-    double value = 0;
     if (statistic.autocorrelation) {
-        for (std::size_t k = 1; k < statistic.rows.size(); ++k) {
-            value += residual[statistic.rows[k]] * residual[statistic.rows[k - 1]];
-        }
-        return value / std::sqrt(count);
+        const Index pairs = own.rows() - 1;
+        return own.topRows(pairs).cwiseProduct(own.bottomRows(pairs)).colwise().sum() / std::sqrt(static_cast<double>(own.rows()));
     }
-    for (int order = 0; order < components; ++order) {
-        double sum = 0;
-        for (std::size_t k = 0; k < statistic.rows.size(); ++k) {
-            const double wave = std::cos(pi * order * (static_cast<double>(k) + 0.5) / count);
-            sum += (order == 0 ? 1 : std::numbers::sqrt2) * wave * residual[statistic.rows[k]];
+    return (statistic.directions.transpose() * own).colwise().squaredNorm();
+}
+
+/// The residuals of data that are drawn, and last those of the measured ones, without what the fitted quantities move.
+/// @param about prediction of the fit. @param basis orthonormal, of what these move.
+Eigen::MatrixXd drawn_residuals(const Inference& inference, const Departures& departures, const Prediction& about,
+                                const Eigen::MatrixXd& basis, std::uint64_t seed, int bootstrap) {
+    const Index rows = departures.residual.size();
+    const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
+    Eigen::MatrixXd drawn(rows, bootstrap + 1);
+    drawn.col(bootstrap) = departures.residual;
+    for (int sample = 0; sample < bootstrap; ++sample) {
+        const Eigen::VectorXd errors = inference.errors().draw(seed, static_cast<std::uint64_t>(sample));
+        drawn.col(sample).head(errors.size()) = errors;
+        const auto normal = [&](Index row) {
+            return normal_number(seed, static_cast<std::uint64_t>(sample), static_cast<std::uint64_t>(1000000 + rows - 1 - row));
+        };
+        const double scale =
+            std::isfinite(about.errors.degrees) ? 1 / std::sqrt(scaled_chi_square(about.errors.degrees, normal(rows))) : 1.0;
+        for (Index row = errors.size(); row < rows; ++row) {
+            drawn(row, sample) = (row < last_error ? scale : 1.0) * normal(row);
         }
-        value += sum * sum / count;
     }
-    return value;
+    drawn -= basis * (basis.transpose() * drawn);
+    return drawn;
 }
 
 /// As many standard deviations as a normal number would lie above its mean with the same probability: by counting; of the largest
@@ -273,11 +299,13 @@ Eigen::ArrayXd standardised(const Eigen::ArrayXd& values) {
     const auto tail = std::upper_bound(sorted.begin(), sorted.end(), threshold);
     const auto beyond = static_cast<double>(sorted.end() - tail);
     const double excess = std::accumulate(tail, sorted.end(), 0.0) / std::max(beyond, 1.0) - threshold;
+    using namespace boost::math;
+    const normal_distribution<double, policies::policy<policies::promote_double<false>>> normal;
     return values.unaryExpr([&](double value) {
         const auto larger = static_cast<double>(sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value));
         const double probability =
             value > threshold ? beyond / count * std::exp(std::max(-(value - threshold) / excess, -650.0)) : (larger - 0.5) / count;
-        return boost::math::quantile(boost::math::complement(boost::math::normal(), probability));
+        return quantile(complement(normal, probability));
     });
 }
 
@@ -336,49 +364,25 @@ double coordinate_of(const Observation& observation, Coordinate coordinate) {
 
 Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap) {
     const Departures departures = departures_of(inference, fit);
-    const Index rows = departures.residual.size();
     const Eigen::MatrixXd basis = orthonormal_basis(departures.jacobian);
     const Prediction about = inference.prediction(fit.model);
-    const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
+    const Eigen::MatrixXd residuals = drawn_residuals(inference, departures, about, basis, seed, bootstrap);
     Detection result;
-    result.statistics = statistics_of(inference, fit, about, causes, rows, basis);
+    result.statistics = statistics_of(inference, fit, about, causes, residuals.rows(), basis);
     const auto kinds = static_cast<Index>(result.statistics.size());
-    Eigen::MatrixXd values(kinds, bootstrap + 1);  // the data themselves come last
-    for (int sample = 0; sample <= bootstrap; ++sample) {
-        Eigen::VectorXd drawn = departures.residual;
-        if (sample < bootstrap) {
-            const Eigen::VectorXd errors = inference.errors().draw(seed, static_cast<std::uint64_t>(sample));
-            drawn.head(errors.size()) = errors;
-            const auto normal = [&](Index row) {
-                return normal_number(seed, static_cast<std::uint64_t>(sample),
-                                     static_cast<std::uint64_t>(1000000 + rows - 1 - row));
-            };
-            const double scale =
-                std::isfinite(about.errors.degrees) ? 1 / std::sqrt(scaled_chi_square(about.errors.degrees, normal(rows))) : 1.0;
-            for (Index row = errors.size(); row < rows; ++row) {
-                drawn[row] = (row < last_error ? scale : 1.0) * normal(row);
-            }
-        }
-        drawn -= basis * (basis.transpose() * drawn);
-        for (Index kind = 0; kind < kinds; ++kind) {
-            values(kind, sample) = evaluate(result.statistics[static_cast<std::size_t>(kind)], drawn);
-        }
-    }
+    Eigen::MatrixXd values(kinds, bootstrap + 1);
     for (Index kind = 0; kind < kinds; ++kind) {
-        result.statistics[static_cast<std::size_t>(kind)].value = values(kind, bootstrap);
-    }
-    // With the data among the samples, so that all are on the same footing.
-    for (Index kind = 0; kind < kinds; ++kind) {
-        values.row(kind) = standardised(values.row(kind).transpose().array()).transpose();
+        MisfitStatistic& statistic = result.statistics[static_cast<std::size_t>(kind)];
+        const Eigen::RowVectorXd own = evaluate(statistic, residuals);
+        statistic.value = own[bootstrap];
+        // With the data among the samples, so that all are on the same footing.
+        values.row(kind) = standardised(own.transpose().array()).transpose();
+        statistic.score = values(kind, bootstrap);
     }
     const Eigen::RowVectorXd largest = values.colwise().maxCoeff();
     const double observed = largest[bootstrap];
     result.bootstrap.assign(largest.begin(), largest.end() - 1);
     result.p_value = static_cast<double>((largest.array() >= observed).count()) / (bootstrap + 1);
-    for (Index kind = 0; kind < kinds; ++kind) {
-        MisfitStatistic& statistic = result.statistics[static_cast<std::size_t>(kind)];
-        statistic.score = values(kind, bootstrap);
-    }
     std::stable_sort(result.statistics.begin(), result.statistics.end(),
                      [](const auto& a, const auto& b) { return a.score > b.score; });
     return result;

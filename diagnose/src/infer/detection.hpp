@@ -39,8 +39,8 @@ struct MisfitStatistic {
     Coordinate coordinate = Coordinate::none;
     bool autocorrelation = false;     ///< of neighbours along the coordinate, else the size of smooth components
     std::vector<Index> rows = {};     ///< observations that take part, sorted along the coordinate
-    std::string cause = {};           ///< mechanism towards which `directions` go
-    Eigen::MatrixXd directions = {};  ///< unit vectors, orthogonal to what the fitted quantities move
+    std::string cause = {};           ///< mechanism towards which `directions` go, orthogonal to what the fitted quantities move
+    Eigen::MatrixXd directions = {};  ///< unit vectors; smooth components where there is no cause
     double value = 0;
     double score = 0;  ///< the normal number of the same probability
 };

@@ -214,11 +214,11 @@ double Simulator::yield_degrees() const {
     return degrees_of_structure * (static_cast<double>(structures_.size()) - 1);
 }
 
-double Simulator::storage_while_breaking(const Settings& settings, double before, double amplitude, double phase) {
+std::array<double, 4> Simulator::storage_while_breaking(const Settings& settings, double before, double amplitude, double sine) {
     if (!std::isfinite(settings.critical_strain)) {
-        return 1;
+        return {1, 1, 1, 1};
     }
-    return strength_curves().storage(before / settings.critical_strain, amplitude / settings.critical_strain, phase);
+    return strength_curves().storage(before / settings.critical_strain, amplitude / settings.critical_strain, sine);
 }
 
 Eigen::VectorXcd Simulator::amplitude_response(const Settings& settings, double before, double amplitude) {

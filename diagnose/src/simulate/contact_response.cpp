@@ -39,7 +39,7 @@ const std::vector<double>& Simulator::secant_moduli(std::size_t structure) {
     return found->second;
 }
 
-/// Mean over the structures.
+/// Logarithm of the mean over the structures.
 const std::vector<double>& Simulator::secant_curve() {
     if (secant_curve_.empty()) {
         secant_curve_.assign(static_cast<std::size_t>(hertz_axis.count), 0.0);
@@ -48,6 +48,9 @@ const std::vector<double>& Simulator::secant_curve() {
             for (std::size_t node = 0; node < one.size(); ++node) {
                 secant_curve_[node] += one[node] / static_cast<double>(structures_.size());
             }
+        }
+        for (double& secant : secant_curve_) {
+            secant = std::log(secant);
         }
     }
     return secant_curve_;
@@ -60,7 +63,7 @@ double Simulator::contact_secant(const Settings& settings, double strain) {
     const std::vector<double>& curve = secant_curve();
     const double load = std::abs(strain) / settings.contact_preload;
     const double secant =
-        std::exp(interpolate_nodes(hertz_axis, load, [&](int node) { return std::log(curve[static_cast<std::size_t>(node)]); }));
+        std::exp(interpolate_nodes(hertz_axis, load, [&](int node) { return curve[static_cast<std::size_t>(node)]; }));
     return load > hertz_axis.high ? secant * std::sqrt(load / hertz_axis.high) : secant;
 }
 

@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -84,8 +85,8 @@ private:
     std::vector<Yielded> exact_breaking_response(const Settings& settings, const Observation& observation,
                                                  const std::vector<double>& amplitudes) const;
     std::complex<double> third_harmonic(const Settings& given, const Observation& observation, const BondStrain& bonds) const;
-    double storage_while_breaking(const Settings& settings, const Observation& observation, const BondStrain& strain,
-                                  double phase) const;
+    std::array<double, 4> storage_while_breaking(const Settings& settings, const Observation& observation, const BondStrain& strain,
+                                                 double sine) const;
     std::vector<double> strains_before(std::size_t table, const std::vector<double>& strains) const;
     std::vector<double> growing_strains(std::size_t table, const std::vector<double>& strains) const;
     Eigen::VectorXcd exact_amplitude_factors(const Settings& settings) const;

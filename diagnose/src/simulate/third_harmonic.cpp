@@ -3,7 +3,7 @@
 
 #include "plate_field.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,21 +11,49 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr int phases_of_oscillation = 96;  ///< of an oscillation; a multiple of 4
+constexpr int phases_of_quarter = 24;
+
+/// Of the same momentary strain, up to the sign, in every quarter of an oscillation.
+struct Phases {
+    double sine;
+    std::array<std::complex<double>, 4> first;  ///< what a stress at the phase adds to G*, times the sign of the strain
+    std::array<std::complex<double>, 4> third;
+};
+
+std::vector<Phases> all_phases() {
+    using std::numbers::pi;
+    std::vector<Phases> all;
+    for (int k = 0; k < phases_of_quarter; ++k) {
+        const double phase = 0.5 * pi * (k + 0.5) / phases_of_quarter;
+        Phases one{.sine = std::sin(phase), .first = {}, .third = {}};
+        const std::array quarters{phase, pi - phase, pi + phase, 2 * pi - phase};
+        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+            const double sign = quarter < 2 ? 1 : -1;
+            const double here = quarters[quarter];
+            one.first[quarter] = sign * std::complex<double>(std::sin(here), std::cos(here));
+            one.third[quarter] = sign * std::complex<double>(std::sin(3 * here), std::cos(3 * here));
+        }
+        all.push_back(one);
+    }
+    return all;
+}
 
 }  // namespace
 
-/// G' / G at a phase of an oscillation in which bonds break, between plates as the torque shows it.
-double Forward::storage_while_breaking(const Settings& settings, const Observation& observation, const BondStrain& strain,
-                                       double phase) const {
+/// G' / G in the quarters of an oscillation in which bonds break, between plates as the torque shows it.
+std::array<double, 4> Forward::storage_while_breaking(const Settings& settings, const Observation& observation,
+                                                      const BondStrain& strain, double sine) const {
     if (!strain_varies(settings, observation)) {
-        return simulator_.storage_while_breaking(settings, strain.before, strain.amplitude, phase);
+        return simulator_.storage_while_breaking(settings, strain.before, strain.amplitude, sine);
     }
     static const std::vector<Ring> rings = plate_rings(1);
-    double mean = 0;
+    std::array<double, 4> mean{};
     for (const Ring& ring : rings) {
-        mean += ring.weight *
-                simulator_.storage_while_breaking(settings, ring.radius * strain.before, ring.radius * strain.amplitude, phase);
+        const auto own =
+            simulator_.storage_while_breaking(settings, ring.radius * strain.before, ring.radius * strain.amplitude, sine);
+        for (std::size_t quarter = 0; quarter < own.size(); ++quarter) {
+            mean[quarter] += ring.weight * own[quarter];
+        }
     }
     return mean;
 }
@@ -40,12 +68,14 @@ std::complex<double> Forward::third_harmonic(const Settings& given, const Observ
     }
     std::complex<double> first = 0;
     std::complex<double> third = 0;
-    for (int k = 0; k < phases_of_oscillation; ++k) {
-        const double phase = 2 * std::numbers::pi * (k + 0.5) / phases_of_oscillation;
-        const double stress = std::sin(phase) * simulator_.contact_secant(settings, strain * std::sin(phase)) *
-                              storage_while_breaking(settings, observation, bonds, phase);
-        first += stress * std::complex<double>(std::sin(phase), std::cos(phase));
-        third += stress * std::complex<double>(std::sin(3 * phase), std::cos(3 * phase));
+    static const std::vector<Phases> phases = all_phases();
+    for (const Phases& phase : phases) {
+        const double secant = phase.sine * simulator_.contact_secant(settings, strain * phase.sine);
+        const std::array<double, 4> storage = storage_while_breaking(settings, observation, bonds, phase.sine);
+        for (std::size_t quarter = 0; quarter < storage.size(); ++quarter) {
+            first += secant * storage[quarter] * phase.first[quarter];
+            third += secant * storage[quarter] * phase.third[quarter];
+        }
     }
     return std::abs(first) > 0 ? third / std::abs(first) : 0.0;
 }

@@ -1,7 +1,6 @@
 #include <coagula/diagnose/yield_curves.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -60,50 +59,53 @@ YieldCurves::YieldCurves(std::vector<double> loads, const Eigen::MatrixXcd& sett
     starts_.imag() = starts_of(loads_, curves_.imag()).matrix();
 }
 
-Eigen::VectorXcd YieldCurves::at(double load) const {
+template <int Rows>
+Eigen::Vector<std::complex<double>, Rows> YieldCurves::at(double load, Index rows) const {
+    using Values = Eigen::Vector<std::complex<double>, Rows>;
+    const auto curve = [&](const Eigen::MatrixXcd& curves, Index column) -> Values {
+        return curves.col(column).template head<Rows>(rows);
+    };
     const auto above = std::upper_bound(loads_.begin(), loads_.end(), load);
     if (above == loads_.begin()) {
-        return curves_.leftCols(1);
+        return curve(curves_, 0);
     }
     if (above == loads_.end()) {
-        return curves_.rightCols(1);
+        return curve(curves_, curves_.cols() - 1);
     }
     const Index next = above - loads_.begin();
     const double way = std::log(load / *(above - 1)) / std::log(*above / *(above - 1));
     // The integral of a slope that goes linearly from its start to its end.
     const auto share = [&](const auto& start) { return (2 * way - 2 * way * way) * start.array() + way * way; };
-    const Eigen::VectorXcd change = curves_.col(next) - curves_.col(next - 1);
-    Eigen::VectorXcd found = curves_.col(next - 1);
-    found.real().array() += share(starts_.col(next - 1).real()) * change.real().array();
-    found.imag().array() += share(starts_.col(next - 1).imag()) * change.imag().array();
+    Values found = curve(curves_, next - 1);
+    const Values change = curve(curves_, next) - found;
+    const Values start = curve(starts_, next - 1);
+    found.real().array() += share(start.real()) * change.real().array();
+    found.imag().array() += share(start.imag()) * change.imag().array();
     return found;
 }
 
-double YieldCurves::storage(double from, double to, double phase) const {
-    const double before = at(from)[0].real();
+std::array<double, 4> YieldCurves::storage(double from, double to, double sine) const {
+    const double before = at<1>(from)[0].real();
     if (to <= from) {
-        return before;
+        return {before, before, before, before};
     }
-    const double after = at(to)[0].real();
-    const double here = at(std::max(from, std::abs(std::sin(phase)) * to))[0].real();
-    const int quarter = static_cast<int>(std::fmod(phase, 2 * std::numbers::pi) / (0.5 * std::numbers::pi));
-    const std::array lost{missing * (before - here), missing * (before - after),
-                          (1 - missing) * (before - after) + missing * (before - here), before - after};
-    return before - lost.at(static_cast<std::size_t>(quarter));
+    const double lost = before - at<1>(to)[0].real();
+    const double here = before - at<1>(std::max(from, sine * to))[0].real();
+    return {before - missing * here, before - missing * lost, before - (1 - missing) * lost - missing * here, before - lost};
 }
 
 /// Half of the bonds that break do so while the strain grows in its first quarter and half of them, those on the other side, in its
 /// third; until then they carry load. What they lose is the energy between the two loads, however large the step.
 Eigen::VectorXcd YieldCurves::response(double from, double to) const {
-    const Eigen::VectorXcd before = at(from);
+    const Eigen::VectorXcd before = at<Eigen::Dynamic>(from, curves_.rows());
     if (to <= from) {
         return before.real().cast<std::complex<double>>();
     }
-    const Eigen::VectorXcd after = at(to);
+    const Eigen::VectorXcd after = at<Eigen::Dynamic>(to, curves_.rows());
     Eigen::VectorXd growing = Eigen::VectorXd::Zero(after.size());
     for (int k = 0; k < strains_of_quarter; ++k) {
         const double sine = std::sin((k + 0.5) * std::numbers::pi / (2 * strains_of_quarter));
-        growing += 2 * sine * sine / strains_of_quarter * at(std::max(from, sine * to)).real();
+        growing += 2 * sine * sine / strains_of_quarter * at<Eigen::Dynamic>(std::max(from, sine * to), curves_.rows()).real();
     }
     Eigen::VectorXcd response(after.size());
     response.real() = 0.5 * (before.real() + after.real()) - 0.5 * missing * (before.real() - growing);

@@ -25,9 +25,9 @@ constexpr Index contact = 4;                                          // the she
 Packing singles_and_triangles(std::uint64_t seed) {
     std::vector<Eigen::Vector3d> positions;
     for (std::uint64_t site = 0; site < sites_along * sites_along * sites_along; ++site) {
-        const Eigen::Vector3d place =
-            spacing * Eigen::Vector3d(static_cast<double>(site % sites_along), static_cast<double>(site / sites_along % sites_along),
-                                      static_cast<double>(site / (sites_along * sites_along)));
+        const Eigen::Vector3d place = spacing * Eigen::Vector3d(static_cast<double>(site % sites_along),
+                                                                static_cast<double>(site / sites_along % sites_along),
+                                                                static_cast<double>(site / (sites_along * sites_along)));
         positions.push_back(place);
         if (random_uniform(seed, RandomPurpose::diagnosis, 0, site)[0] < triangles) {
             positions.emplace_back(place + Eigen::Vector3d(1, 0, 0));
@@ -98,7 +98,8 @@ TEST(NeighbourShells, ScatterFromImageToImageAsStated) {
         const double own = std::pow(shells.standard_errors[contact], 2) / images;
         seen.push_back(shells.mean[contact]);
         independent += own;
-        stated += own + errors_of_density(spread, static_cast<double>(shells.centres), shells.mutual).row(contact).squaredNorm() / images;
+        stated +=
+            own + errors_of_density(spread, static_cast<double>(shells.centres), shells.mutual).row(contact).squaredNorm() / images;
     }
     EXPECT_NEAR(stated / variance(seen), 1, 0.25);  // the spread is that of 600 particles, the variance one of 400 images
     EXPECT_LT(independent / variance(seen), 0.7);
@@ -107,7 +108,8 @@ TEST(NeighbourShells, ScatterFromImageToImageAsStated) {
 
 TEST(NeighbourShells, OfTwoImagesShareTheErrorsOfTheStructures) {
     const Packing hidden = structure(500, 79);
-    const Experiment experiment = experiment_of_recipe({seen_by_microscope(hidden, 0, 0, 0, 1), seen_by_microscope(hidden, 0, 0, 0.3, 2)});
+    const Experiment experiment =
+        experiment_of_recipe({seen_by_microscope(hidden, 0, 0, 0, 1), seen_by_microscope(hidden, 0, 0, 0.3, 2)});
     const std::vector<Observation> observations = observations_of(experiment);
     ASSERT_EQ(observations.size(), 2U * shell_count);
     const Eigen::MatrixXd errors = Forward(experiment, observations, recipe().simulator).prediction(Model{}).errors.changes;

@@ -97,9 +97,9 @@ public:
     /// As contact_response, of stress over strain at a momentary strain.
     double contact_secant(const Settings& settings, double strain);
 
-    /// G' / G of bonds that break while the strain amplitude x sin(phase) [rad] runs for the first time, `before` being the largest
-    /// before.
-    double storage_while_breaking(const Settings& settings, double before, double amplitude, double phase);
+    /// G' / G of bonds that break while the strain amplitude x sin(phase) runs for the first time, `before` being the largest
+    /// before: in each quarter of that oscillation where |sin(phase)| is `sine`.
+    std::array<double, 4> storage_while_breaking(const Settings& settings, double before, double amplitude, double sine);
 
     /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; what the
     /// contacts lose beside their springs is in both.

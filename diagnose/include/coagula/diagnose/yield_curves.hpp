@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -20,11 +21,14 @@ public:
     /// nothing breaks and nothing is lost any more. Past the last load nothing changes any more.
     Eigen::VectorXcd response(double from, double to) const;
 
-    /// Storage modulus of the first curve, over that at rest, at a phase [rad] of the strain `to` sin(phase) of that oscillation.
-    double storage(double from, double to, double phase) const;
+    /// Storage modulus of the first curve, over that at rest, in each quarter of that oscillation where the strain is `to` x
+    /// `sine`, up to the sign.
+    std::array<double, 4> storage(double from, double to, double sine) const;
 
 private:
-    Eigen::VectorXcd at(double load) const;
+    /// Of the first curves.
+    template <int Rows>
+    Eigen::Vector<std::complex<double>, Rows> at(double load, Eigen::Index rows = Rows) const;
 
     std::vector<double> loads_;  ///< from half of the first one on, up to which nothing breaks
     Eigen::MatrixXcd curves_;    ///< curves x loads: settled storage and, imaginary, energy lost so far
