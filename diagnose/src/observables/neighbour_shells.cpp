@@ -19,6 +19,9 @@ namespace {
 constexpr std::uint64_t seed_of_shells = 20120;
 constexpr Index least_particles_of_shells = 4000;  ///< so that the errors that are drawn do not count beside those of an image
 
+constexpr double least_variance = 10;
+constexpr int shell_of_contact = 4;
+
 /// The shell of a distance over the diameter; -1 beyond them.
 int shell_at(double distance) {
     const int shell = static_cast<int>(std::floor((distance - first_shell) / shell_width));
@@ -83,11 +86,28 @@ NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diame
     }
     const auto centres = static_cast<double>(std::max<Index>(1, shells.centres));
     const Eigen::ArrayXd mean = neighbours / centres;
-    const Eigen::ArrayXd errors = (neighbours + mutual).max(1).sqrt() / centres;  // a pair of centres is counted twice
+    const Eigen::ArrayXd variances = neighbours + mutual;  // a pair of centres is counted twice
     shells.mean.assign(mean.begin(), mean.end());
-    shells.standard_errors.assign(errors.begin(), errors.end());
+    shells.variances.assign(variances.begin(), variances.end());
     shells.mutual = mutual.sum() / std::max(1.0, neighbours.sum());
     return shells;
+}
+
+std::vector<ShellGroup> groups_of_shells(const std::vector<double>& variances) {
+    std::vector<ShellGroup> groups;
+    for (int shell = 0; shell < shell_count; ++shell) {
+        const bool begins = groups.empty() || shell == shell_of_contact || groups.back().variance >= least_variance;
+        if (begins) {
+            groups.push_back({shell, 0, 0});
+        }
+        ++groups.back().count;
+        groups.back().variance += variances[static_cast<std::size_t>(shell)];
+    }
+    return groups;
+}
+
+double error_of_count(double variance) {
+    return variance < least_variance ? 1 + std::sqrt(variance + 0.75) : std::sqrt(variance);
 }
 
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis) {

@@ -18,7 +18,7 @@ constexpr double shell_reach = first_shell + shell_count * shell_width;
 struct NeighbourShells {
     std::vector<double> mean;  ///< neighbours of a particle, one per shell
     std::vector<double>
-        standard_errors;  ///< as if pairs were independent (beside errors_of_density); of an empty shell, as if it had one
+        variances;  ///< of the number of neighbours of all centres, as if pairs were independent (beside errors_of_density)
     Index centres = 0;
     double mutual = 0;  ///< share of the neighbours that are centres, too
 };
@@ -26,6 +26,20 @@ struct NeighbourShells {
 /// Of measured coordinates: particles farther than the reach of the shells from the faces of the box around all are the centres.
 /// @param positions 3 x N [m].
 NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diameter);
+
+/// Consecutive shells that are compared together.
+struct ShellGroup {
+    int first;
+    int count;
+    double variance;
+};
+
+/// Shells of too few neighbours for a normal error go with the next ones, but not across the contact.
+std::vector<ShellGroup> groups_of_shells(const std::vector<double>& variances);
+
+/// Standard error of a number with this Poisson variance as counted; of a small one, that of its upper limit (Gehrels, Astrophys.
+/// J. 303 (1986) 336, eq. 7), since a count of none tells little about its mean.
+double error_of_count(double variance);
 
 /// Of a periodic structure whose particles are found with errors: independent normal ones with these standard deviations in the
 /// plane and along z [m], drawn from a fixed seed, several times where the structure is small. Packings too small for the reach are

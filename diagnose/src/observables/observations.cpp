@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -158,18 +159,30 @@ std::vector<Observation> neighbours_in(const std::vector<Eigen::Matrix3Xd>& imag
             shells.pop_back();
         }
     }
+    if (shells.empty()) {
+        return {};
+    }
+    const auto mean = [&](const auto& value) {
+        return std::transform_reduce(shells.begin(), shells.end(), 0.0, std::plus(), value) / static_cast<double>(shells.size());
+    };
+    const double centres = mean([](const NeighbourShells& one) { return static_cast<double>(one.centres); });
+    std::vector<double> variances(shell_count);
+    for (std::size_t shell = 0; shell < shell_count; ++shell) {
+        variances[shell] = mean([&](const NeighbourShells& one) { return one.variances[shell]; });
+    }
     std::vector<Observation> all;
-    for (std::size_t shell = 0; shell < shell_count && !shells.empty(); ++shell) {
+    for (const ShellGroup& group : groups_of_shells(variances)) {
         all.push_back({.measurement = number,
-                       .row = shell,
-                       .standard_error = 0,
-                       .distance = first_shell + shell_width * (static_cast<double>(shell) + 0.5)});
-        for (const NeighbourShells& one : shells) {
-            all.back().value += one.mean[shell] / static_cast<double>(shells.size());
-            all.back().standard_error += one.standard_errors[shell] / static_cast<double>(shells.size());
-            all.back().centres += static_cast<double>(one.centres) / static_cast<double>(shells.size());
-            all.back().mutual += one.mutual / static_cast<double>(shells.size());
-        }
+                       .row = static_cast<std::size_t>(group.first),
+                       .value = mean([&](const NeighbourShells& one) {
+                           return std::accumulate(one.mean.begin() + group.first, one.mean.begin() + group.first + group.count,
+                                                  0.0);
+                       }),
+                       .standard_error = error_of_count(group.variance) / centres,
+                       .distance = first_shell + shell_width * (group.first + 0.5 * group.count),
+                       .shells = static_cast<std::size_t>(group.count),
+                       .centres = centres,
+                       .mutual = mean([](const NeighbourShells& one) { return one.mutual; })});
     }
     return all;
 }

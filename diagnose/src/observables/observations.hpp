@@ -49,8 +49,9 @@ struct Observation {
     double heterogeneity = unset;
     double coordination = unset;
     double volume_fraction = unset;
-    // Of coordinates: the value is the mean number of neighbours in a shell, whose number is the row ...
-    double distance = unset;  ///< middle of the shell over the diameter
+    // Of coordinates: the value is the mean number of neighbours in consecutive shells, the first of which is the row ...
+    double distance = unset;  ///< middle of the shells over the diameter
+    std::size_t shells = 1;
     // ... or what differs between images of the same particles; rows after those of the shells.
     std::optional<ImageDifference> difference = {};
     double centres = 0;  ///< whose neighbours were counted, or that are compared

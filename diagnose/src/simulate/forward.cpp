@@ -97,9 +97,9 @@ Eigen::MatrixXd Forward::errors_of_images() const {
             own = simulator_.neighbour_errors_of_image(observation.centres, observation.mutual);
             all.conservativeResizeLike(Eigen::MatrixXd::Zero(all.rows(), all.cols() + own.cols()));
         }
-        const auto shell = static_cast<Index>(observation.row);
-        all.row(static_cast<Index>(k)).head(of_structures.cols()) = of_structures.row(shell);
-        all.row(static_cast<Index>(k)).tail(own.cols()) = own.row(shell);
+        const auto shells = Eigen::seqN(static_cast<Index>(observation.row), static_cast<Index>(observation.shells));
+        all.row(static_cast<Index>(k)).head(of_structures.cols()) = of_structures(shells, Eigen::all).colwise().sum();
+        all.row(static_cast<Index>(k)).tail(own.cols()) = own(shells, Eigen::all).colwise().sum();
     }
     return all;
 }
@@ -269,7 +269,11 @@ const UncertainModuli& Forward::remembered_material(const Model& model, bool exa
 /// What coordinates and pore curves show.
 double Forward::seen_of_structure(const Settings& settings, const Observation& observation, bool exact) const {
     if (std::isfinite(observation.distance)) {
-        return simulator_.neighbours(settings, observation.row, exact);
+        double sum = 0;
+        for (std::size_t shell = observation.row; shell < observation.row + observation.shells; ++shell) {
+            sum += simulator_.neighbours(settings, shell, exact);
+        }
+        return sum;
     }
     if (observation.difference) {
         return simulator_.repeated_images(settings, exact)[static_cast<std::size_t>(*observation.difference)];

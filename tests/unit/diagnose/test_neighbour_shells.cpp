@@ -95,7 +95,7 @@ TEST(NeighbourShells, ScatterFromImageToImageAsStated) {
     const std::vector<double> spread = spread_of_neighbours(singles_and_triangles(1000));
     for (std::uint64_t image = 0; image < images; ++image) {
         const NeighbourShells shells = shells_of_points(singles_and_triangles(image).positions, 1);
-        const double own = std::pow(shells.standard_errors[contact], 2) / images;
+        const double own = shells.variances[contact] / std::pow(static_cast<double>(shells.centres), 2) / images;
         seen.push_back(shells.mean[contact]);
         independent += own;
         stated +=
@@ -106,20 +106,51 @@ TEST(NeighbourShells, ScatterFromImageToImageAsStated) {
     EXPECT_NEAR(in_triangles, share_in_triangles(singles_and_triangles(1000)), 0.06);
 }
 
+TEST(NeighbourShells, OfFewNeighboursAreComparedTogether) {
+    std::vector<double> variances(shell_count, 50);
+    EXPECT_EQ(groups_of_shells(variances).size(), static_cast<std::size_t>(shell_count));
+    variances[0] = 1;
+    variances[1] = 12;
+    variances[3] = 2;
+    const std::vector<ShellGroup> groups = groups_of_shells(variances);
+    ASSERT_EQ(groups.size(), static_cast<std::size_t>(shell_count) - 1);
+    EXPECT_EQ(groups[0].count, 2);
+    EXPECT_EQ(groups[0].variance, 13);
+    EXPECT_EQ(groups[1].first, 2);
+    EXPECT_EQ(groups[2].first, 3);  // not with the contact
+    EXPECT_EQ(groups[2].count, 1);
+}
+
+TEST(NeighbourShells, OfFewNeighboursHaveTheErrorOfTheUpperLimit) {
+    // The means below which so many are found in 15.87 % of the cases: the exact limits lie within 10 %.
+    for (const int count : {0, 1, 4, 9}) {
+        const double limit = count + error_of_count(count);
+        double below = 0;
+        double term = std::exp(-limit);
+        for (int k = 0; k <= count; ++k) {
+            below += term;
+            term *= limit / (k + 1);
+        }
+        EXPECT_NEAR(below, 0.1587, 0.0159) << count;
+    }
+    EXPECT_EQ(error_of_count(100), 10);
+}
+
 TEST(NeighbourShells, OfTwoImagesShareTheErrorsOfTheStructures) {
     const Packing hidden = structure(500, 79);
     const Experiment experiment =
         experiment_of_recipe({seen_by_microscope(hidden, 0, 0, 0, 1), seen_by_microscope(hidden, 0, 0, 0.3, 2)});
     const std::vector<Observation> observations = observations_of(experiment);
-    ASSERT_EQ(observations.size(), 2U * shell_count);
+    constexpr Index rows = shell_count - 3;  // nothing is nearer than the contact: one row
+    ASSERT_EQ(observations.size(), 2U * rows);
     const Eigen::MatrixXd errors = Forward(experiment, observations, recipe().simulator).prediction(Model{}).errors.changes;
     const Index shared = recipe().simulator.neighbour_errors_of_structures().cols();
     ASSERT_GT(shared, 0);
-    EXPECT_EQ(errors.topLeftCorner(shell_count, shared), errors.bottomLeftCorner(shell_count, shared));
+    EXPECT_EQ(errors.topLeftCorner(rows, shared), errors.bottomLeftCorner(rows, shared));
     // The rest is of one image or of the other.
     ASSERT_GT(errors.cols(), shared + 1);
     for (Index own = shared; own < errors.cols(); ++own) {
-        EXPECT_NE(errors.col(own).head(shell_count).norm() > 0, errors.col(own).tail(shell_count).norm() > 0) << own;
+        EXPECT_NE(errors.col(own).head(rows).norm() > 0, errors.col(own).tail(rows).norm() > 0) << own;
     }
 }
 
