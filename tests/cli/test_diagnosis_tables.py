@@ -86,11 +86,11 @@ class Coordinates(Tables):
     def test_neighbours_of_sharp_centres_fit(self):
         self.centres(0, 0)
         found = self.diagnosis(self.experiment())
-        self.assertEqual((found["verdict"], found["observations"]), ("no-discrepancy", 16))
+        self.assertEqual((found["verdict"], found["observations"]), ("no-discrepancy", 13))
         self.assertEqual({row["observable"] for row in found["rows"]}, {"neighbours"})
-        contacts = found["rows"][4]  # the shell from 0.95 to 1.05 diameters
+        overlaps, contacts = found["rows"][:2]  # the four empty shells below the contact, and that from 0.95 to 1.05 diameters
         self.assertTrue(3.5 < contacts["measured"] < 6 and abs(contacts["base"] / contacts["measured"] - 1) < 0.1)
-        self.assertEqual([row["measured"] for row in found["rows"][:4]], [0, 0, 0, 0])  # nothing overlaps
+        self.assertEqual((overlaps["measured"], contacts["row"] - overlaps["row"]), (0, 4))
 
     def test_errors_of_localisation_are_in_the_set(self):
         self.centres(5e-8, 1.2e-7)
