@@ -13,64 +13,24 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr double rarest = 0.01;                   ///< probability; below, one largest pore decides
-constexpr double unstated_error_of_curve = 2e-3;  ///< of a row
-constexpr double scatter_length = 6;              ///< over which curves of one structure stay on one side [particle radii]
-
-/// The error of a row and the part of it that scatters as a whole.
-struct PoreError {
-    double all;
-    double common;
-};
-
-PoreError error_of(const Experiment& experiment, double probability, double stated) {
-    double particles = 0;
-    for (const std::size_t size : experiment.structure_sizes) {
-        particles += static_cast<double>(size);
-    }
-    require(particles > 0, "the errors of a pore curve need the number of particles in the structures");
-    const double each = particles / static_cast<double>(experiment.structure_sizes.size());
-    // What is measured may be low by that much: the law falls with the probability.
-    const double expected = probability + scatter_of_probability(probability, each);
-    double common = scatter_of_probability(expected, particles);
-    if (std::isnan(stated)) {
-        common = std::hypot(common, scatter_of_probability(expected, each));
-    }
-    return {std::hypot(common, std::isnan(stated) ? unstated_error_of_curve : stated), common};
-}
+constexpr double unstated_error_of_curve = 2e-3;  ///< of a row, sampled in a hundred thousand points
 
 }  // namespace
-
-double scatter_of_probability(double probability, double particles) {
-    const double logarithm = std::log(probability);
-    return 0.2 * probability * logarithm * logarithm / std::sqrt(particles);
-}
 
 std::vector<Observation> pores_in(const Experiment& experiment, std::size_t number) {
     const Measurement& table = experiment.measurements[number];
     const Column& column = *find_column(table, "exclusion_probability");
     std::vector<Observation> all;
-    PoreError before{};
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const double value = column.values[row];
         const double radius = cell(table, "pore_radius", row);
-        if (!(value > rarest && value < 1 && radius > 0)) {
-            continue;
+        if (value > rarest && value < 1 && radius > 0) {
+            all.push_back({.measurement = number,
+                           .row = row,
+                           .value = value,
+                           .standard_error = column.standard_errors.empty() ? unstated_error_of_curve : column.standard_errors[row],
+                           .pore_radius = radius});
         }
-        const PoreError error = error_of(experiment, value, column.standard_errors.empty() ? unset : column.standard_errors[row]);
-        ErrorLaw errors;
-        if (!all.empty()) {
-            const double steps = (radius - all.back().pore_radius) / (scatter_length * experiment.sample.particle_radius);
-            const double correlation = std::exp(-std::abs(steps)) * error.common * before.common / (error.all * before.all);
-            // The law is one of successive rows.
-            errors.correlation = std::pow(correlation, 1 / static_cast<double>(row - all.back().row));
-        }
-        before = error;
-        all.push_back({.measurement = number,
-                       .row = row,
-                       .value = value,
-                       .standard_error = error.all,
-                       .errors = errors,
-                       .pore_radius = radius});
     }
     return all;
 }

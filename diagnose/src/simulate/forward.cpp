@@ -3,6 +3,7 @@
 #include "contact_losses.hpp"
 #include "data/median.hpp"
 #include "observables/pore_curves.hpp"
+#include "shared_errors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,34 +75,7 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
     if (experiment_.material.kind == MaterialKind::smooth) {
         smooth_.emplace(observations_, experiment_.material.ages);
     }
-    of_images_ = errors_of_images();
-}
-
-/// Those of the structures, which all images share, then each image's own.
-Eigen::MatrixXd Forward::errors_of_images() const {
-    Eigen::MatrixXd all(static_cast<Index>(observations_.size()), 0);
-    Eigen::MatrixXd of_structures;
-    Eigen::MatrixXd own;
-    std::size_t image = observations_.size();  // the measurement whose own errors are the last columns
-    for (std::size_t k = 0; k < observations_.size(); ++k) {
-        const Observation& observation = observations_[k];
-        if (!std::isfinite(observation.distance)) {
-            continue;
-        }
-        if (all.cols() == 0) {
-            of_structures = simulator_.neighbour_errors_of_structures();
-            all.setZero(all.rows(), of_structures.cols());
-        }
-        if (image != observation.measurement) {
-            image = observation.measurement;
-            own = simulator_.neighbour_errors_of_image(observation.centres, observation.mutual);
-            all.conservativeResizeLike(Eigen::MatrixXd::Zero(all.rows(), all.cols() + own.cols()));
-        }
-        const auto shells = Eigen::seqN(static_cast<Index>(observation.row), static_cast<Index>(observation.shells));
-        all.row(static_cast<Index>(k)).head(of_structures.cols()) = of_structures(shells, Eigen::all).colwise().sum();
-        all.row(static_cast<Index>(k)).tail(own.cols()) = own(shells, Eigen::all).colwise().sum();
-    }
-    return all;
+    shared_ = shared_errors(experiment_, observations_, simulator_);
 }
 
 /// Under plates or a cone, by a tool.
@@ -314,9 +288,9 @@ Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
 }
 
 Eigen::VectorXd Forward::predict(const Model& model, const Eigen::VectorXd& errors) const {
-    const Index shared = of_images_.cols();
+    const Index shared = shared_.cols();
     return seen(model, remembered_material(model, false).with(errors.head(errors.size() - shared)), false) +
-           of_images_ * errors.tail(shared);
+           shared_ * errors.tail(shared);
 }
 
 /// Of the errors that structures leave, the fewest.
@@ -353,7 +327,7 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
     constexpr double step = 1e-5;
     const UncertainModuli& material = remembered_material(model, false);
     const Index of_material = material.errors();
-    const Index shared = of_images_.cols();
+    const Index shared = shared_.cols();
     const Eigen::MatrixXcd moduli = material.tangents(errors.head(of_material));
     const Eigen::VectorXd values = seen(model, moduli.col(0), false);
     // What neither geometry nor tool change is in proportion to the modulus of the material.
@@ -369,8 +343,8 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
     for (Index error = 0; error < of_material; ++error) {
         changes.col(error) = seen(model, moduli.col(0) + moduli.col(error + 1), false) - values;
     }
-    changes.rightCols(shared) = of_images_;
-    return {values + of_images_ * errors.tail(shared),
+    changes.rightCols(shared) = shared_;
+    return {values + shared_ * errors.tail(shared),
             std::move(level_slope),
             {std::move(changes), degrees_of_errors(model.simulated(), of_material > 0), errors}};
 }

@@ -48,9 +48,8 @@ public:
 
     /// The same between the nodes, with how it changes with the level of a sample and with the independent standard errors that so
     /// few structures leave: in how they yield (Simulator::amplitude_response), in how Hertz contacts stiffen
-    /// (Simulator::contact_errors) and in how a solvent drags on them (Simulator::drag_excess), and that images share in the
-    /// neighbours that they show (Simulator::neighbour_errors_of_structures and _of_image), last. About those errors of a smooth
-    /// material that the data ask for; else about none.
+    /// (Simulator::contact_errors) and in how a solvent drags on them (Simulator::drag_excess), and in what images and
+    /// pore curves show (shared_errors), last. About those errors of a smooth material that the data ask for; else about none.
     Prediction prediction(const Model& model) const;
     /// The same about these errors.
     Prediction prediction(const Model& model, const Eigen::VectorXd& errors) const;
@@ -58,7 +57,7 @@ public:
     /// Whether the prediction of a model bends with its errors.
     bool bends(const Model& model) const { return remembered_material(model, false).logarithms.cols() > 0; }
     /// How many errors the prediction of a model has.
-    Index errors_of(const Model& model) const { return remembered_material(model, false).errors() + of_images_.cols(); }
+    Index errors_of(const Model& model) const { return remembered_material(model, false).errors() + shared_.cols(); }
 
     const Experiment& experiment() const { return experiment_; }
 
@@ -103,7 +102,6 @@ private:
     void add_drag_errors(const Settings& settings, UncertainModuli& moduli) const;
     double degrees_of_errors(const Settings& settings, bool any) const;
     const UncertainModuli& remembered_material(const Model& model, bool exact) const;
-    Eigen::MatrixXd errors_of_images() const;
     Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
 
     const Experiment& experiment_;
@@ -113,7 +111,7 @@ private:
     StrainHistory history_;
     std::vector<BondStrain> bond_strains_;  ///< where strength does not depend on the frequency
     std::optional<SmoothMaterial> smooth_;
-    Eigen::MatrixXd of_images_;  ///< errors that numbers of the same image share, whatever the model: observations x errors
+    Eigen::MatrixXd shared_;  ///< errors of images and pore curves (shared_errors)
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
     mutable std::vector<ActingMechanism> last_acting_;

@@ -2,9 +2,11 @@
 #include "remade_structures.hpp"
 
 #include "observables/pore_curves.hpp"
+#include "observables/pore_scatter.hpp"
 #include "simulate/forward.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 namespace coagula::diagnose {
 namespace {
@@ -27,26 +29,49 @@ TEST(PoreCurves, ArePredictedByTheStructures) {
     }
 }
 
+/// Curves of many structures against what few of them say about their scatter.
 TEST(PoreCurves, ScatterFromStructureToStructure) {
-    constexpr int seeds = 10;
+    constexpr Index seeds = 24;
     constexpr Index particles = 200;
-    const std::vector<double> places{0.3, 0.5, 0.7, 0.9, 1.1};
-    Eigen::MatrixXd curves(seeds, static_cast<Index>(places.size()));
-    for (int seed = 0; seed < seeds; ++seed) {
-        const PoreCurve curve = pores_of(structure(particles, 100 + static_cast<std::uint64_t>(seed)));
-        for (Index k = 0; k < curves.cols(); ++k) {
-            curves(seed, k) = curve.at(places[static_cast<std::size_t>(k)] * 0.25e-6);
+    const std::vector<Index> radii{3, 5, 7, 9, 11};  // tenths of a particle radius
+    const auto count = static_cast<Index>(radii.size());
+    Eigen::MatrixXd curves(count, seeds);
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(count, count);
+    for (Index seed = 0; seed < seeds; ++seed) {
+        const Packing packing = structure(particles, 100 + static_cast<std::uint64_t>(seed));
+        const PoreCurve curve = pores_of(packing);
+        const std::vector<double> covariance = covariance_of_pores(packing);
+        const Eigen::Map<const Eigen::MatrixXd> all(covariance.data(), scatter_radii, scatter_radii);
+        expected += all(radii, radii) / static_cast<double>(seeds);
+        for (Index k = 0; k < count; ++k) {
+            curves(k, seed) = curve.at(0.1 * static_cast<double>(radii[static_cast<std::size_t>(k)]) * 0.25e-6);
         }
     }
-    const Eigen::RowVectorXd mean = curves.colwise().mean();
-    double squares = 0;
-    for (Index k = 0; k < curves.cols(); ++k) {
-        const double variance = (curves.col(k).array() - mean[k]).square().sum() / (seeds - 1);
-        squares += variance / std::pow(scatter_of_probability(mean[k], particles), 2) / static_cast<double>(curves.cols());
+    const Eigen::MatrixXd deviations = curves.colwise() - curves.rowwise().mean();
+    const Eigen::MatrixXd found = deviations * deviations.transpose() / (seeds - 1);
+    // A variance of 24 curves has a standard error of 30 %.
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(found);
+    for (Index axis = count - 2; axis < count; ++axis) {
+        const Eigen::VectorXd direction = axes.eigenvectors().col(axis);
+        const double ratio = direction.dot(expected * direction) / axes.eigenvalues()[axis];
+        EXPECT_GT(ratio, 0.5) << axis;
+        EXPECT_LT(ratio, 3) << axis;
     }
-    // A variance of ten curves, nearly one number each, has a standard error of a half.
-    EXPECT_GT(std::sqrt(squares), 0.5);
-    EXPECT_LT(std::sqrt(squares), 1.8);
+}
+
+/// All boxes cut from one crystal have the same pores.
+TEST(PoreCurves, OfACrystalDoNotScatter) {
+    constexpr int cells = 4;
+    constexpr double edge = 8;
+    Packing crystal{Cell::periodic(Eigen::Vector3d::Constant(edge)), Eigen::Matrix3Xd(3, cells * cells * cells), {}};
+    for (Index k = 0; k < crystal.size(); ++k) {
+        const Eigen::Vector3<Index> place(k % cells, (k / cells) % cells, k / (cells * cells));
+        crystal.positions.col(k) = edge / cells * place.cast<double>();
+    }
+    crystal.radii = Eigen::VectorXd::Constant(crystal.size(), 1.01);  // the grid has 8 points in a unit cell
+    for (const double value : covariance_of_pores(crystal)) {
+        EXPECT_NEAR(value, 0, 1e-20);
+    }
 }
 
 /// The centres of an image as spheres in the box of the particles.

@@ -137,6 +137,10 @@ public:
     /// Probability that a point of the void space is farther than this [m] from the nearest particle surface, as measured
     /// coordinates would show it, mean over the structures.
     double exclusion_probability(const Settings& settings, double pore_radius, bool exact = false);
+    /// How this scatters between such structures, as independent standard errors of one of them.
+    Eigen::RowVectorXd pore_errors(double pore_radius);
+
+    std::size_t structures() const { return structures_.size(); }
 
     double radius() const { return radius_; }
 
@@ -206,6 +210,7 @@ private:
     std::map<std::array<double, 4>, PoreCurve> imaged_pores_;
     std::vector<double> shells_about_places_;              ///< once it has been asked for
     std::vector<double> spread_of_neighbours_;             ///< likewise
+    Eigen::MatrixXd axes_of_pores_;                        ///< likewise
     std::vector<double> secant_curve_;                     ///< likewise
     std::shared_ptr<const HertzScatter> contact_scatter_;  ///< likewise
     std::optional<YieldCurves> strength_curves_;           ///< likewise

@@ -1,0 +1,84 @@
+#include "shared_errors.hpp"
+
+#include "data/table_cells.hpp"
+#include "observables/pore_curves.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace coagula::diagnose {
+
+namespace {
+
+/// Of zeros.
+void add_columns(Eigen::MatrixXd& errors, Index count) {
+    errors.conservativeResizeLike(Eigen::MatrixXd::Zero(errors.rows(), errors.cols() + count));
+}
+
+/// Those of the structures, which all images share, then each image's own.
+Eigen::MatrixXd errors_of_images(const std::vector<Observation>& observations, Simulator& simulator) {
+    Eigen::MatrixXd all(static_cast<Index>(observations.size()), 0);
+    Eigen::MatrixXd of_structures;
+    Eigen::MatrixXd own;
+    std::size_t image = observations.size();  // the measurement whose own errors are the last columns
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const Observation& observation = observations[k];
+        if (!std::isfinite(observation.distance)) {
+            continue;
+        }
+        if (all.cols() == 0) {
+            of_structures = simulator.neighbour_errors_of_structures();
+            add_columns(all, of_structures.cols());
+        }
+        if (image != observation.measurement) {
+            image = observation.measurement;
+            own = simulator.neighbour_errors_of_image(observation.centres, observation.mutual);
+            add_columns(all, own.cols());
+        }
+        const auto shells = Eigen::seqN(static_cast<Index>(observation.row), static_cast<Index>(observation.shells));
+        all.row(static_cast<Index>(k)).head(of_structures.cols()) = of_structures(shells, Eigen::all).colwise().sum();
+        all.row(static_cast<Index>(k)).tail(own.cols()) = own(shells, Eigen::all).colwise().sum();
+    }
+    return all;
+}
+
+/// Those of the structures, which all curves share, then those of each sample.
+Eigen::MatrixXd errors_of_pores(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator) {
+    Eigen::MatrixXd all(static_cast<Index>(observations.size()), 0);
+    std::size_t table = observations.size();  // the measurement whose sample's errors are the last columns
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const Observation& observation = observations[k];
+        if (!is_pore(observation)) {
+            continue;
+        }
+        const Eigen::RowVectorXd errors =
+            simulator.pore_errors(observation.pore_radius * simulator.radius() / experiment.sample.particle_radius);
+        const Column& column = *find_column(experiment.measurements[observation.measurement], "exclusion_probability");
+        const bool stated = !column.standard_errors.empty();
+        if (all.cols() == 0) {
+            add_columns(all, errors.size());
+        }
+        if (!stated && table != observation.measurement) {
+            table = observation.measurement;
+            add_columns(all, errors.size());
+        }
+        const auto row = static_cast<Index>(k);
+        all.row(row).head(errors.size()) = errors / std::sqrt(static_cast<double>(simulator.structures()));
+        if (!stated) {
+            all.row(row).tail(errors.size()) = errors;
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+Eigen::MatrixXd shared_errors(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator) {
+    const Eigen::MatrixXd images = errors_of_images(observations, simulator);
+    const Eigen::MatrixXd pores = errors_of_pores(experiment, observations, simulator);
+    Eigen::MatrixXd all(images.rows(), images.cols() + pores.cols());
+    all << images, pores;
+    return all;
+}
+
+}  // namespace coagula::diagnose
