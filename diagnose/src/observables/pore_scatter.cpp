@@ -113,24 +113,32 @@ std::vector<double> covariance_of_pores(const Packing& packing) {
     return {covariance.reshaped().begin(), covariance.reshaped().end()};
 }
 
-Eigen::MatrixXd axes_of_pores(const std::vector<double>& covariance) {
-    constexpr double negligible = 1e-3;  // of the variance along the first axis
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(
-        Eigen::Map<const Eigen::MatrixXd>(covariance.data(), scatter_radii, scatter_radii));
-    const Eigen::VectorXd& variances = axes.eigenvalues();
-    const Index kept = (variances.array() > negligible * variances[scatter_radii - 1]).count();
-    return axes.eigenvectors().rightCols(kept) * variances.tail(kept).cwiseMax(0).cwiseSqrt().asDiagonal();
+/// Mean over the structures.
+const Eigen::MatrixXd& Simulator::pore_covariance() {
+    if (pore_covariance_.size() == 0) {
+        const std::vector<double> mean =
+            mean_over_structures("scatter of pores", scatter_radii * scatter_radii, {}, covariance_of_pores);
+        pore_covariance_ = Eigen::Map<const Eigen::MatrixXd>(mean.data(), scatter_radii, scatter_radii);
+    }
+    return pore_covariance_;
 }
 
-Eigen::RowVectorXd Simulator::pore_errors(double pore_radius) {
-    if (axes_of_pores_.size() == 0) {
-        constexpr std::size_t count = scatter_radii * scatter_radii;
-        axes_of_pores_ = axes_of_pores(mean_over_structures("scatter of pores", count, {}, covariance_of_pores));
+Eigen::MatrixXd Simulator::pore_errors(const StructureChange& change, const std::vector<double>& pore_radii) {
+    constexpr Index axes = 6;  // the seventh has less than a thousandth of the variance
+    const Eigen::MatrixXd covariance =
+        over_changes(change, [](Simulator& other) { return Eigen::MatrixXd(other.pore_covariance()); });
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+    const Eigen::VectorXd deviations = solver.eigenvalues().tail(axes).cwiseMax(0).cwiseSqrt();
+    const Eigen::MatrixXd at_nodes = solver.eigenvectors().rightCols(axes) * deviations.asDiagonal();
+    Eigen::MatrixXd errors(static_cast<Index>(pore_radii.size()), axes);
+    for (Index row = 0; row < errors.rows(); ++row) {
+        const double radius = pore_radii[static_cast<std::size_t>(row)];
+        const double place = std::clamp(radius / radius_ / scatter_step, 0.0, scatter_radii - 1.0);
+        const Index below = std::min(static_cast<Index>(place), scatter_radii - 2);
+        const double beyond = place - static_cast<double>(below);
+        errors.row(row) = (1 - beyond) * at_nodes.row(below) + beyond * at_nodes.row(below + 1);
     }
-    const double place = std::clamp(pore_radius / radius_ / scatter_step, 0.0, scatter_radii - 1.0);
-    const Index below = std::min(static_cast<Index>(place), scatter_radii - 2);
-    const double beyond = place - static_cast<double>(below);
-    return (1 - beyond) * axes_of_pores_.row(below) + beyond * axes_of_pores_.row(below + 1);
+    return errors;
 }
 
 }  // namespace coagula::diagnose

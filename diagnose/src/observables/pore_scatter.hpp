@@ -14,14 +14,11 @@ constexpr Index scatter_radii = 31;
 constexpr double scatter_step = 0.1;
 
 /// Covariance of the exclusion probability at these radii between periodic structures as large as this one and of one volume
-/// fraction: scatter_radii x scatter_radii, column by column.
+/// fraction: radii x radii, column by column.
 ///
 /// The mean over a box is its wave of infinite length, and waves as long as the box have nearly the same variance: those along its
 /// edges and the diagonals of its faces. What they have in common with those of the void fraction is taken out, as the volume
 /// fraction of the whole does not vary.
 std::vector<double> covariance_of_pores(const Packing& packing);
-
-/// The axes of this covariance that matter, as independent standard errors: radii x errors.
-Eigen::MatrixXd axes_of_pores(const std::vector<double>& covariance);
 
 }  // namespace coagula::diagnose

@@ -75,7 +75,7 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
     if (experiment_.material.kind == MaterialKind::smooth) {
         smooth_.emplace(observations_, experiment_.material.ages);
     }
-    shared_ = shared_errors(experiment_, observations_, simulator_);
+    shared_ = shared_errors(experiment_, observations_, simulator_, shared_change_);
 }
 
 /// Under plates or a cone, by a tool.
@@ -287,10 +287,20 @@ Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
     return smooth_ ? predict(model, smooth_->start()) : seen(model, remembered_material(model, exact).mean, exact);
 }
 
+/// Of structures as the model has them.
+const Eigen::MatrixXd& Forward::shared_errors_of(const Model& model) const {
+    const StructureChange change = change_of(model.simulated());
+    if (change != shared_change_) {
+        shared_ = shared_errors(experiment_, observations_, simulator_, change);
+        shared_change_ = change;
+    }
+    return shared_;
+}
+
 Eigen::VectorXd Forward::predict(const Model& model, const Eigen::VectorXd& errors) const {
-    const Index shared = shared_.cols();
-    return seen(model, remembered_material(model, false).with(errors.head(errors.size() - shared)), false) +
-           shared_ * errors.tail(shared);
+    const Eigen::MatrixXd& shared = shared_errors_of(model);
+    return seen(model, remembered_material(model, false).with(errors.head(errors.size() - shared.cols())), false) +
+           shared * errors.tail(shared.cols());
 }
 
 /// Of the errors that structures leave, the fewest.
@@ -327,7 +337,7 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
     constexpr double step = 1e-5;
     const UncertainModuli& material = remembered_material(model, false);
     const Index of_material = material.errors();
-    const Index shared = shared_.cols();
+    const Eigen::MatrixXd& shared = shared_errors_of(model);
     const Eigen::MatrixXcd moduli = material.tangents(errors.head(of_material));
     const Eigen::VectorXd values = seen(model, moduli.col(0), false);
     // What neither geometry nor tool change is in proportion to the modulus of the material.
@@ -343,8 +353,8 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
     for (Index error = 0; error < of_material; ++error) {
         changes.col(error) = seen(model, moduli.col(0) + moduli.col(error + 1), false) - values;
     }
-    changes.rightCols(shared) = shared_;
-    return {values + shared_ * errors.tail(shared),
+    changes.rightCols(shared.cols()) = shared;
+    return {values + shared * errors.tail(shared.cols()),
             std::move(level_slope),
             {std::move(changes), degrees_of_errors(model.simulated(), of_material > 0), errors}};
 }

@@ -101,6 +101,7 @@ private:
     Eigen::MatrixXd stiffening_errors(const Settings& settings) const;
     void add_drag_errors(const Settings& settings, UncertainModuli& moduli) const;
     double degrees_of_errors(const Settings& settings, bool any) const;
+    const Eigen::MatrixXd& shared_errors_of(const Model& model) const;
     const UncertainModuli& remembered_material(const Model& model, bool exact) const;
     Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
 
@@ -111,11 +112,12 @@ private:
     StrainHistory history_;
     std::vector<BondStrain> bond_strains_;  ///< where strength does not depend on the frequency
     std::optional<SmoothMaterial> smooth_;
-    Eigen::MatrixXd shared_;  ///< errors of images and pore curves (shared_errors)
     // The material of the last call: fits vary stiffness and instrument more often than anything else.
     mutable Settings last_settings_;
     mutable std::vector<ActingMechanism> last_acting_;
     mutable UncertainModuli last_material_;
+    mutable Eigen::MatrixXd shared_;         ///< errors of images and pore curves (shared_errors) ...
+    mutable StructureChange shared_change_;  ///< ... of structures with this change
 };
 
 }  // namespace coagula::diagnose

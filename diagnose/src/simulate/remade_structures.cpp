@@ -21,6 +21,36 @@ constexpr LinearAxis fraction_axis{-0.15, 0.15, 5};  // its middle is the struct
 constexpr LinearAxis coordination_axis{4.3, 5.1, 5};
 constexpr Axis voids_axis{0.125, 1, 4};
 
+/// What is asked of structures with these changes, between the nodes of each; several changes add up.
+template <class Value>
+Value asked_over_changes(Simulator& simulator, const StructureChange& change, const std::function<Value(Simulator&)>& asked) {
+    const Value stated = asked(simulator);
+    Value value = stated;
+    const auto add = [&](const auto& axis, double StructureChange::*changed) {
+        value -= stated - interpolate_nodes(axis, change.*changed, [&](int k) {
+                     StructureChange node;
+                     node.*changed = axis.node(k);
+                     return asked(simulator.remade(node));
+                 });
+    };
+    if (change.size_deviation > 0) {
+        add(size_axis, &StructureChange::size_deviation);
+    }
+    if (std::isfinite(change.surface_potential)) {
+        add(potential_axis, &StructureChange::surface_potential);
+    }
+    if (change.volume_fraction != 0) {
+        add(fraction_axis, &StructureChange::volume_fraction);
+    }
+    if (std::isfinite(change.coordination)) {
+        add(coordination_axis, &StructureChange::coordination);
+    }
+    if (std::isfinite(change.voids)) {
+        add(voids_axis, &StructureChange::voids);
+    }
+    return value;
+}
+
 }  // namespace
 
 void Simulator::use(OtherStages stages) {
@@ -52,33 +82,12 @@ Simulator& Simulator::remade(const StructureChange& change) {
     return *other;
 }
 
-/// What is asked of structures with these changes, between the nodes of each; several changes add up.
 double Simulator::over_changes(const StructureChange& change, const std::function<double(Simulator&)>& asked) {
-    const double stated = asked(*this);
-    double value = stated;
-    const auto add = [&](const auto& axis, double StructureChange::*changed) {
-        value -= stated - interpolate_nodes(axis, change.*changed, [&](int k) {
-                     StructureChange node;
-                     node.*changed = axis.node(k);
-                     return asked(remade(node));
-                 });
-    };
-    if (change.size_deviation > 0) {
-        add(size_axis, &StructureChange::size_deviation);
-    }
-    if (std::isfinite(change.surface_potential)) {
-        add(potential_axis, &StructureChange::surface_potential);
-    }
-    if (change.volume_fraction != 0) {
-        add(fraction_axis, &StructureChange::volume_fraction);
-    }
-    if (std::isfinite(change.coordination)) {
-        add(coordination_axis, &StructureChange::coordination);
-    }
-    if (std::isfinite(change.voids)) {
-        add(voids_axis, &StructureChange::voids);
-    }
-    return value;
+    return asked_over_changes(*this, change, asked);
+}
+
+Eigen::MatrixXd Simulator::over_changes(const StructureChange& change, const std::function<Eigen::MatrixXd(Simulator&)>& asked) {
+    return asked_over_changes(*this, change, asked);
 }
 
 }  // namespace coagula::diagnose

@@ -43,39 +43,44 @@ Eigen::MatrixXd errors_of_images(const std::vector<Observation>& observations, S
 }
 
 /// Those of the structures, which all curves share, then those of each sample.
-Eigen::MatrixXd errors_of_pores(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator) {
-    Eigen::MatrixXd all(static_cast<Index>(observations.size()), 0);
-    std::size_t table = observations.size();  // the measurement whose sample's errors are the last columns
+Eigen::MatrixXd errors_of_pores(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator,
+                                const StructureChange& change) {
+    std::vector<std::size_t> rows;
+    std::vector<double> radii;
     for (std::size_t k = 0; k < observations.size(); ++k) {
-        const Observation& observation = observations[k];
-        if (!is_pore(observation)) {
+        if (is_pore(observations[k])) {
+            rows.push_back(k);
+            radii.push_back(observations[k].pore_radius * simulator.radius() / experiment.sample.particle_radius);
+        }
+    }
+    Eigen::MatrixXd all(static_cast<Index>(observations.size()), 0);
+    if (rows.empty()) {
+        return all;
+    }
+    const Eigen::MatrixXd errors = simulator.pore_errors(change, radii);
+    add_columns(all, errors.cols());
+    all(rows, Eigen::all) = errors / std::sqrt(static_cast<double>(simulator.structures()));
+    std::size_t table = observations.size();  // the measurement whose sample's errors are the last columns
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const std::size_t number = observations[rows[k]].measurement;
+        if (!find_column(experiment.measurements[number], "exclusion_probability")->standard_errors.empty()) {
             continue;
         }
-        const Eigen::RowVectorXd errors =
-            simulator.pore_errors(observation.pore_radius * simulator.radius() / experiment.sample.particle_radius);
-        const Column& column = *find_column(experiment.measurements[observation.measurement], "exclusion_probability");
-        const bool stated = !column.standard_errors.empty();
-        if (all.cols() == 0) {
-            add_columns(all, errors.size());
+        if (table != number) {
+            table = number;
+            add_columns(all, errors.cols());
         }
-        if (!stated && table != observation.measurement) {
-            table = observation.measurement;
-            add_columns(all, errors.size());
-        }
-        const auto row = static_cast<Index>(k);
-        all.row(row).head(errors.size()) = errors / std::sqrt(static_cast<double>(simulator.structures()));
-        if (!stated) {
-            all.row(row).tail(errors.size()) = errors;
-        }
+        all.row(static_cast<Index>(rows[k])).tail(errors.cols()) = errors.row(static_cast<Index>(k));
     }
     return all;
 }
 
 }  // namespace
 
-Eigen::MatrixXd shared_errors(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator) {
+Eigen::MatrixXd shared_errors(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator,
+                              const StructureChange& change) {
     const Eigen::MatrixXd images = errors_of_images(observations, simulator);
-    const Eigen::MatrixXd pores = errors_of_pores(experiment, observations, simulator);
+    const Eigen::MatrixXd pores = errors_of_pores(experiment, observations, simulator, change);
     Eigen::MatrixXd all(images.rows(), images.cols() + pores.cols());
     all << images, pores;
     return all;

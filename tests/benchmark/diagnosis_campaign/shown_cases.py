@@ -17,7 +17,7 @@ GAINS = (40, 200)                        # of an effect whose strength is free
 NARROW, WIDE = 12.5e-3, 25e-3            # plates
 FOUND = {"weak": (1.5e-8, 3e-8, 0.01, 0.01), "strong": (2.5e-8, 6e-8, 0.03, 0.03)}  # as in Hidden.images
 SIZES = (0.08, 0.16)
-POTENTIALS = (0.014, 0.015)
+POTENTIALS = (0.013, 0.014)  # the prior ends at 0.015
 TENSIONS = (6e-3, 9e-3)
 BUILD_UP = (0.15, 0.6)                   # exponents
 

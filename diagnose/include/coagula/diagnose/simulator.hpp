@@ -137,8 +137,9 @@ public:
     /// Probability that a point of the void space is farther than this [m] from the nearest particle surface, as measured
     /// coordinates would show it, mean over the structures.
     double exclusion_probability(const Settings& settings, double pore_radius, bool exact = false);
-    /// How this scatters between such structures, as independent standard errors of one of them.
-    Eigen::RowVectorXd pore_errors(double pore_radius);
+    /// How this scatters between structures with this change, as independent standard errors of one of them: radii x errors, as
+    /// many whatever the change.
+    Eigen::MatrixXd pore_errors(const StructureChange& change, const std::vector<double>& pore_radii);
 
     std::size_t structures() const { return structures_.size(); }
 
@@ -148,6 +149,8 @@ private:
     Simulator(Structures structures, std::vector<std::string> names, SimulationCache& cache, Progress progress,
               std::vector<std::size_t> groups, double radius);
     double over_changes(const StructureChange& change, const std::function<double(Simulator&)>& asked);
+    Eigen::MatrixXd over_changes(const StructureChange& change, const std::function<Eigen::MatrixXd(Simulator&)>& asked);
+    const Eigen::MatrixXd& pore_covariance();
     PoreCurve measured_pores(const Packing& packing) const;
     const PoreCurve& pore_curve(std::size_t structure);
     double mean_exclusion_probability(double pore_radius);
@@ -210,7 +213,7 @@ private:
     std::map<std::array<double, 4>, PoreCurve> imaged_pores_;
     std::vector<double> shells_about_places_;              ///< once it has been asked for
     std::vector<double> spread_of_neighbours_;             ///< likewise
-    Eigen::MatrixXd axes_of_pores_;                        ///< likewise
+    Eigen::MatrixXd pore_covariance_;                      ///< likewise
     std::vector<double> secant_curve_;                     ///< likewise
     std::shared_ptr<const HertzScatter> contact_scatter_;  ///< likewise
     std::optional<YieldCurves> strength_curves_;           ///< likewise
