@@ -61,12 +61,12 @@ TEST(PoreCurves, ScatterFromStructureToStructure) {
 
 /// All boxes cut from one crystal have the same pores.
 TEST(PoreCurves, OfACrystalDoNotScatter) {
-    constexpr int cells = 4;
-    constexpr double edge = 8;
-    Packing crystal{Cell::periodic(Eigen::Vector3d::Constant(edge)), Eigen::Matrix3Xd(3, cells * cells * cells), {}};
+    constexpr Index cells = 4;
+    constexpr double spacing = 2;
+    Packing crystal{Cell::periodic(Eigen::Vector3d::Constant(4 * spacing)), Eigen::Matrix3Xd(3, cells * cells * cells), {}};
     for (Index k = 0; k < crystal.size(); ++k) {
         const Eigen::Vector3<Index> place(k % cells, (k / cells) % cells, k / (cells * cells));
-        crystal.positions.col(k) = edge / cells * place.cast<double>();
+        crystal.positions.col(k) = spacing * place.cast<double>();
     }
     crystal.radii = Eigen::VectorXd::Constant(crystal.size(), 1.01);  // the grid has 8 points in a unit cell
     for (const double value : covariance_of_pores(crystal)) {
