@@ -1,24 +1,11 @@
 #include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/common/cell_list.hpp>
 #include <coagula/common/random.hpp>
+#include <coagula/common/surface_distance.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace coagula::characterize {
-
-namespace {
-
-/// Distance from a point to the nearest particle surface, negative inside a particle; infinite if beyond the reach of the list.
-double surface_distance(const CellList& cells, const Packing& packing, const Eigen::Vector3d& point) {
-    double nearest = std::numeric_limits<double>::infinity();
-    cells.for_each_near(point, [&](int particle, const Eigen::Vector3d& separation) {
-        nearest = std::min(nearest, separation.norm() - packing.radii[particle]);
-    });
-    return nearest;
-}
-
-}  // namespace
 
 SampledPores sample_pores(const Packing& packing, const Eigen::VectorXd& radius, Index points, std::uint64_t seed) {
     check(packing);

@@ -24,11 +24,12 @@ std::vector<Observation> pores_in(const Experiment& experiment, std::size_t numb
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const double value = column.values[row];
         const double radius = cell(table, "pore_radius", row);
+        const double stated = column.standard_errors.empty() ? unset : column.standard_errors[row];
         if (value > rarest && value < 1 && radius > 0) {
             all.push_back({.measurement = number,
                            .row = row,
                            .value = value,
-                           .standard_error = column.standard_errors.empty() ? unstated_error_of_curve : column.standard_errors[row],
+                           .standard_error = std::isnan(stated) ? unstated_error_of_curve : stated,
                            .pore_radius = radius});
         }
     }

@@ -1,7 +1,7 @@
 #include "pore_scatter.hpp"
 
-#include <coagula/common/cell_list.hpp>
 #include <coagula/common/checks.hpp>
+#include <coagula/common/surface_distance.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -46,11 +46,11 @@ public:
     }
 
     /// One, for the mean, then the waves at a point.
-    Eigen::RowVectorXcd waves_at(int x, int y, int z) const {
+    Eigen::RowVector<Complex, 1 + waves> waves_at(int x, int y, int z) const {
         const Complex a = phases_[0][static_cast<std::size_t>(x)];
         const Complex b = phases_[1][static_cast<std::size_t>(y)];
         const Complex c = phases_[2][static_cast<std::size_t>(z)];
-        Eigen::RowVectorXcd all(1 + waves);
+        Eigen::RowVector<Complex, 1 + waves> all;
         all << 1.0, a, b, c, a * b, a * std::conj(b), b * c, b * std::conj(c), c * a, c * std::conj(a);
         return all;
     }
@@ -61,29 +61,24 @@ private:
     std::array<std::vector<Complex>, 3> phases_;
 };
 
-/// How many of the radii a point of the void is farther from any surface than; 0: it lies in a particle.
-Index radii_exceeded(const CellList& cells, const Packing& packing, const Eigen::Vector3d& point) {
-    double nearest = std::numeric_limits<double>::infinity();
-    cells.for_each_near(point, [&](int particle, const Eigen::Vector3d& separation) {
-        nearest = std::min(nearest, separation.norm() - packing.radii[particle]);
-    });
-    const double steps = std::ceil(nearest / (scatter_step * mean_radius(packing)));
-    return static_cast<Index>(std::clamp(steps, 0.0, static_cast<double>(scatter_radii)));
+/// How many of the radii, `step` apart [m], a point of the void is farther from any surface than; 0: it lies in a particle.
+Index radii_exceeded(double distance, double step) {
+    return static_cast<Index>(std::clamp(std::ceil(distance / step), 0.0, static_cast<double>(scatter_radii)));
 }
 
 /// Mean over the points of the space farther than each radius from all surfaces, and its waves: radii x (1 + waves).
 Eigen::MatrixXcd waves_of_pores(const Packing& packing) {
     const Grid grid(packing);
-    const double reach = scatter_step * scatter_radii * mean_radius(packing) + packing.radii.maxCoeff();
-    const CellList cells(packing.cell, packing.positions, reach);
+    const double step = scatter_step * mean_radius(packing);
+    const CellList cells(packing.cell, packing.positions, scatter_radii * step + packing.radii.maxCoeff());
     const Eigen::MatrixXcd nothing = Eigen::MatrixXcd::Zero(scatter_radii + 1, 1 + waves);
     std::vector<Eigen::MatrixXcd> layers(static_cast<std::size_t>(grid.count(2)), nothing);
 #pragma omp parallel for schedule(dynamic)
     for (int z = 0; z < grid.count(2); ++z) {
         for (int y = 0; y < grid.count(1); ++y) {
             for (int x = 0; x < grid.count(0); ++x) {
-                layers[static_cast<std::size_t>(z)].row(radii_exceeded(cells, packing, grid.point(x, y, z))) +=
-                    grid.waves_at(x, y, z);
+                const double distance = surface_distance(cells, packing, grid.point(x, y, z));
+                layers[static_cast<std::size_t>(z)].row(radii_exceeded(distance, step)) += grid.waves_at(x, y, z);
             }
         }
     }
@@ -124,6 +119,7 @@ const Eigen::MatrixXd& Simulator::pore_covariance() {
 }
 
 Eigen::MatrixXd Simulator::pore_errors(const StructureChange& change, const std::vector<double>& pore_radii) {
+    require(structures_.size() > 0, "the errors of a pore curve need structures");
     constexpr Index axes = 6;  // the seventh has less than a thousandth of the variance
     const Eigen::MatrixXd covariance =
         over_changes(change, [](Simulator& other) { return Eigen::MatrixXd(other.pore_covariance()); });

@@ -75,7 +75,7 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
     if (experiment_.material.kind == MaterialKind::smooth) {
         smooth_.emplace(observations_, experiment_.material.ages);
     }
-    shared_ = shared_errors(experiment_, observations_, simulator_, shared_change_);
+    shared_ = shared_errors(experiment_, observations_, simulator_);
 }
 
 /// Under plates or a cone, by a tool.
@@ -291,7 +291,8 @@ Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
 const Eigen::MatrixXd& Forward::shared_errors_of(const Model& model) const {
     const StructureChange change = change_of(model.simulated());
     if (change != shared_change_) {
-        shared_ = shared_errors(experiment_, observations_, simulator_, change);
+        const Eigen::MatrixXd pores = errors_of_pores(experiment_, observations_, simulator_, change);
+        shared_.rightCols(pores.cols()) = pores;
         shared_change_ = change;
     }
     return shared_;

@@ -42,7 +42,8 @@ Eigen::MatrixXd errors_of_images(const std::vector<Observation>& observations, S
     return all;
 }
 
-/// Those of the structures, which all curves share, then those of each sample.
+}  // namespace
+
 Eigen::MatrixXd errors_of_pores(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator,
                                 const StructureChange& change) {
     std::vector<std::size_t> rows;
@@ -75,12 +76,9 @@ Eigen::MatrixXd errors_of_pores(const Experiment& experiment, const std::vector<
     return all;
 }
 
-}  // namespace
-
-Eigen::MatrixXd shared_errors(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator,
-                              const StructureChange& change) {
+Eigen::MatrixXd shared_errors(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator) {
     const Eigen::MatrixXd images = errors_of_images(observations, simulator);
-    const Eigen::MatrixXd pores = errors_of_pores(experiment, observations, simulator, change);
+    const Eigen::MatrixXd pores = errors_of_pores(experiment, observations, simulator, {});
     Eigen::MatrixXd all(images.rows(), images.cols() + pores.cols());
     all << images, pores;
     return all;

@@ -4,9 +4,12 @@
 #include "observables/pore_curves.hpp"
 #include "observables/pore_scatter.hpp"
 #include "simulate/forward.hpp"
+#include "simulate/shared_errors.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
+
+#include <limits>
 
 namespace coagula::diagnose {
 namespace {
@@ -72,6 +75,30 @@ TEST(PoreCurves, OfACrystalDoNotScatter) {
     for (const double value : covariance_of_pores(crystal)) {
         EXPECT_NEAR(value, 0, 1e-20);
     }
+}
+
+/// What two structures leave is the same in all tables; each sample has its scatter, unless the table states errors.
+TEST(PoreCurves, TablesShareTheErrorsOfTheStructures) {
+    const Measurement table = pore_table(structures_of_recipe()[0]);
+    Measurement stated = table;
+    stated.columns[1].standard_errors.assign(stated.rows(), 0.004);
+    stated.columns[1].standard_errors[3] = std::numeric_limits<double>::quiet_NaN();
+    const Experiment experiment = experiment_of_recipe({table, table, stated});
+    const std::vector<Observation> observations = observations_of(experiment);
+    const Index rows = static_cast<Index>(observations.size()) / 3;
+    EXPECT_EQ(observations.front().standard_error, 0.002);
+    EXPECT_EQ(observations.back().standard_error, 0.004);
+    EXPECT_EQ(observations[static_cast<std::size_t>(2 * rows + 2)].standard_error, 0.002);  // r = 0 is left out
+
+    Simulator& simulator = recipe().simulator;
+    const Eigen::MatrixXd errors = shared_errors(experiment, observations, simulator);
+    const Eigen::MatrixXd covariance = errors * errors.transpose();
+    const Index row = 8;
+    const double of_one = simulator.pore_errors({}, {observations[static_cast<std::size_t>(row)].pore_radius}).squaredNorm();
+    EXPECT_GT(of_one, 1e-6);
+    EXPECT_NEAR(covariance(row, row), 1.5 * of_one, 1e-6 * of_one);
+    EXPECT_NEAR(covariance(row, row + rows), 0.5 * of_one, 1e-6 * of_one);
+    EXPECT_NEAR(covariance(row + 2 * rows, row + 2 * rows), 0.5 * of_one, 1e-6 * of_one);
 }
 
 /// The centres of an image as spheres in the box of the particles.

@@ -88,6 +88,9 @@ TEST(SurfacePotential, PoresFollowThePotential) {
     const double high = recipe.exclusion_probability(at(0.015), coagulated_radius);
     EXPECT_NEAR(high, recipe.remade({.surface_potential = 0.015}).exclusion_probability(Settings{}, coagulated_radius), 1e-12);
     EXPECT_GT(high, none + recipe.pore_errors({}, {coagulated_radius}).norm() / std::sqrt(2));  // of two structures
+    // Behind a barrier structures scatter more.
+    EXPECT_GT(recipe.pore_errors({.surface_potential = 0.015}, {coagulated_radius}).norm(),
+              1.2 * recipe.pore_errors({}, {coagulated_radius}).norm());
     // Without a barrier there is nothing to feel.
     EXPECT_EQ(recipe.exclusion_probability(at(0.001), coagulated_radius),
               recipe.exclusion_probability(at(0.008), coagulated_radius));
