@@ -10,7 +10,7 @@ namespace coagula::tools {
 namespace {
 
 /// Text as troff has to see it: '-' is the sign that can be copied, and no line begins with a control character.
-std::string escaped(const std::string& text) {
+std::string troff_text(const std::string& text) {
     std::string out;
     for (const char c : text) {
         if (c == '\\') {
@@ -27,18 +27,18 @@ std::string escaped(const std::string& text) {
 }
 
 std::string bold(const std::string& text) {
-    return "\\fB" + escaped(text) + "\\fR";
+    return "\\fB" + troff_text(text) + "\\fR";
 }
 
 std::string italic(const std::string& text) {
-    return "\\fI" + escaped(text) + "\\fR";
+    return "\\fI" + troff_text(text) + "\\fR";
 }
 
 std::string title(const std::string& name, const std::string& version) {
     std::string capitals = name;
     std::transform(capitals.begin(), capitals.end(), capitals.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return ".TH " + escaped(capitals) + " 1 \"\" \"coagula " + escaped(version) + "\" \"coagula\"\n";
+    return ".TH " + troff_text(capitals) + " 1 \"\" \"coagula " + troff_text(version) + "\" \"coagula\"\n";
 }
 
 std::string entry(const Option& option) {
@@ -47,7 +47,7 @@ std::string entry(const Option& option) {
     if (option.kind != Option::Kind::flag) {
         heading += " " + italic(option.placeholder);
     }
-    return ".TP\n" + heading + "\n" + escaped(option.meaning + remarks(option)) + "\n";
+    return ".TP\n" + heading + "\n" + troff_text(option.meaning + remarks(option)) + "\n";
 }
 
 constexpr const char* common_parts =
@@ -70,18 +70,19 @@ std::string program_page(const std::vector<Verb>& verbs, const std::string& vers
         ".SH DESCRIPTION\nGenerates, characterizes and shears packings, and diagnoses measured moduli.\n.SH VERBS\n";
     std::string pages;
     for (const Verb& verb : verbs) {
-        text += ".TP\n" + bold(verb.name) + "\n" + escaped(verb.summary) + "\n";
-        pages += ".BR " + escaped(page_name(verb)) + (verb.name == verbs.back().name ? " (1)\n" : " (1),\n");
+        text += ".TP\n" + bold(verb.name) + "\n" + troff_text(verb.summary) + "\n";
+        pages += ".BR " + troff_text(page_name(verb)) + (verb.name == verbs.back().name ? " (1)\n" : " (1),\n");
     }
     return text + common_parts + ".SH SEE ALSO\n" + pages;
 }
 
 std::string verb_page(const Verb& verb, const std::string& version) {
-    std::string text = title(page_name(verb), version) + ".SH NAME\n" + escaped(page_name(verb)) + " \\- " + escaped(verb.summary) +
-                       "\n.SH SYNOPSIS\n" + bold("coagula " + verb.name) + (verb.input.empty() ? "" : " " + italic(verb.input)) +
-                       " [options]\n.SH DESCRIPTION\n" + escaped(verb.summary) + "\n";
+    std::string text = title(page_name(verb), version) + ".SH NAME\n" + troff_text(page_name(verb)) + " \\- " +
+                       troff_text(verb.summary) + "\n.SH SYNOPSIS\n" + bold("coagula " + verb.name) +
+                       (verb.input.empty() ? "" : " " + italic(verb.input)) + " [options]\n.SH DESCRIPTION\n" +
+                       troff_text(verb.summary) + "\n";
     for (const std::string& note : verb.notes) {
-        text += ".PP\n" + escaped(note) + "\n";
+        text += ".PP\n" + troff_text(note) + "\n";
     }
     text += ".SH OPTIONS\n";
     for (const Option& option : all_options(verb)) {

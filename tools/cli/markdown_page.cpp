@@ -9,7 +9,7 @@ namespace coagula::tools {
 namespace {
 
 /// Text without a meaning to Markdown, also inside a table.
-std::string escaped(std::string_view text) {
+std::string markdown_text(std::string_view text) {
     std::string out;
     for (const char c : text) {
         if (std::string_view("\\`*_<>[]|$~#").find(c) != std::string_view::npos) {
@@ -29,7 +29,7 @@ std::string code(std::string_view text) {
     return out + "`";
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string code_list(const std::vector<std::string>& words) {
     std::string out;
     for (const std::string& word : words) {
         out += (out.empty() ? "" : ", ") + code(word);
@@ -38,13 +38,13 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 /// Choices, unit and range.
-std::string value_of(const Option& option) {
-    std::string out = joined(option.choices);
+std::string value_column(const Option& option) {
+    std::string out = code_list(option.choices);
     if (option.kind == Option::Kind::quantity && option.unit != "1") {
-        out += escaped(option.unit);
+        out += markdown_text(option.unit);
     }
     const std::string range = option.range.text();
-    return out + (out.empty() || range.empty() ? "" : ", ") + escaped(range);
+    return out + (out.empty() || range.empty() ? "" : ", ") + markdown_text(range);
 }
 
 std::string row(const Option& option) {
@@ -54,7 +54,8 @@ std::string row(const Option& option) {
     }
     const std::string letter = option.letter == 0 ? "" : code(std::string("-") + option.letter) + ", ";
     const std::string fallback = option.required ? "required" : option.fallback.empty() ? "" : code(option.fallback);
-    return "| " + letter + code(name) + " | " + value_of(option) + " | " + fallback + " | " + escaped(option.meaning) + " |\n";
+    return "| " + letter + code(name) + " | " + value_column(option) + " | " + fallback + " | " + markdown_text(option.meaning) +
+           " |\n";
 }
 
 std::string capitalised(std::string text) {
@@ -71,7 +72,7 @@ std::string notes_of(const Verb& verb) {
     for (const std::string& note : verb.notes) {
         const bool listed = note.front() == ' ';
         out += listed == in_list ? "" : listed ? "```text\n" : "```\n\n";
-        out += listed ? note + "\n" : escaped(note) + "\n\n";
+        out += listed ? note + "\n" : markdown_text(note) + "\n\n";
         in_list = listed;
     }
     return out + (in_list ? "```\n\n" : "");
@@ -83,14 +84,14 @@ std::string program_markdown(const std::vector<Verb>& verbs) {
     std::string text = "# The verbs\n\n| verb | what it does |\n|---|---|\n";
     std::string pages;
     for (const Verb& verb : verbs) {
-        text += "| [" + code("coagula " + verb.name) + "](" + page_name(verb) + ".md) | " + escaped(verb.summary) + " |\n";
+        text += "| [" + code("coagula " + verb.name) + "](" + page_name(verb) + ".md) | " + markdown_text(verb.summary) + " |\n";
         pages += page_name(verb) + "\n";
     }
     return text + "\n```{toctree}\n:hidden:\n\n" + pages + "```\n";
 }
 
 std::string verb_markdown(const Verb& verb) {
-    std::string text = "# coagula " + verb.name + "\n\n" + escaped(capitalised(verb.summary)) + ".\n\n```text\ncoagula " +
+    std::string text = "# coagula " + verb.name + "\n\n" + markdown_text(capitalised(verb.summary)) + ".\n\n```text\ncoagula " +
                        verb.name + (verb.input.empty() ? "" : " " + verb.input) + " [options]\n```\n\n";
     text += notes_of(verb) + "| option | value | default | meaning |\n|---|---|---|---|\n";
     for (const Option& option : all_options(verb)) {

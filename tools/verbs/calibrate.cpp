@@ -116,24 +116,24 @@ std::optional<StiffnessCalibration> calibrate(const Structures& structures, cons
     return mechanics::calibrate_stiffness(slope, *measured);
 }
 
-Json to_json(const Eigen::VectorXd& values) {
+Json json_of(const Eigen::VectorXd& values) {
     return std::vector<double>(values.begin(), values.end());
 }
 
 /// What is unset becomes null.
-Json to_json(double value) {
+Json json_of(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json to_json(const mechanics::StraightLine& line) {
-    return {{"slope", to_json(line.slope)},
-            {"intercept", to_json(line.intercept)},
-            {"slope_stderr", to_json(line.slope_stderr)},
-            {"intercept_stderr", to_json(line.intercept_stderr)},
-            {"rms_residual", to_json(line.rms_residual)}};
+Json json_of(const mechanics::StraightLine& line) {
+    return {{"slope", json_of(line.slope)},
+            {"intercept", json_of(line.intercept)},
+            {"slope_stderr", json_of(line.slope_stderr)},
+            {"intercept_stderr", json_of(line.intercept_stderr)},
+            {"rms_residual", json_of(line.rms_residual)}};
 }
 
-Json to_json(const Structures& structures) {
+Json json_of(const Structures& structures) {
     Json list = Json::array();
     for (std::size_t k = 0; k < structures.size(); ++k) {
         const StiffnessSeries& series = structures.series[k];
@@ -141,34 +141,34 @@ Json to_json(const Structures& structures) {
         list.push_back({{"file", structures.files[k]},
                         {"contacts", series.contacts},
                         {"rattlers", series.rattlers},
-                        {"storage_modulus", {{"mean", to_json(series.modulus)}, {"std", to_json(series.modulus_deviation)}}},
-                        {"line", to_json(series.line)},
-                        {"line_through_origin", to_json(series.line_through_origin)},
-                        {"ratio_to_first", ratio ? to_json(*ratio) : Json(nullptr)}});
+                        {"storage_modulus", {{"mean", json_of(series.modulus)}, {"std", json_of(series.modulus_deviation)}}},
+                        {"line", json_of(series.line)},
+                        {"line_through_origin", json_of(series.line_through_origin)},
+                        {"ratio_to_first", ratio ? json_of(*ratio) : Json(nullptr)}});
     }
     return list;
 }
 
-Json to_json(const StiffnessCalibration& found, const Eigen::VectorXd& measured) {
-    return {{"measured_modulus", to_json(measured)},
-            {"matching_normal_stiffness", to_json(found.matching)},
+Json json_of(const StiffnessCalibration& found, const Eigen::VectorXd& measured) {
+    return {{"measured_modulus", json_of(measured)},
+            {"matching_normal_stiffness", json_of(found.matching)},
             {"common",
-             {{"normal_stiffness", to_json(found.common)},
-              {"stderr", to_json(found.common_stderr)},
-              {"storage_modulus", to_json(found.modulus_at_common)},
-              {"relative_difference", to_json(found.difference_at_common)}}}};
+             {{"normal_stiffness", json_of(found.common)},
+              {"stderr", json_of(found.common_stderr)},
+              {"storage_modulus", json_of(found.modulus_at_common)},
+              {"relative_difference", json_of(found.difference_at_common)}}}};
 }
 
-Json to_json(const Arguments& arguments, const Structures& structures, const std::optional<StiffnessCalibration>& found,
+Json json_of(const Arguments& arguments, const Structures& structures, const std::optional<StiffnessCalibration>& found,
              const Moduli& measured) {
     Json json = {{"method", arguments.text("method")},
                  {"bond_tolerance", arguments.quantity("bond-tolerance")},
                  {"stiffness_ratio", arguments.quantity("stiffness-ratio")},
-                 {"normal_stiffness", to_json(structures.normal_stiffness())},
-                 {"shear_stiffness", to_json(structures.shear_stiffness())},
-                 {"structures", to_json(structures)}};
+                 {"normal_stiffness", json_of(structures.normal_stiffness())},
+                 {"shear_stiffness", json_of(structures.shear_stiffness())},
+                 {"structures", json_of(structures)}};
     if (found) {
-        json["calibration"] = to_json(*found, *measured);
+        json["calibration"] = json_of(*found, *measured);
     }
     check_finite(json);
     return json;
@@ -242,7 +242,7 @@ void write_csv(const std::string& path, const Structures& structures, bool overw
     io::write_rows(path, rows, overwrite);
 }
 
-void run(const Arguments& arguments) {
+void run_calibrate(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     const bool force = arguments.flag("force");
@@ -259,7 +259,7 @@ void run(const Arguments& arguments) {
     const Structures structures = measure_all(arguments, arguments.inputs(), packings, progress);
     const auto found = calibrate(structures, measured);
 
-    Json json = to_json(arguments, structures, found, measured);
+    Json json = json_of(arguments, structures, found, measured);
     Table table;
     append_series(table, structures);
     if (found) {
@@ -280,7 +280,7 @@ Json calibrate_packings(const Arguments& arguments, const std::vector<std::strin
                         const Progress& progress) {
     const Moduli measured = measured_moduli(arguments, packings.size());
     const Structures structures = measure_all(arguments, names, packings, progress);
-    return to_json(arguments, structures, calibrate(structures, measured), measured);
+    return json_of(arguments, structures, calibrate(structures, measured), measured);
 }
 
 Verb calibrate_verb() {
@@ -297,7 +297,7 @@ Verb calibrate_verb() {
                     quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
                     text("measured", "LIST", "measured shear modulus of each structure, such as 1.5MPa,480kPa"),
                     output("write the table as CSV"), flag("force", "replace an existing output file")},
-        .run = run,
+        .run = run_calibrate,
         .notes = {"Ratios are relative to the first structure: give the most homogeneous one first for the ratio of the paper.",
                   "Of linear springs in a fixed ratio the modulus is proportional to the stiffness; the lines show how exactly."},
         .many_inputs = true};

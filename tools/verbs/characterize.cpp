@@ -111,7 +111,7 @@ void run_comparison(const Arguments& arguments) {
     report(arguments, json, table_of(comparison, files));
 }
 
-void run(const Arguments& arguments) {
+void run_characterize(const Arguments& arguments) {
     if (arguments.flag("compare")) {
         run_comparison(arguments);
         return;
@@ -199,7 +199,7 @@ Verb characterize_verb() {
             .summary = "coordination number, pore sizes, degree of heterogeneity and other measures of a packing",
             .input = "FILE.h5",
             .options = all_options(),
-            .run = run,
+            .run = run_characterize,
             .notes = measure_notes(),
             .many_beside = "compare"};
 }

@@ -19,7 +19,7 @@ Json file_or_null(const std::optional<std::size_t>& which, const Files& files) {
     return which ? Json(files.at(*which)) : Json(nullptr);
 }
 
-Json to_json(const ComparedMeasure& measure, const Files& files) {
+Json json_of(const ComparedMeasure& measure, const Files& files) {
     return {{"meaning", measure.meaning},
             {"values", {number(measure.value[0]), number(measure.value[1])}},
             {"standard_errors", {number(measure.error[0]), number(measure.error[1])}},
@@ -98,13 +98,13 @@ std::string verdict(const HeterogeneityComparison& comparison, const Files& file
 Json to_json(const HeterogeneityComparison& comparison, const Files& files) {
     Json measures = Json::object();
     for (const ComparedMeasure& measure : comparison.measures) {
-        measures[measure.name] = to_json(measure, files);
+        measures[measure.name] = json_of(measure, files);
     }
     const auto& largest = comparison.fluctuations;
     return {{"files", files},
             {"measures", measures},
             {"left_out", comparison.left_out},
-            {"pore_sizes_main_part", to_json(comparison.main_part, files)},
+            {"pore_sizes_main_part", json_of(comparison.main_part, files)},
             {"largest_density_difference",
              {{"window_over_r0", number(largest.edge)},
               {"difference", number(largest.difference)},

@@ -9,7 +9,7 @@ namespace coagula::tools {
 
 namespace {
 
-void run(const Arguments& arguments) {
+void run_completion(const Arguments& arguments) {
     const bool bash = arguments.input() == "bash";
     const std::string script = bash ? bash_completion(all_verbs()) : zsh_completion(all_verbs());
     if (arguments.flag("json")) {
@@ -28,7 +28,7 @@ Verb completion_verb() {
         .summary = "print the script that completes the command line in bash or zsh",
         .input = "SHELL",
         .options = {},
-        .run = run,
+        .run = run_completion,
         .notes =
             {"In bash: source <(coagula completion bash). In zsh: coagula completion zsh > FOLDER/_coagula, FOLDER one of $fpath.",
              "An installed coagula has brought both with it."},

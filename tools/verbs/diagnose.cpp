@@ -224,7 +224,7 @@ void refuse_options(const Arguments& arguments, const std::string& mode, const s
     }
 }
 
-void run(const Arguments& arguments) {
+void run_diagnose(const Arguments& arguments) {
     if (arguments.flag("catalogue")) {
         if (!arguments.flag("quiet")) {
             std::cout << (arguments.flag("json") ? catalogue_json().dump(2) + "\n" : catalogue_table());
@@ -272,7 +272,7 @@ Verb diagnose_verb() {
                     text("causes", "NAME,NAME...", "these only, instead of the whole catalogue"),
                     count("data-sets", "of --power: simulated at each strength near a threshold (200)", "", within(20, 100000)),
                     count("diagnoses", "of --power: full diagnoses of simulated data for each cause (4)", "", within(0, 10000))},
-        .run = run,
+        .run = run_diagnose,
         .notes = {"Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore "
                   "curves "
                   "are diagnosed; see docs/explanation/diagnosis.md."},

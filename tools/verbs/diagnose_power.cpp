@@ -25,11 +25,11 @@ using diagnose::Share;
 using diagnose::Threshold;
 using namespace experiment;
 
-Json to_json(const Share& share) {
+Json json_of(const Share& share) {
     return {{"count", share.count}, {"of", share.of}, {"low", share.low}, {"high", share.high}};
 }
 
-Json to_json(const Threshold& threshold, const std::string& unit) {
+Json json_of(const Threshold& threshold, const std::string& unit) {
     if (!std::isfinite(threshold.value)) {
         return nullptr;
     }
@@ -37,27 +37,27 @@ Json to_json(const Threshold& threshold, const std::string& unit) {
     return {{"value", threshold.value}, {"low", end(threshold.low)}, {"high", end(threshold.high)}, {"unit", unit}};
 }
 
-Json to_json(const CausePower& cause) {
+Json json_of(const CausePower& cause) {
     const NamingRuns& naming = cause.naming;
     Json json = {{"name", cause.name},
                  {"parameter", cause.parameter},
                  {"unit", cause.unit},
                  {"range", {cause.range_low, cause.range_high}},
                  {"other_parameters", Json::object()},
-                 {"found_half", to_json(cause.half, cause.unit)},
-                 {"found_most", to_json(cause.most, cause.unit)},
+                 {"found_half", json_of(cause.half, cause.unit)},
+                 {"found_most", json_of(cause.most, cause.unit)},
                  {"curve", Json::array()},
                  {"diagnoses", nullptr}};
     for (const auto& [name, value] : cause.others) {
         json["other_parameters"][name] = value;
     }
     for (const diagnose::PowerPoint& point : cause.curve) {
-        json["curve"].push_back({{"strength", point.strength}, {"found", to_json(point.found)}});
+        json["curve"].push_back({{"strength", point.strength}, {"found", json_of(point.found)}});
     }
     if (naming.runs > 0) {
         json["diagnoses"] = {{"strength", naming.strength},
                              {"runs", naming.runs},
-                             {"named", to_json(diagnose::share_of(naming.named, naming.runs))},
+                             {"named", json_of(diagnose::share_of(naming.named, naming.runs))},
                              {"tied", naming.tied},
                              {"misnamed", naming.misnamed},
                              {"none_of_catalogue", naming.none},
@@ -67,13 +67,13 @@ Json to_json(const CausePower& cause) {
     return json;
 }
 
-Json to_json(const Power& power, const diagnose::PowerOptions& options) {
+Json json_of(const Power& power, const diagnose::PowerOptions& options) {
     Json json = {{"level", options.diagnosis.level},
                  {"moduli", power.moduli},
                  {"third_harmonics", power.third_harmonics},
                  {"storage_modulus", power.storage_modulus},
                  {"normal_stiffness", power.normal_stiffness},
-                 {"by_chance", to_json(power.by_chance)},
+                 {"by_chance", json_of(power.by_chance)},
                  {"noise",
                   {{"relative", options.noise.stated_relative},
                    {"floor", options.noise.stated_floor},
@@ -81,7 +81,7 @@ Json to_json(const Power& power, const diagnose::PowerOptions& options) {
                    {"sample", options.noise.stated_sample}}},
                  {"causes", Json::array()}};
     for (const CausePower& cause : power.causes) {
-        json["causes"].push_back(to_json(cause));
+        json["causes"].push_back(json_of(cause));
     }
     return json;
 }
@@ -126,7 +126,7 @@ std::string describe(const NamingRuns& naming) {
     return text + rivals;
 }
 
-Table table_of(const Power& power, const diagnose::PowerOptions& options) {
+Table power_table(const Power& power, const diagnose::PowerOptions& options) {
     const std::string waveforms =
         power.third_harmonics > 0 ? ", " + std::to_string(power.third_harmonics) + " parts of third harmonics" : "";
     Table table{
@@ -185,9 +185,9 @@ void run_power(const Arguments& arguments) {
     const Power power =
         naming(arguments.input(), [&] { return diagnose::find_power(file.experiment, simulator, options, progress); });
 
-    Json json = to_json(power, options);
+    Json json = json_of(power, options);
     json["seconds"] = clock.seconds();
-    Table table = table_of(power, options);
+    Table table = power_table(power, options);
     if (folder) {
         folder->write("simulations.txt", cache_text(cache));
         folder->write("power.json", json.dump(2) + "\n");

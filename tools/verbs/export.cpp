@@ -71,7 +71,7 @@ const Format& chosen_format(const Arguments& arguments) {
     return format_of(arguments.text("output"));
 }
 
-void run(const Arguments& arguments) {
+void run_export(const Arguments& arguments) {
     const Format& format = chosen_format(arguments);
     const bool all_frames = arguments.flag("trajectory");
     if (all_frames && !format.many_frames) {
@@ -108,7 +108,7 @@ Verb export_verb() {
                            ""),
                     flag("trajectory", "all frames of the file, oldest first, instead of the last one"),
                     output("file to write; beside the input when not given"), flag("force", "replace an existing file")},
-        .run = run};
+        .run = run_export};
 }
 
 }  // namespace coagula::tools

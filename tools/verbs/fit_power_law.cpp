@@ -86,7 +86,7 @@ Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json to_json(const PowerLawFit& fit) {
+Json json_of(const PowerLawFit& fit) {
     return {{"a0", number(fit.law.a0)},
             {"a0_stderr", number(fit.a0_stderr)},
             {"a0_interval", {number(fit.a0_low), number(fit.a0_high)}},
@@ -102,12 +102,12 @@ Json to_json(const PowerLawFit& fit) {
             {"minimum", name_of(fit.minimum)}};
 }
 
-Json to_json(const Eigen::VectorXd& values) {
+Json json_of(const Eigen::VectorXd& values) {
     return std::vector<double>(values.begin(), values.end());
 }
 
 /// One array for each column of the profile.
-Json to_json(const mechanics::PowerLawProfile& profile) {
+Json json_of(const mechanics::PowerLawProfile& profile) {
     Json json = {{"a0", Json::array()}, {"beta", Json::array()}, {"log_c", Json::array()}, {"sum_of_squares", Json::array()}};
     for (const PowerLaw& law : profile.laws) {
         json["a0"].push_back(law.a0);
@@ -115,24 +115,24 @@ Json to_json(const mechanics::PowerLawProfile& profile) {
         json["log_c"].push_back(law.log_c);
         json["sum_of_squares"].push_back(law.sum_of_squares);
     }
-    json["confidence"] = to_json(profile.confidence);
+    json["confidence"] = json_of(profile.confidence);
     return json;
 }
 
-Json to_json(const PowerLawAnalysis& found, const PowerLawData& data, double confidence) {
+Json json_of(const PowerLawAnalysis& found, const PowerLawData& data, double confidence) {
     Json json = {{"structures", data.a.size()}, {"weighted", data.standard_error.size() > 0}};
-    json.update(to_json(found.fit));
+    json.update(json_of(found.fit));
     json["summary"] = summary(found.fit);
     Json without = Json::array();
     for (std::size_t k = 0; k < found.without.size(); ++k) {
         Json entry = {{"structure", k + 1}, {"a", data.a[static_cast<Index>(k)]}};
-        entry.update(to_json(found.without[k]));
+        entry.update(json_of(found.without[k]));
         without.push_back(std::move(entry));
     }
     json["without"] = std::move(without);
     json["decisive_structure"] = found.decisive < 0 ? Json(nullptr) : Json(found.decisive + 1);
-    json["profile"] = to_json(found.profile);
-    json["data"] = {{"a", to_json(data.a)}, {"modulus", to_json(data.modulus)}, {"standard_error", to_json(data.standard_error)}};
+    json["profile"] = json_of(found.profile);
+    json["data"] = {{"a", json_of(data.a)}, {"modulus", json_of(data.modulus)}, {"standard_error", json_of(data.standard_error)}};
     json["confidence"] = confidence;
     check_finite(json);
     return json;
@@ -197,7 +197,7 @@ void write_profile(const std::string& path, const mechanics::PowerLawProfile& pr
     io::write_rows(path, rows, overwrite);
 }
 
-void run(const Arguments& arguments) {
+void run_fit_power_law(const Arguments& arguments) {
     const Stopwatch clock;
     const bool force = arguments.flag("force");
     if (arguments.has("output")) {
@@ -205,7 +205,7 @@ void run(const Arguments& arguments) {
     }
     const PowerLawData data = read_data(arguments);
     const PowerLawAnalysis found = analyse_file(arguments, data);
-    Json json = to_json(found, data, arguments.quantity("confidence"));
+    Json json = json_of(found, data, arguments.quantity("confidence"));
     Table table = table_of(found, data, arguments.quantity("confidence"));
     if (arguments.has("output")) {
         write_profile(arguments.text("output"), found.profile, data.standard_error.size() > 0 ? "1" : "Pa2", force);
@@ -219,7 +219,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 Json fit_power_law(const Arguments& arguments, const mechanics::PowerLawData& data, const Progress& progress) {
-    return to_json(analyse(arguments, data, progress), data, arguments.quantity("confidence"));
+    return json_of(analyse(arguments, data, progress), data, arguments.quantity("confidence"));
 }
 
 Verb fit_power_law_verb() {
@@ -233,7 +233,7 @@ Verb fit_power_law_verb() {
                         quantity("confidence", "1", "of the interval of a0", "0.95", within(1e-6, 0.999999)),
                         count("points", "of the profile", "300", within(10, 10000)), output("write the profile as CSV"),
                         flag("force", "replace an existing output file")},
-            .run = run,
+            .run = run_fit_power_law,
             .notes = {"Least squares in the modulus; with standard errors weighted, which are then taken as they are."}};
 }
 

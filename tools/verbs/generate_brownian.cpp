@@ -116,7 +116,7 @@ BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, cons
     return with_checkpoint(path, [&] { return simulate_brownian(start, potential, options, progress, control); });
 }
 
-void run(const Arguments& arguments) {
+void run_generate_brownian(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     std::optional<Packing> start;
@@ -235,7 +235,7 @@ Verb generate_brownian_verb() {
             .summary = "coagulate a stabilised suspension by Brownian dynamics with DLVO forces",
             .input = "",
             .options = std::move(options),
-            .run = run};
+            .run = run_generate_brownian};
 }
 
 }  // namespace coagula::tools

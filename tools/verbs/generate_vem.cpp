@@ -14,7 +14,7 @@ namespace coagula::tools {
 
 namespace {
 
-const std::string group = "/generation/vem/";
+const std::string vem_group = "/generation/vem/";
 
 generators::VoidExpansionOptions expansion_options(const Arguments& arguments, const Eigen::VectorXd& radii) {
     generators::VoidExpansionOptions options;
@@ -35,22 +35,22 @@ generators::VoidExpansionOptions expansion_options(const Arguments& arguments, c
 
 Results datasets_of(const generators::VoidExpansion& made, const generators::VoidExpansionOptions& options) {
     const auto number = [](const std::string& name, double value, const std::string& unit, const std::string& description) {
-        return io::scalar(group + name, value, unit, description);
+        return io::scalar(vem_group + name, value, unit, description);
     };
     return {
-        io::integer(group + "particles", made.packing.size(), "number of particles"),
-        io::integer(group + "voids", options.voids, "number of void particles"),
+        io::integer(vem_group + "particles", made.packing.size(), "number of particles"),
+        io::integer(vem_group + "voids", options.voids, "number of void particles"),
         number("volume_fraction", volume_fraction(made.packing), "1", "solid volume over the volume of the box"),
-        io::vector(group + "box", made.packing.cell.lengths(), "m", "edge lengths of the box"),
+        io::vector(vem_group + "box", made.packing.cell.lengths(), "m", "edge lengths of the box"),
         number("coordination", made.coordination, "1", "mean number of contacts of a particle, rattlers included"),
         number("target_coordination", options.target_coordination, "1", "at which the expansion stops"),
         number("contact_tolerance", options.contact_tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are in contact"),
         number("overlap/rms", made.overlap_rms, "1", "root mean square overlap of the contacts over the mean diameter"),
         number("overlap/max", made.overlap_max, "1", "largest overlap over the mean diameter"),
         number("void_radius", made.void_radius, "m", "at which the voids were deleted"),
-        io::integer(group + "increments", made.increments, "of the void radius"),
-        io::integer(group + "steps", made.steps, "explicit time steps in all"),
-        io::integer(group + "seed", static_cast<std::int64_t>(options.seed), "of the random numbers")};
+        io::integer(vem_group + "increments", made.increments, "of the void radius"),
+        io::integer(vem_group + "steps", made.steps, "explicit time steps in all"),
+        io::integer(vem_group + "seed", static_cast<std::int64_t>(options.seed), "of the random numbers")};
 }
 
 /// The expansion stops at the first packing that reaches the target. One sentence where that lies well above it, otherwise empty.
@@ -73,7 +73,7 @@ Table table_of(const generators::VoidExpansion& made, const generators::VoidExpa
         {"void radius at the end", with_unit(made.void_radius, "m")}};
 }
 
-void run(const Arguments& arguments) {
+void run_generate_vem(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     const std::string output = arguments.text("output");
@@ -129,7 +129,7 @@ Verb generate_vem_verb() {
                              between(0, 0.1)),
                     count("seed", "of the random numbers", "1", at_least(0)), required(output("HDF5 file to write")),
                     flag("force", "replace an existing file")},
-        .run = run};
+        .run = run_generate_vem};
 }
 
 }  // namespace coagula::tools

@@ -139,7 +139,7 @@ io::ImportOptions import_options(const Arguments& arguments) {
     return options;
 }
 
-void run(const Arguments& arguments) {
+void run_import(const Arguments& arguments) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
     const std::string output = arguments.text("output");
@@ -199,7 +199,7 @@ Verb import_verb() {
                          "of a trajectory: the value in the column frame of a CSV file, which has no default; otherwise counted "
                          "from 0, the last when not given; all: the whole trajectory"),
                     flag("wrap", "bring particles outside the periodic box back in; otherwise they are an error")},
-        .run = run};
+        .run = run_import};
 }
 
 }  // namespace coagula::tools

@@ -15,7 +15,7 @@ namespace coagula::tools {
 
 namespace {
 
-std::string value_text(const io::Dataset& dataset) {
+std::string shown_value(const io::Dataset& dataset) {
     if (const auto* text = std::get_if<std::string>(&dataset.values)) {
         return *text;
     }
@@ -120,7 +120,7 @@ Table contents_table(const io::Contents& contents) {
         table.emplace_back(group, "found with " + std::to_string(bonds) + " other bonds, which are in " + group + "/connectivity");
     }
     for (const io::Dataset& dataset : contents.results) {
-        table.emplace_back(dataset.path, value_text(dataset) + "   (" + dataset.description + ")");
+        table.emplace_back(dataset.path, shown_value(dataset) + "   (" + dataset.description + ")");
     }
     for (const io::Provenance& entry : contents.history) {
         table.emplace_back(entry.time,
@@ -139,7 +139,7 @@ void print_rows(const std::vector<std::string>& paths) {
     flush_output();
 }
 
-void run(const Arguments& arguments) {
+void run_info(const Arguments& arguments) {
     const std::vector<std::string>& paths = arguments.inputs();
     if (arguments.flag("csv")) {
         if (arguments.flag("json") || arguments.flag("quiet")) {
@@ -170,7 +170,7 @@ Verb info_verb() {
             .summary = "what is in files: structure, results, history",
             .input = "FILE.h5",
             .options = {flag("csv", "print a table with one row per file and every scalar result as a column")},
-            .run = run,
+            .run = run_info,
             .many_inputs = true};
 }
 

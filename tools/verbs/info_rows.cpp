@@ -13,7 +13,7 @@ std::string number(double value) {
     return std::isfinite(value) ? to_text(value) : std::string{};
 }
 
-std::string value_text(const io::Dataset& dataset) {
+std::string cell_text(const io::Dataset& dataset) {
     if (const auto* text = std::get_if<std::string>(&dataset.values)) {
         return *text;
     }
@@ -51,7 +51,7 @@ void InfoRows::add(const std::string& path, const io::Structure& structure, cons
     for (const io::Dataset& dataset : results) {
         const bool is_scalar = dataset.shape.empty();
         if (is_scalar) {
-            put(dataset.path.substr(1), dataset.unit, value_text(dataset));
+            put(dataset.path.substr(1), dataset.unit, cell_text(dataset));
         }
     }
 }

@@ -65,7 +65,7 @@ void write_pages(const Arguments& arguments, const std::string& folder) {
     report(arguments, {{"files", files}}, {{"pages", std::to_string(pages.size())}, {"written to", folder}});
 }
 
-void run(const Arguments& arguments) {
+void run_man(const Arguments& arguments) {
     const std::vector<std::string> words = arguments.has("input") ? arguments.inputs() : std::vector<std::string>{};
     if (arguments.has("output")) {
         if (!words.empty()) {
@@ -93,7 +93,7 @@ Verb man_verb() {
             .input = "VERB",
             .options = {choice("format", {"man", "markdown"}, "a page for man(1), or one of the manual", "man"), folder,
                         flag("force", "replace existing pages")},
-            .run = run,
+            .run = run_man,
             .notes = {"To read a page: coagula man shear | man -l -"},
             .many_inputs = true,
             .input_required = false};

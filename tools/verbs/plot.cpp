@@ -238,7 +238,7 @@ void plot_paper(const Arguments& arguments) {
     report(arguments, json, table);
 }
 
-void run(const Arguments& arguments) {
+void run_plot(const Arguments& arguments) {
     if (arguments.flag("paper")) {
         plot_paper(arguments);
         return;
@@ -279,7 +279,7 @@ Verb plot_verb() {
                         text("data", "FILE", "write what is drawn as CSV"),
                         choice("format", {"svg", "png", "pdf"}, "with --paper: of the pictures", "svg"),
                         flag("force", "replace existing output files")},
-            .run = run,
+            .run = run_plot,
             .notes = notes,
             .many_inputs = true};
 }

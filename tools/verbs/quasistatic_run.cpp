@@ -27,7 +27,7 @@ namespace {
 
 using mechanics::ShearOrientation;
 
-const std::string group = "/mechanics/quasistatic/";
+const std::string quasistatic_group = "/mechanics/quasistatic/";
 constexpr double small_strain = 1e-6;
 constexpr double yield_fraction = 0.9;
 
@@ -109,11 +109,12 @@ std::vector<double> amplitudes_of(const Arguments& arguments) {
 }
 
 void append_network(Results& results, const Arguments& arguments, const ContactNetwork& bonds, const ContactModel& model) {
-    results.push_back(io::text(group + "method", "quasistatic", "equilibria of the network in a deforming periodic cell"));
-    results.push_back(io::integer(group + "contacts", bonds.size(), "number of bonds at the start"));
-    results.push_back(io::scalar(group + "bond_tolerance", arguments.quantity("bond-tolerance"), "1",
+    results.push_back(
+        io::text(quasistatic_group + "method", "quasistatic", "equilibria of the network in a deforming periodic cell"));
+    results.push_back(io::integer(quasistatic_group + "contacts", bonds.size(), "number of bonds at the start"));
+    results.push_back(io::scalar(quasistatic_group + "bond_tolerance", arguments.quantity("bond-tolerance"), "1",
                                  "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
-    results.push_back(io::text(group + "model", io::contact_model_text(model), "the contact as a TOML file"));
+    results.push_back(io::text(quasistatic_group + "model", io::contact_model_text(model), "the contact as a TOML file"));
 }
 
 /// Mean, standard deviation and one array per orientation.
@@ -122,8 +123,9 @@ void append_modulus(Results& results, const std::string& name, const std::vector
     const Eigen::VectorXd mean = values.colwise().mean();
     const Eigen::VectorXd deviation = (values.rowwise() - mean.transpose()).array().square().colwise().mean().sqrt();
     const auto add = [&](const std::string& key, const Eigen::VectorXd& value, const std::string& of) {
-        results.push_back(value.size() == 1 ? io::scalar(group + name + "/" + key, value[0], "Pa", description + ", " + of)
-                                            : io::vector(group + name + "/" + key, value, "Pa", description + ", " + of));
+        results.push_back(value.size() == 1
+                              ? io::scalar(quasistatic_group + name + "/" + key, value[0], "Pa", description + ", " + of)
+                              : io::vector(quasistatic_group + name + "/" + key, value, "Pa", description + ", " + of));
     };
     add("mean", mean, "mean of the orientations");
     add("std", deviation, "standard deviation over the orientations of this one structure");
@@ -198,7 +200,7 @@ void append_ramps(Results& results, const std::vector<Test>& tests) {
         const ShearOrientation& orientation = tests[k].orientation;
         const mechanics::RampResponse& ramp = tests[k].ramp;
         first(static_cast<Index>(k), 0) = ramp.points.size() > 1 ? ramp.secant_modulus(1, orientation) : unset;
-        const std::string path = group + "ramp/" + name_of(orientation) + "/";
+        const std::string path = quasistatic_group + "ramp/" + name_of(orientation) + "/";
         append_points(results, path, ramp, orientation);
         append_broken(results, path, ramp.broken);
         append_failure(results, path, ramp.failure);
@@ -223,13 +225,13 @@ void append_ramps(Results& results, const std::vector<Test>& tests) {
         first.hasNaN() ? "secant modulus of the first step; NaN: the network failed there" : "secant modulus of the first step");
     append_modulus(results, "loss_modulus", tests, Eigen::MatrixXd::Constant(first.rows(), 1, unset),
                    "NaN: not measured on a ramp");
-    results.push_back(io::scalar(group + "phase", unset, "rad", "NaN: not measured on a ramp"));
+    results.push_back(io::scalar(quasistatic_group + "phase", unset, "rad", "NaN: not measured on a ramp"));
 }
 
 /// @param amplitudes asked for; what was not reached because the network failed is NaN.
 void append_sweeps(Results& results, const std::vector<Test>& tests, const std::vector<double>& amplitudes) {
     const auto count = static_cast<Index>(amplitudes.size());
-    results.push_back(io::vector(group + "amplitude", Eigen::VectorXd::Map(amplitudes.data(), count), "1",
+    results.push_back(io::vector(quasistatic_group + "amplitude", Eigen::VectorXd::Map(amplitudes.data(), count), "1",
                                  "of the strain, in the order of the run"));
     const bool all_reached = std::all_of(tests.begin(), tests.end(),
                                          [&](const Test& test) { return test.sweep.amplitudes.size() == amplitudes.size(); });
@@ -245,7 +247,7 @@ void append_sweeps(Results& results, const std::vector<Test>& tests, const std::
         };
         storage.row(static_cast<Index>(k)) = column([](const auto& a) { return a.storage_modulus; });
         loss.row(static_cast<Index>(k)) = column([](const auto& a) { return a.loss_modulus; });
-        const std::string path = group + "sweep/" + name_of(tests[k].orientation) + "/";
+        const std::string path = quasistatic_group + "sweep/" + name_of(tests[k].orientation) + "/";
         const auto add = [&](const std::string& name, const auto& value, const std::string& unit, const std::string& description) {
             results.push_back(io::vector(path + name, column(value), unit, description + not_reached));
         };
@@ -267,7 +269,7 @@ void append_sweeps(Results& results, const std::vector<Test>& tests, const std::
     append_modulus(results, "loss_modulus", tests, loss, "fundamental ahead of the strain, per amplitude" + not_reached);
     const Eigen::VectorXd phase = loss.colwise().mean().binaryExpr(
         storage.colwise().mean(), [](double lost, double stored) { return std::atan2(lost, stored); });
-    results.push_back(io::vector(group + "phase", phase, "rad", "of the mean moduli" + not_reached));
+    results.push_back(io::vector(quasistatic_group + "phase", phase, "rad", "of the mean moduli" + not_reached));
 }
 
 Table table_of(const std::vector<Test>& tests, bool sweep) {
@@ -333,8 +335,8 @@ Findings quasistatic_response(const Arguments& arguments, const Packing& packing
     });
     Findings found{.group = "/mechanics/quasistatic", .results = {}, .table = table_of(tests, sweep)};
     append_network(found.results, arguments, bonds, model);
-    append_contact_stiffness(found.results, group, packing, bonds, model);
-    append_network_keys(found.results, group, packing, bonds, model, progress);
+    append_contact_stiffness(found.results, quasistatic_group, packing, bonds, model);
+    append_network_keys(found.results, quasistatic_group, packing, bonds, model, progress);
     if (sweep) {
         append_sweeps(found.results, tests, amplitudes);
     } else {

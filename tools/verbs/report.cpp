@@ -46,7 +46,7 @@ void tell_apart(std::vector<report::PageStructure>& pages, const std::vector<std
     }
 }
 
-void run(const Arguments& arguments) {
+void run_report(const Arguments& arguments) {
     const std::string output = arguments.text("output");
     check_output(output, arguments.flag("force"));
     std::vector<report::PageStructure> pages;
@@ -73,7 +73,7 @@ Verb report_verb() {
                                  "pairs nearer than (1 + this) (r_i + r_j) are drawn as bonds when the file has none", "0.01",
                                  within(0, 1)),
                         flag("force", "replace an existing page")},
-            .run = run,
+            .run = run_report,
             .notes = {"The page opens without a network. Several files are compared side by side."},
             .many_inputs = true};
 }

@@ -221,7 +221,7 @@ void shear_files(const Arguments& arguments, const std::vector<std::string>& fil
     report(arguments, json, table_over_structures(structures));
 }
 
-void run(const Arguments& arguments) {
+void run_shear(const Arguments& arguments) {
     check_options(arguments);
     const std::vector<std::string> files = arguments.inputs();
     if (files.size() > 1) {
@@ -284,7 +284,7 @@ Verb shear_verb() {
                              within(1e-12, 1e-2)),
                     output("write to a new file; results are added to the input file when not given"),
                     flag("force", "replace an existing output file")},
-        .run = run,
+        .run = run_shear,
         .notes = {"With --method dem one --frequency counts (default 1Hz); masses are scaled so that it can be stepped through.",
                   "With --frequency the springs may have losses (--model); of the solver's options the tolerance counts.",
                   "Strengths, friction and ageing play no part at vanishing strain: linear and --frequency results name them.",

@@ -10,7 +10,7 @@ namespace {
 
 using mechanics::LinearResponse;
 
-const std::string group = "/mechanics/linear/";
+const std::string linear_group = "/mechanics/linear/";
 
 struct Orientation {
     std::string name;
@@ -35,37 +35,38 @@ std::string solver_name(mechanics::LinearSolver solver) {
 
 void append_network(Results& results, const LinearResponse& response, double bond_tolerance,
                     const mechanics::LinearOptions& options) {
-    results.push_back(io::text(group + "method", "linear", "linear elastic response of the bonded network"));
-    results.push_back(io::integer(group + "contacts", response.contacts, "number of bonds"));
-    results.push_back(io::integer(group + "rattlers", response.rattlers, "particles that carry no load"));
-    results.push_back(io::integer(group + "floppy_modes", response.floppy_modes,
+    results.push_back(io::text(linear_group + "method", "linear", "linear elastic response of the bonded network"));
+    results.push_back(io::integer(linear_group + "contacts", response.contacts, "number of bonds"));
+    results.push_back(io::integer(linear_group + "rattlers", response.rattlers, "particles that carry no load"));
+    results.push_back(io::integer(linear_group + "floppy_modes", response.floppy_modes,
                                   "zero-energy modes of the load-bearing particles; -1: not counted"));
-    results.push_back(
-        io::scalar(group + "bond_tolerance", bond_tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
-    results.push_back(io::scalar(group + "particle_stiffness/normal", options.normal_stiffness, "N/m", "of one particle"));
-    results.push_back(io::scalar(group + "particle_stiffness/shear", options.shear_stiffness, "N/m", "of one particle"));
-    results.push_back(io::scalar(group + "contact_stiffness/normal", response.contact_normal_stiffness, "N/m",
+    results.push_back(io::scalar(linear_group + "bond_tolerance", bond_tolerance, "1",
+                                 "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
+    results.push_back(io::scalar(linear_group + "particle_stiffness/normal", options.normal_stiffness, "N/m", "of one particle"));
+    results.push_back(io::scalar(linear_group + "particle_stiffness/shear", options.shear_stiffness, "N/m", "of one particle"));
+    results.push_back(io::scalar(linear_group + "contact_stiffness/normal", response.contact_normal_stiffness, "N/m",
                                  "of a contact: two particles in series"));
-    results.push_back(io::scalar(group + "contact_stiffness/shear", response.contact_shear_stiffness, "N/m",
+    results.push_back(io::scalar(linear_group + "contact_stiffness/shear", response.contact_shear_stiffness, "N/m",
                                  "of a contact: two particles in series"));
 }
 
 void append_boundary(Results& results, const mechanics::LinearOptions& options) {
     const bool periodic = options.held.empty();
-    results.push_back(io::text(group + "boundary", periodic ? "periodic" : "held surface",
+    results.push_back(io::text(linear_group + "boundary", periodic ? "periodic" : "held surface",
                                periodic
                                    ? "the cell is periodic"
                                    : "particles at the free surface follow the strain, the stress is averaged over the others"));
     if (!periodic) {
-        results.push_back(io::integer(group + "held_particles", std::count(options.held.begin(), options.held.end(), true),
+        results.push_back(io::integer(linear_group + "held_particles", std::count(options.held.begin(), options.held.end(), true),
                                       "particles that follow the strain"));
-        results.push_back(io::scalar(group + "volume", options.volume, "m3", "volume of the other particles' Voronoi cells"));
+        results.push_back(
+            io::scalar(linear_group + "volume", options.volume, "m3", "volume of the other particles' Voronoi cells"));
     }
 }
 
 void append_moduli(Results& results, const LinearResponse& response) {
     const auto add = [&results](const std::string& name, double value, const std::string& description) {
-        results.push_back(io::scalar(group + name, value, "Pa", description));
+        results.push_back(io::scalar(linear_group + name, value, "Pa", description));
     };
     add("storage_modulus/mean", response.mean_shear_modulus(), "shear modulus, mean of the six orientations");
     add("storage_modulus/std", response.shear_modulus_deviation(),
@@ -80,26 +81,27 @@ void append_moduli(Results& results, const LinearResponse& response) {
     for (const Orientation& orientation : orientations) {
         add("loss_modulus/" + orientation.name, 0, elastic);
     }
-    results.push_back(io::scalar(group + "phase", 0, "rad", elastic));
+    results.push_back(io::scalar(linear_group + "phase", 0, "rad", elastic));
     add("affine_modulus", response.mean_affine_modulus(), "shear modulus if all particles followed the strain, mean");
 }
 
 void append_tensors(Results& results, const LinearResponse& response) {
-    results.push_back(io::matrix(group + "elastic_tensor", response.elastic_tensor, "Pa", "Voigt order xx yy zz yz xz xy"));
+    results.push_back(io::matrix(linear_group + "elastic_tensor", response.elastic_tensor, "Pa", "Voigt order xx yy zz yz xz xy"));
     results.push_back(
-        io::matrix(group + "affine_tensor", response.affine_tensor, "Pa", "the same if all particles followed the strain"));
-    results.push_back(io::vector(group + "non_affinity", response.non_affinity, "1",
+        io::matrix(linear_group + "affine_tensor", response.affine_tensor, "Pa", "the same if all particles followed the strain"));
+    results.push_back(io::vector(linear_group + "non_affinity", response.non_affinity, "1",
                                  "rms displacement beyond the affine one per unit strain over the mean radius, Voigt order"));
 }
 
 void append_solution(Results& results, const LinearResponse& response) {
-    results.push_back(io::text(group + "solver", solver_name(response.solver_used), "linear solver used"));
-    results.push_back(io::integer(group + "iterations", response.iterations, "of conjugate gradients, largest over the strains"));
+    results.push_back(io::text(linear_group + "solver", solver_name(response.solver_used), "linear solver used"));
+    results.push_back(
+        io::integer(linear_group + "iterations", response.iterations, "of conjugate gradients, largest over the strains"));
     const bool estimated = std::isfinite(response.modulus_error);
-    results.push_back(io::scalar(group + "modulus_error", estimated ? response.modulus_error : unset, "1",
+    results.push_back(io::scalar(linear_group + "modulus_error", estimated ? response.modulus_error : unset, "1",
                                  estimated ? "estimated relative error of the moduli from stopping the iteration"
                                            : "NaN: the residual was met before the error of the moduli could be estimated"));
-    results.push_back(io::scalar(group + "residual", response.residual, "1", "|f - K u| / |f|, largest over the strains"));
+    results.push_back(io::scalar(linear_group + "residual", response.residual, "1", "|f - K u| / |f|, largest over the strains"));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace coagula::characterize {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Hexagonal close packing of touching spheres of radius 1 in its rectangular cell.
 Packing hexagonal(int cells) {

@@ -11,7 +11,7 @@
 namespace coagula::characterize {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Minkowski, OfFccAreThoseOfSpheresAndLenses) {
     // While no three balls overlap: each ball of radius R minus half of twelve lenses. Two balls whose centres are 2 apart meet in

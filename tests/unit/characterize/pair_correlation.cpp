@@ -12,7 +12,7 @@
 namespace coagula::characterize {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Neighbours nearer than `reach`, in units of r_i + r_j or of the mean diameter, by comparing all pairs.
 double count_brutally(const Packing& packing, double reach, bool by_contact) {

@@ -29,6 +29,9 @@ Rigidity rigidity_of(const Packing& packing, Bonds bonds = Bonds::normal_and_she
     return measure_rigidity(packing, find_contacts(packing, 0.01), {.bonds = bonds});
 }
 
+/// Compiles in a third of the time of Eigen::BDCSVD.
+using Decomposition = Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::FullPivHouseholderQRPreconditioner>;
+
 struct Counts {
     Index rank, rigid, floppy, self;
     bool operator==(const Counts&) const = default;
@@ -162,7 +165,7 @@ Eigen::MatrixXd dense_matrix(const Packing& packing, const ContactNetwork& conta
 void expect_agreement_with_svd(const Packing& packing, Bonds bonds) {
     const ContactNetwork contacts = find_contacts(packing, 0.01);
     const Rigidity r = measure_rigidity(packing, contacts, {.bonds = bonds});
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(dense_matrix(packing, contacts, bonds), Eigen::ComputeFullU);
+    const Decomposition svd(dense_matrix(packing, contacts, bonds), Eigen::ComputeFullU);
     const Index rank = (svd.singularValues().array() > 1e-9).count();
     EXPECT_EQ(r.rank, rank);
     EXPECT_LT(r.largest_zero, 1e-13);
@@ -182,20 +185,20 @@ void expect_agreement_with_svd(const Packing& packing, Bonds bonds) {
 TEST(Rigidity, AgreesWithADenseSingularValueDecomposition) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         for (const Bonds bonds : {Bonds::normal_and_shear, Bonds::central}) {
-            expect_agreement_with_svd(random_packing(60, seed, true), bonds);
+            expect_agreement_with_svd(random_packing(40, seed, true), bonds);
         }
     }
-    expect_agreement_with_svd(random_packing(50, 4, false), Bonds::normal_and_shear);
+    expect_agreement_with_svd(random_packing(40, 4, false), Bonds::normal_and_shear);
 }
 
 TEST(Rigidity, ClustersMoveAsOneInEveryFloppyMode) {
-    const Packing packing = random_packing(70, 5, false);
+    const Packing packing = random_packing(50, 5, false);
     const ContactNetwork contacts = find_contacts(packing, 0.01);
     const Rigidity r = measure_rigidity(packing, contacts);
     ASSERT_GT(r.rigid.clusters.size(), 0);
     EXPECT_LT(r.rigid.largest_rigid, 1e-9);
     EXPECT_GT(r.rigid.smallest_loose, 1e-5);
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(dense_matrix(packing, contacts, Bonds::normal_and_shear), Eigen::ComputeFullV);
+    const Decomposition svd(dense_matrix(packing, contacts, Bonds::normal_and_shear), Eigen::ComputeFullV);
     const Eigen::MatrixXd null = svd.matrixV().rightCols(r.unknowns - r.rank);
     for (Index i = 0; i < packing.size(); ++i) {
         for (Index j = 0; j < i; ++j) {

@@ -12,7 +12,7 @@
 namespace coagula::characterize {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// One sphere in the middle of a periodic cube of edge 1.
 Packing cubic_array(double fraction) {
