@@ -2,10 +2,17 @@
 #pragma once
 
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/dem/forces.hpp>
 #include <coagula/common/dem/particle_system.hpp>
 #include <coagula/common/random.hpp>
 
 namespace coagula::dem {
+
+using Central = Interactions<RepulsiveSpring, BondSpring>;
+using Sheared = Interactions<RepulsiveSpring, BondedContact>;
+
+inline const Central central{RepulsiveSpring(2.0), BondSpring(3.0)};
+inline const Sheared sheared{RepulsiveSpring(2.0), BondedContact(3.0, 0.7)};
 
 /// N x 3 numbers uniform in (-1, 1), as columns.
 inline Eigen::Matrix3Xd noise(Index count, std::uint64_t seed) {

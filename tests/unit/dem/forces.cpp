@@ -12,12 +12,6 @@
 namespace coagula::dem {
 namespace {
 
-using Central = Interactions<RepulsiveSpring, BondSpring>;
-using Sheared = Interactions<RepulsiveSpring, BondedContact>;
-
-const Central central{RepulsiveSpring(2.0), BondSpring(3.0)};
-const Sheared sheared{RepulsiveSpring(2.0), BondedContact(3.0, 0.7)};
-
 /// Moves and turns particles without dynamics: so heavy that no force matters.
 template <class Laws>
 void displace(ParticleSystem& system, const Laws& laws, const Eigen::Matrix3Xd& shift, const Eigen::Matrix3Xd& turn) {

@@ -11,9 +11,6 @@
 namespace coagula::dem {
 namespace {
 
-using Sheared = Interactions<RepulsiveSpring, BondedContact>;
-
-const Sheared sheared{RepulsiveSpring(2.0), BondedContact(3.0, 0.7)};
 constexpr detail::SpringForce springs{3.0, 0.7};
 
 /// A disordered network of unequal spheres, bonded also through the faces of the periodic cell, that has moved and turned, with
@@ -133,7 +130,6 @@ TEST(Kernels, TellTheLargestLoadOfABond) {
     ASSERT_GT(stretch, 0);
     EXPECT_NEAR(system.largest_bond_loads().stretch, stretch, 1e-15);
     EXPECT_NEAR(system.largest_bond_loads().shear_squared, shear_squared, 1e-15);
-    const Interactions<RepulsiveSpring, BondSpring> central{RepulsiveSpring(2.0), BondSpring(3.0)};
     compute_forces(system, central);
     EXPECT_NEAR(system.largest_bond_loads().stretch, stretch, 1e-15);
     EXPECT_EQ(system.largest_bond_loads().shear_squared, 0);

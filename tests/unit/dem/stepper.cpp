@@ -11,9 +11,6 @@
 namespace coagula::dem {
 namespace {
 
-const Interactions<RepulsiveSpring, BondSpring> central{RepulsiveSpring(1.0), BondSpring(3.0)};
-const Interactions<RepulsiveSpring, BondedContact> sheared{RepulsiveSpring(2.0), BondedContact(3.0, 0.7)};
-
 /// Two bonded unit spheres along x, `stretch` apart, in a wide box.
 ParticleSystem pair_of_spheres(double stretch) {
     Packing packing{Cell::periodic({20, 20, 20}), Eigen::Matrix3Xd(3, 2), Eigen::Vector2d(1, 1)};

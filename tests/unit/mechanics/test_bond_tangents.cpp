@@ -110,7 +110,7 @@ TEST(BondTangents, HertzAndJohnsonKendallRobertsGiveTheirStiffness) {
 }
 
 /// Rattlers and floppy modes included.
-struct Network {
+struct TangentNetwork {
     Packing packing = random_spheres(700, 17.0, 0.25e-6, 4);
     ContactNetwork bonds = find_contacts(packing, 0.05);
 
@@ -121,7 +121,7 @@ struct Network {
 };
 
 TEST(BondTangents, OfTheSpringsAloneAreTheSprings) {
-    const Network sample;
+    const TangentNetwork sample;
     const LinearResponse plain = solve_linear(sample.packing, sample.bonds);
     const LinearResponse same = sample.with({});
     EXPECT_LT((same.elastic_tensor - plain.elastic_tensor).norm(), 1e-12 * plain.elastic_tensor.norm());
@@ -130,7 +130,7 @@ TEST(BondTangents, OfTheSpringsAloneAreTheSprings) {
 }
 
 TEST(BondTangents, MomentsStiffenANetworkAndLeaveNothingFree) {
-    const Network sample;
+    const TangentNetwork sample;
     const double unit = 50 * 0.25e-6 * 0.25e-6;
     const double plain = sample.with({}).mean_shear_modulus();
     const LinearResponse bending = sample.with({.bending_stiffness = 1e-3 * unit});
@@ -146,7 +146,7 @@ TEST(BondTangents, MomentsStiffenANetworkAndLeaveNothingFree) {
 }
 
 TEST(BondTangents, DirectAndIterativeSolverAndAnyShiftAgree) {
-    const Network sample;
+    const TangentNetwork sample;
     const ContactModel model{.bending_stiffness = 3e-15, .prestress = -1e-9};
     const LinearResponse reference = sample.with(model);
     LinearOptions options;
@@ -160,7 +160,7 @@ TEST(BondTangents, DirectAndIterativeSolverAndAnyShiftAgree) {
 }
 
 TEST(BondTangents, SameBitsForOneAndTwoThreads) {
-    const Network sample;
+    const TangentNetwork sample;
     const ContactModel model{.bending_stiffness = 3e-15, .twisting_stiffness = 1e-15};
     omp_set_num_threads(1);
     const auto one = sample.with(model);
@@ -171,7 +171,7 @@ TEST(BondTangents, SameBitsForOneAndTwoThreads) {
 }
 
 TEST(BondTangents, RefusesWhatDoesNotFit) {
-    const Network sample;
+    const TangentNetwork sample;
     LinearOptions options;
     options.bond_tangents = alike(sample.bonds, {.normal = 50});
     options.bond_tangents.pop_back();

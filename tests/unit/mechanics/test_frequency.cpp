@@ -20,7 +20,7 @@ using Complex = std::complex<double>;
 constexpr double two_pi = 2 * std::numbers::pi;
 
 /// Rattlers, spins and floppy modes included.
-struct Network {
+struct DampedNetwork {
     Packing packing = random_spheres(120, 10.0, 0.25e-6, 21);
     ContactNetwork bonds = find_contacts(packing, 0.02);
 
@@ -53,7 +53,7 @@ ContactModel suspended(ContactModel model) {
 }
 
 TEST(Frequency, WithoutLossesItIsTheLinearResponse) {
-    const Network sample;
+    const DampedNetwork sample;
     const auto linear = solve_linear(sample.packing, sample.bonds);
     const FrequencyPoint point = sample.at(10.0, {});
     const Eigen::Matrix<double, 6, 6> real = point.modulus.real();
@@ -64,7 +64,7 @@ TEST(Frequency, WithoutLossesItIsTheLinearResponse) {
 }
 
 TEST(Frequency, DoesNotDependOnTheShift) {
-    const Network sample;
+    const DampedNetwork sample;
     for (const ContactModel& model : {lossy_model(), suspended(lossy_model())}) {
         const FrequencyPoint reference = sample.at(10.0, model);
         for (const double shift : {1e-7, 1e-9, 1e-12}) {
@@ -120,7 +120,7 @@ TEST(Frequency, ChainOfUnequalSpheresInClosedForm) {
 }
 
 /// One bond along x in a solvent, seen as springs and drags in series.
-struct Pair {
+struct DampedPair {
     double radius = 0.25e-6;
     double distance = 2 * radius;
     double viscosity = 1e-3;
@@ -128,7 +128,7 @@ struct Pair {
     ContactModel model;
     Packing packing;
 
-    explicit Pair(double w) : normal_drag(0, w * viscosity * translation_drag(radius)) {
+    explicit DampedPair(double w) : normal_drag(0, w * viscosity * translation_drag(radius)) {
         model.normal_viscosity = 2e-9;
         model.solvent_viscosity = viscosity;
         packing.cell = Cell::periodic({3e-6, 4e-6, 5e-6});
@@ -140,7 +140,7 @@ struct Pair {
 
 TEST(Frequency, TwoParticlesInASolventInClosedForm) {
     for (const double w : {1e8, 1e10, 3e12}) {
-        const Pair pair(w);
+        const DampedPair pair(w);
         const FrequencyPoint point =
             solve_frequency_sweep(pair.packing, bonds_between(pair.packing, {{0, 1}}), pair.model, std::array{w / two_pi})
                 .points.at(0);
@@ -159,7 +159,7 @@ TEST(Frequency, TwoParticlesInASolventInClosedForm) {
 }
 
 TEST(Frequency, DerivativesAgreeWithFiniteDifferences) {
-    const Network sample;
+    const DampedNetwork sample;
     const ContactModel model = suspended(lossy_model());
     const double frequency = 30.0;
     const auto response = solve_frequency_sweep(sample.packing, sample.bonds, model, std::array{frequency});
@@ -179,7 +179,7 @@ TEST(Frequency, DerivativesAgreeWithFiniteDifferences) {
 }
 
 TEST(Frequency, DerivativeByTheSolventWhereDragAndBondsAreAlike) {
-    const Network sample;
+    const DampedNetwork sample;
     ContactModel model = suspended(lossy_model());
     model.solvent_viscosity = 1e3;  // i w zeta is about the contact stiffness
     const double frequency = 1e4;
@@ -195,7 +195,7 @@ TEST(Frequency, DerivativeByTheSolventWhereDragAndBondsAreAlike) {
 }
 
 TEST(Frequency, LossesAreWhatBondsAndParticlesDissipate) {
-    const Network sample;
+    const DampedNetwork sample;
     ContactModel viscous = suspended(lossy_model());
     viscous.solvent_viscosity = 1e3;
     for (const ContactModel& model : {lossy_model(), suspended({}), viscous}) {
@@ -211,7 +211,7 @@ TEST(Frequency, LossesAreWhatBondsAndParticlesDissipate) {
 }
 
 TEST(Frequency, LossOfDashpotsAndDragIsProportionalToTheFrequency) {
-    const Network sample;
+    const DampedNetwork sample;
     ContactModel dashpots;
     dashpots.normal_viscosity = 1e-4;
     dashpots.shear_viscosity = 1e-5;
@@ -229,7 +229,7 @@ TEST(Frequency, LossOfDashpotsAndDragIsProportionalToTheFrequency) {
 
 // The same network relaxes all bonds alike when every k* has the same phase: G* = G' (k* / k).
 TEST(Frequency, EqualLossFactorsGiveTheNetworkThatFactor) {
-    const Network sample;
+    const DampedNetwork sample;
     ContactModel model;
     model.normal_viscosity = 0.05;
     model.shear_viscosity = 0.005;
@@ -239,7 +239,7 @@ TEST(Frequency, EqualLossFactorsGiveTheNetworkThatFactor) {
 }
 
 TEST(Frequency, TensorIsSymmetricAndOrientationsArePartsOfIt) {
-    const Network sample;
+    const DampedNetwork sample;
     const FrequencyPoint point = sample.at(30.0, suspended(lossy_model()));
     EXPECT_LT((point.modulus - point.modulus.transpose()).norm(), 1e-14 * point.modulus.norm());
     EXPECT_EQ(point.shear_modulus(0, 1), point.modulus(5, 5));
@@ -267,7 +267,7 @@ TEST(Frequency, SameBitsForOneAndTwoThreads) {
 
 // In a sweep, a frequency may be solved with the factor of the one before.
 TEST(Frequency, SweepAgreesWithSingleFrequencies) {
-    const Network sample;
+    const DampedNetwork sample;
     const std::array<double, 6> frequencies{1.0, 1.6, 2.5, 4.0, 400.0, 500.0};
     for (const ContactModel& model : {lossy_model(), suspended(lossy_model()), suspended({})}) {
         const auto sweep = solve_frequency_sweep(sample.packing, sample.bonds, model, frequencies);
@@ -282,7 +282,7 @@ TEST(Frequency, SweepAgreesWithSingleFrequencies) {
 }
 
 TEST(Frequency, ExtremeFrequenciesGiveTheLimits) {
-    const Network sample;
+    const DampedNetwork sample;
     const double elastic = solve_linear(sample.packing, sample.bonds).mean_shear_modulus();
     const Complex slow = sample.at(1e-300, suspended({})).mean_shear_modulus();
     EXPECT_NEAR(slow.real(), elastic, 1e-7 * elastic);
@@ -304,7 +304,7 @@ TEST(Frequency, NetworkThatCarriesNothingHasModulusZero) {
 }
 
 TEST(Frequency, RefusesImpossibleInput) {
-    const Network sample;
+    const DampedNetwork sample;
     EXPECT_THROW(sample.at(0.0, {}), std::invalid_argument);
     EXPECT_THROW(sample.at(-1.0, {}), std::invalid_argument);
     ContactModel model;
@@ -312,7 +312,7 @@ TEST(Frequency, RefusesImpossibleInput) {
     EXPECT_THROW(sample.at(1.0, model), std::invalid_argument);
     EXPECT_THROW(sample.at(1.0, {}, {.tolerance = 0}), std::invalid_argument);
     EXPECT_THROW(sample.at(1e300, lossy_model()), std::invalid_argument);
-    Network open;
+    DampedNetwork open;
     open.packing.cell = Cell::open(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(10e-6));
     EXPECT_THROW(open.at(1.0, {}), std::invalid_argument);
 }

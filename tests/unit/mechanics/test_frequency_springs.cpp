@@ -20,14 +20,14 @@ using coagula::testing::bonds_between;
 using coagula::testing::random_spheres;
 using Complex = std::complex<double>;
 
-constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double full_turn = 2 * std::numbers::pi;
 
 /// Rattlers, spins and floppy modes included; unlike radii.
-struct Network {
+struct SpringNetwork {
     Packing packing = random_spheres(120, 10.0, 0.25e-6, 21);
     ContactNetwork bonds;
 
-    Network() {
+    SpringNetwork() {
         for (Index i = 0; i < packing.size(); ++i) {
             packing.radii[i] *= 0.9 + 0.2 * random_uniform(3, RandomPurpose::test, 1, static_cast<std::uint64_t>(i))[0];
         }
@@ -64,7 +64,7 @@ ContactModel lubricated(ContactModel model) {
 }
 
 TEST(FrequencySprings, WithoutLossesItIsTheLinearResponse) {
-    const Network sample;
+    const SpringNetwork sample;
     ContactModel bending = with_moments();
     bending.twisting_stiffness = unset;
     for (const ContactModel& model : {with_moments(), bending, adhesive()}) {
@@ -80,7 +80,7 @@ TEST(FrequencySprings, WithoutLossesItIsTheLinearResponse) {
 }
 
 TEST(FrequencySprings, DoesNotDependOnTheShift) {
-    const Network sample;
+    const SpringNetwork sample;
     ContactModel damped = with_moments();
     damped.shear_viscosity = 0.01;
     for (const ContactModel& model : {damped, lubricated(adhesive())}) {
@@ -98,7 +98,7 @@ bool is_idle(const ContactParameter& parameter, const ContactModel& model) {
 }
 
 TEST(FrequencySprings, DerivativesAgreeWithFiniteDifferences) {
-    const Network sample;
+    const SpringNetwork sample;
     for (const ContactModel& model : {lubricated(with_moments()), lubricated(adhesive())}) {
         const double frequency = 3e3;
         const auto response = solve_frequency_sweep(sample.packing, sample.bonds, model, std::array{frequency});
@@ -124,7 +124,7 @@ TEST(FrequencySprings, DerivativesAgreeWithFiniteDifferences) {
 }
 
 TEST(FrequencySprings, DerivativesAtTheEndsOfTheRange) {
-    const Network sample;
+    const SpringNetwork sample;
     ContactModel model = adhesive();
     model.normal_viscosity = 1e-3;
     for (const double poisson : {0.0, 0.5}) {
@@ -148,7 +148,7 @@ TEST(FrequencySprings, DerivativesAtTheEndsOfTheRange) {
 }
 
 TEST(FrequencySprings, LossesAreWhatBondsFilmsAndParticlesDissipate) {
-    const Network sample;
+    const SpringNetwork sample;
     for (const ContactModel& model : {lubricated(with_moments()), lubricated(adhesive())}) {
         for (const double frequency : {10.0, 1e4}) {
             const FrequencyPoint point = sample.at(frequency, model);
@@ -162,12 +162,12 @@ TEST(FrequencySprings, LossesAreWhatBondsFilmsAndParticlesDissipate) {
 }
 
 /// Two unequal particles with a gap between them, along x.
-struct Pair {
+struct SpringPair {
     Packing packing;
     ContactModel model;
     double viscosity = 1e-3;
 
-    explicit Pair(double gap) {
+    explicit SpringPair(double gap) {
         packing.cell = Cell::periodic({3e-6, 4e-6, 5e-6});
         packing.radii.resize(2);
         packing.radii << 0.25e-6, 0.4e-6;
@@ -184,14 +184,14 @@ struct Pair {
         return distance() * distance() / packing.cell.volume() / (1.0 / link + 1.0 / drag(0) + 1.0 / drag(1));
     }
     FrequencyPoint at(double w, const ContactNetwork& bonds) const {
-        return solve_frequency_sweep(packing, bonds, model, std::array{w / two_pi}).points.at(0);
+        return solve_frequency_sweep(packing, bonds, model, std::array{w / full_turn}).points.at(0);
     }
 };
 
 TEST(FrequencyFilms, PairInClosedForm) {
     const double radius = 0.25e-6 * 0.4e-6 / 0.65e-6;
     for (const double gap : {2e-8, 3e-9, 0.2e-9, -1e-9}) {
-        const Pair pair(gap);
+        const SpringPair pair(gap);
         const double film = 6 * std::numbers::pi * 1e-3 * radius * radius / std::max(gap, 1e-9);
         const ContactNetwork none = bonds_between(pair.packing, {});
         const ContactNetwork bond = bonds_between(pair.packing, {{1, 0}});
@@ -202,12 +202,12 @@ TEST(FrequencyFilms, PairInClosedForm) {
             EXPECT_LT(std::abs(pair.at(w, bond).modulus(0, 0) - bonded), 1e-9 * std::abs(bonded)) << gap;
         }
     }
-    const Pair apart(6e-8);
+    const SpringPair apart(6e-8);
     EXPECT_EQ(apart.at(1e3, bonds_between(apart.packing, {})).modulus.norm(), 0);
 }
 
 TEST(FrequencyFilms, AreOfAllNearPairsOnce) {
-    const Network sample;
+    const SpringNetwork sample;
     const ContactModel model = lubricated({});
     const FrequencyPairs pairs = find_frequency_pairs(sample.packing, sample.bonds, model);
     Index near = 0;
@@ -228,7 +228,7 @@ TEST(FrequencyFilms, AreOfAllNearPairsOnce) {
 }
 
 TEST(FrequencySprings, SameBitsForOneAndTwoThreads) {
-    const Network sample;
+    const SpringNetwork sample;
     omp_set_num_threads(1);
     const FrequencyPoint one = sample.at(100.0, lubricated(adhesive()));
     omp_set_num_threads(2);
@@ -238,7 +238,7 @@ TEST(FrequencySprings, SameBitsForOneAndTwoThreads) {
 }
 
 TEST(FrequencySprings, RefusesUnstableAndStifflessBonds) {
-    const Network sample;
+    const SpringNetwork sample;
     ContactModel model;
     model.shear_stiffness = 0;
     model.prestress = 1e-6;

@@ -16,7 +16,7 @@ using coagula::testing::alike;
 using coagula::testing::random_spheres;
 
 /// A random network with rattlers, spins and floppy modes, of which a dense solver knows everything.
-struct Network {
+struct LinearNetworkSample {
     Packing packing = random_spheres(120, 10.0, 1.0e-6, 21);
     ContactNetwork bonds = find_contacts(packing, 0.02);
 };
@@ -27,7 +27,7 @@ struct DenseAnswer {
 };
 
 /// The same modulus by the eigenvalues of the dense matrix: a pseudo-inverse, without any shift.
-DenseAnswer dense_answer(const Network& sample) {
+DenseAnswer dense_answer(const LinearNetworkSample& sample) {
     const LoadBearing kept = find_load_bearing(sample.bonds);
     const LinearNetwork network(sample.packing, sample.bonds, kept, alike(sample.bonds, {.normal = 50, .shear = 5}), 50);
     const BlockMatrix full = both_triangles(network.stiffness());
@@ -54,7 +54,7 @@ DenseAnswer dense_answer(const Network& sample) {
 }
 
 TEST(Linear, AgreesWithTheDensePseudoInverse) {
-    const Network sample;
+    const LinearNetworkSample sample;
     const DenseAnswer dense = dense_answer(sample);
     const LinearResponse response = solve_linear(sample.packing, sample.bonds);
     ASSERT_GT(response.rattlers, 0);
@@ -65,7 +65,7 @@ TEST(Linear, AgreesWithTheDensePseudoInverse) {
 }
 
 TEST(Linear, DoesNotDependOnTheShift) {
-    const Network sample;
+    const LinearNetworkSample sample;
     LinearOptions options;
     const auto reference = solve_linear(sample.packing, sample.bonds, options);
     for (const double shift : {1e-7, 1e-9, 1e-11}) {
@@ -91,7 +91,7 @@ TEST(Linear, IterativeAndDirectSolversAgree) {
 }
 
 TEST(Linear, AutomaticChoiceFollowsThePredictedMemory) {
-    const Network sample;
+    const LinearNetworkSample sample;
     LinearOptions options;
     const auto direct = solve_linear(sample.packing, sample.bonds, options);
     EXPECT_EQ(direct.solver_used, LinearSolver::direct);
@@ -117,7 +117,7 @@ TEST(Linear, SameBitsForOneAndTwoThreads) {
 }
 
 TEST(Linear, ParticleStiffnessesActInSeriesAndModuliScaleWithThem) {
-    const Network sample;
+    const LinearNetworkSample sample;
     LinearOptions options;
     const auto base = solve_linear(sample.packing, sample.bonds, options);
     EXPECT_DOUBLE_EQ(base.contact_normal_stiffness, 50);
@@ -129,7 +129,7 @@ TEST(Linear, ParticleStiffnessesActInSeriesAndModuliScaleWithThem) {
 }
 
 TEST(Linear, DisplacementsSolveTheProblemWithoutNetDrift) {
-    const Network sample;
+    const LinearNetworkSample sample;
     const auto response = solve_linear(sample.packing, sample.bonds);
     for (const auto& field : response.displacement) {
         EXPECT_LT(field.rowwise().sum().norm(), 1e-9 * field.norm());
@@ -155,7 +155,7 @@ TEST(Linear, NetworkThatCarriesNothingHasModulusZero) {
 }
 
 TEST(Linear, RefusesImpossibleInput) {
-    const Network sample;
+    const LinearNetworkSample sample;
     LinearOptions options;
     options.normal_stiffness = -1;
     EXPECT_THROW(solve_linear(sample.packing, sample.bonds, options), std::invalid_argument);

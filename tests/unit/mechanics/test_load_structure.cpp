@@ -226,7 +226,7 @@ TEST(LoadStructure, FaceCentredCubicCrystal) {
 }
 
 /// A random network with rattlers and floppy modes.
-struct Network {
+struct LoadedNetwork {
     Packing packing = random_spheres(700, 17.0, 1.0e-6, 4);
     ContactNetwork bonds = find_contacts(packing, 0.05);
     LinearResponse response = solve_linear(packing, bonds);
@@ -234,7 +234,7 @@ struct Network {
 };
 
 TEST(LoadStructure, EnergyAndStressAreThoseOfTheElasticTensor) {
-    const Network network;
+    const LoadedNetwork network;
     ASSERT_GT(network.response.rattlers, 0);
     const double volume = network.packing.cell.volume();
     for (std::size_t plane = 0; plane < 3; ++plane) {
@@ -254,7 +254,7 @@ TEST(LoadStructure, EnergyAndStressAreThoseOfTheElasticTensor) {
 }
 
 TEST(LoadStructure, ForcesAndTorquesBalanceOnEveryParticle) {
-    const Network network;
+    const LoadedNetwork network;
     for (const ShearLoad& load : network.structure.shear) {
         Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, network.packing.size());
         Eigen::Matrix3Xd torque = force;
@@ -274,7 +274,7 @@ TEST(LoadStructure, ForcesAndTorquesBalanceOnEveryParticle) {
 
 // A periodic network may translate freely, and one particle that swings far must not pass for the motion of all.
 TEST(LoadStructure, NonAffinityDoesNotDependOnATranslation) {
-    Network network;
+    LoadedNetwork network;
     for (Eigen::Matrix3Xd& u : network.response.displacement) {
         u.colwise() += Eigen::Vector3d(3e-4, -2e-4, 5e-4);
     }
@@ -289,7 +289,7 @@ TEST(LoadStructure, NonAffinityDoesNotDependOnATranslation) {
 }
 
 TEST(LoadStructure, BackboneIsTheSmallestSetOfBonds) {
-    const Network network;
+    const LoadedNetwork network;
     for (const ShearLoad& load : network.structure.shear) {
         double inside = 0;
         double weakest = 1;
@@ -324,7 +324,7 @@ TEST(LoadStructure, BackboneIsTheSmallestSetOfBonds) {
 }
 
 TEST(LoadStructure, SameBitsForOneAndTwoThreads) {
-    const Network network;
+    const LoadedNetwork network;
     omp_set_num_threads(1);
     const LoadStructure one = find_load_structure(network.packing, network.bonds, network.response);
     omp_set_num_threads(2);
@@ -339,7 +339,7 @@ TEST(LoadStructure, SameBitsForOneAndTwoThreads) {
 
 // Half of every bond belongs to each of its ends; held particles lie outside the measured volume.
 TEST(LoadStructure, SampleWithAFreeSurface) {
-    Network network;
+    LoadedNetwork network;
     network.packing.cell = Cell::open(Eigen::Vector3d::Zero(), network.packing.cell.lengths());
     const ContactNetwork bonds = find_contacts(network.packing, 0.05);
     LinearOptions options;

@@ -141,7 +141,7 @@ TEST(Rheometer, MeasuresTheSameStressInTheVolumeAndOnThePlate) {
 
 /// In a crystal every particle carries the same stress, so the few in a measurement sphere stand for all.
 TEST(Rheometer, MeasuresTheStressInSpheres) {
-    const Packing crystal = testing::make_lattice(testing::face_centred_cubic(), 3, 3, 4);
+    const Packing crystal = coagula::testing::make_lattice(coagula::testing::face_centred_cubic(), 3, 3, 4);
     const ContactNetwork bonds = find_contacts(crystal, 0.01);
     RheometerOptions options = gentle();
     options.boundary = RheometerBoundary::plates;
@@ -214,7 +214,8 @@ TEST(Rheometer, GoesOnFromACheckpointToTheSameBits) {
 }
 
 TEST(Rheometer, HasTheSameBitsForAnyNumberOfThreads) {
-    Packing packing = testing::make_lattice(testing::body_centred_cubic(), 10, 10, 10);  // enough for several chunks
+    Packing packing =
+        coagula::testing::make_lattice(coagula::testing::body_centred_cubic(), 10, 10, 10);  // enough for several chunks
     for (Index particle = 0; particle < packing.size(); ++particle) {
         const Eigen::Vector3d shift = 2e-8 * random_uniform(1, RandomPurpose::test, 0, static_cast<std::uint64_t>(particle));
         packing.positions.col(particle) = packing.cell.wrap(packing.positions.col(particle) + shift);
@@ -338,7 +339,7 @@ TEST(Rheometer, AgesBetweenOscillations) {
 }
 
 TEST(Rheometer, HasNoModulusWithoutBonds) {
-    Packing apart = testing::make_lattice(testing::simple_cubic(), 3, 3, 3);
+    Packing apart = coagula::testing::make_lattice(coagula::testing::simple_cubic(), 3, 3, 3);
     apart.radii *= 0.9;
     ContactNetwork none;
     none.particles = apart.size();

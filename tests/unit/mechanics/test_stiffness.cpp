@@ -14,12 +14,12 @@ using coagula::testing::alike;
 using coagula::testing::bonds_between;
 using coagula::testing::random_spheres;
 
-struct Sample {
+struct MatrixSample {
     Packing packing = random_spheres(30, 6.5, 1.0, 7);
     ContactNetwork bonds;
     LoadBearing kept;
     std::vector<ContactTangent> tangents;  ///< every term, unlike in every bond
-    Sample() {
+    MatrixSample() {
         for (Index i = 0; i < packing.size(); ++i) {  // unlike radii: unlike lever arms
             packing.radii[i] = 0.8 + 0.4 * random_uniform(3, RandomPurpose::test, 1, static_cast<std::uint64_t>(i))[0];
         }
@@ -51,7 +51,7 @@ Eigen::MatrixXd dense(const BlockMatrix& full) {
 }
 
 /// Energy of the network straight from the kinematics, bond by bond: lengths in mean radii, stiffness in the reference.
-double energy(const Sample& sample, const Eigen::VectorXd& motion, const Eigen::Matrix3d& strain) {
+double energy(const MatrixSample& sample, const Eigen::VectorXd& motion, const Eigen::Matrix3d& strain) {
     const double r0 = mean_radius(sample.packing);
     double sum = 0;
     for (const Index bond : sample.kept.bond) {
@@ -73,11 +73,11 @@ double energy(const Sample& sample, const Eigen::VectorXd& motion, const Eigen::
         sum += k.normal * along(delta) + k.shear * across(delta) + k.tension * across(moved);
         sum += (k.twisting * along(bend) + k.bending * across(bend)) / (r0 * r0);
     }
-    return 0.5 * sum / Sample::reference;
+    return 0.5 * sum / MatrixSample::reference;
 }
 
 TEST(Stiffness, IsTheSecondDerivativeOfTheEnergy) {
-    const Sample sample;
+    const MatrixSample sample;
     ASSERT_GT(sample.kept.particle.size(), 20U);
     const Eigen::MatrixXd k = dense(both_triangles(sample.network().stiffness()));
     EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
@@ -89,7 +89,7 @@ TEST(Stiffness, IsTheSecondDerivativeOfTheEnergy) {
 }
 
 TEST(Stiffness, LoadsAndAffineEnergyMatchTheEnergyUnderStrain) {
-    const Sample sample;
+    const MatrixSample sample;
     const LinearNetwork network = sample.network();
     const Loads loads = network.loads();
     const Block affine = network.affine_energy();
@@ -111,7 +111,7 @@ TEST(Stiffness, LoadsAndAffineEnergyMatchTheEnergyUnderStrain) {
 }
 
 TEST(Stiffness, EnergyBondByBondAtAnyMotion) {
-    const Sample sample;
+    const MatrixSample sample;
     const LinearNetwork network = sample.network();
     Loads motion(6 * network.particles(), 6);
     for (Index i = 0; i < motion.rows(); ++i) {
@@ -126,7 +126,7 @@ TEST(Stiffness, EnergyBondByBondAtAnyMotion) {
 }
 
 TEST(Stiffness, RigidTranslationGivesNoForceAndRigidRotationOfAClusterNeither) {
-    const Sample sample;
+    const MatrixSample sample;
     const BlockMatrix full = both_triangles(sample.network().stiffness());
     Loads translation = Loads::Zero(6 * full.rows(), 6);
     for (Index i = 0; i < full.rows(); ++i) {

@@ -1,23 +1,16 @@
 #include "updated_factor.hpp"
 
-#include <coagula/generators/void_expansion.hpp>
+#include "quasistatic_examples.hpp"
 
 #include <gtest/gtest.h>
 
 namespace coagula::mechanics {
 namespace {
 
-generators::VoidExpansion gel(Index particles) {
-    generators::VoidExpansionOptions options;
-    options.particles = particles;
-    options.voids = particles / 2;
-    options.volume_fraction = 0.4;
-    options.radii = Eigen::VectorXd::Constant(particles, 0.25e-6);
-    return generators::expand_voids(options);
-}
+using testing::gel;
 
 /// Joints with moments, so that the factor's shift hardly matters.
-ContactModel stiff_joints() {
+ContactModel joints_with_moments() {
     ContactModel model;
     model.normal_stiffness = 100;
     model.shear_stiffness = 10;
@@ -39,7 +32,7 @@ Motion some_load(const ShearedNetwork& network, const Trial& trial) {
 
 TEST(UpdatedFactor, FollowsBrokenBonds) {
     const auto sample = gel(200);
-    ShearedNetwork network(sample.packing, sample.contacts, stiff_joints(), {});
+    ShearedNetwork network(sample.packing, sample.contacts, joints_with_moments(), {});
     Trial trial;
     const Motion still = Motion::Zero(6 * network.particles());
     network.evaluate(0, still, trial);
@@ -63,7 +56,7 @@ TEST(UpdatedFactor, FollowsBrokenBonds) {
 /// A slipping contact has an unsymmetric tangent, which no Cholesky factor holds.
 TEST(UpdatedFactor, FollowsContactsThatSlip) {
     const auto sample = gel(200);
-    ShearedNetwork network(sample.packing, sample.contacts, stiff_joints(), {});
+    ShearedNetwork network(sample.packing, sample.contacts, joints_with_moments(), {});
     for (Index bond = 0; bond < sample.contacts.size(); bond += 20) {
         network.break_bond(bond);
     }
