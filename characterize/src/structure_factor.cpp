@@ -292,8 +292,12 @@ void extrapolate(double range, StructureFactor& result) {
     }
 }
 
-/// Half the range of the shells around the largest that differ from it by less than two standard errors; a shell at least.
+/// Half the range of the shells around the largest that differ from it by less than two standard errors; a shell at least. A shell
+/// alone says nothing.
 double peak_width(const StructureFactor& found, Index largest) {
+    if (found.direct.size() < 2) {
+        return unset;
+    }
     const auto is_as_large = [&](Index shell) {
         return found.direct[largest] - found.direct[shell] <
                2 * std::hypot(found.direct_stderr[largest], found.direct_stderr[shell]);

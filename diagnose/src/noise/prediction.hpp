@@ -25,7 +25,9 @@ struct Prediction {
     }
 
     /// With these errors, along straight lines.
-    Eigen::VectorXd with(const Eigen::VectorXd& some) const { return values + errors.changes * (some - errors.about); }
+    Eigen::VectorXd with(const Eigen::VectorXd& some) const {
+        return errors.about.size() == 0 ? values : Eigen::VectorXd(values + errors.changes * (some - errors.about));
+    }
     /// Where straight lines through `values` lead without any error.
     Eigen::VectorXd without_errors() const { return with(Eigen::VectorXd::Zero(errors.about.size())); }
 };

@@ -36,7 +36,7 @@ struct StructureFactor {
     double peak = unset;                     ///< largest S of the direct sum
     double peak_stderr = unset;              ///< of the shell
     double peak_wave_number = unset;         ///< where [1/m]
-    double peak_wave_number_stderr = unset;  ///< half the range of the shells that are as large within two standard errors
+    double peak_wave_number_stderr = unset;  ///< half the range of the shells as large within two standard errors; NaN: one shell
 };
 
 StructureFactor measure_structure_factor(const Packing& packing, const StructureFactorOptions& options = {});
