@@ -10,10 +10,17 @@ namespace {
 using diagnose::Mechanism;
 using diagnose::MechanismParameter;
 
+std::string prior_of(const MechanismParameter& parameter) {
+    if (parameter.small > 0) {
+        return "uniform in the logarithm beyond " + to_text(parameter.small) + " of either sign";
+    }
+    return parameter.logarithmic ? "uniform in the logarithm" : "uniform";
+}
+
 /// Name, range and unit; priors are uniform in the logarithm unless said otherwise.
 std::string described(const MechanismParameter& parameter) {
     return "`" + parameter.name + "` " + to_text(parameter.low) + " .. " + to_text(parameter.high) +
-           (parameter.unit == "1" ? "" : " " + parameter.unit) + (parameter.logarithmic ? "" : ", uniform");
+           (parameter.unit == "1" ? "" : " " + parameter.unit) + (parameter.logarithmic ? "" : ", " + prior_of(parameter));
 }
 
 std::string row_of(const Mechanism& mechanism) {
@@ -27,10 +34,8 @@ std::string row_of(const Mechanism& mechanism) {
 Json to_json(const Mechanism& mechanism) {
     Json parameters = Json::object();
     for (const MechanismParameter& parameter : mechanism.parameters) {
-        parameters[parameter.name] = {{"low", parameter.low},
-                                      {"high", parameter.high},
-                                      {"unit", parameter.unit},
-                                      {"prior", parameter.logarithmic ? "uniform in the logarithm" : "uniform"}};
+        parameters[parameter.name] = {
+            {"low", parameter.low}, {"high", parameter.high}, {"unit", parameter.unit}, {"prior", prior_of(parameter)}};
     }
     return {{"name", mechanism.name},
             {"term", mechanism.term},

@@ -30,6 +30,7 @@
     ENTRY(ageing_power)             \
     ENTRY(ageing_saturating)        \
     ENTRY(temperature_drift)        \
+    ENTRY(shear_thinning)           \
     ENTRY(evaporation)              \
     ENTRY(sedimentation)            \
     ENTRY(poroelastic_backflow)     \
@@ -65,10 +66,17 @@ COAGULA_CATALOGUE(COAGULA_DECLARED)
 }  // namespace mechanisms
 
 double MechanismParameter::at(double place) const {
+    if (small > 0) {
+        return small * std::sinh(std::lerp(std::asinh(low / small), std::asinh(high / small), place));
+    }
     return logarithmic ? low * std::pow(high / low, place) : low + (high - low) * place;
 }
 
 double MechanismParameter::place_of(double given) const {
+    if (small > 0) {
+        const double first = std::asinh(low / small);
+        return (std::asinh(given / small) - first) / (std::asinh(high / small) - first);
+    }
     return logarithmic ? std::log(given / low) / std::log(high / low) : (given - low) / (high - low);
 }
 

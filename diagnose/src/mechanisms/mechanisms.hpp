@@ -180,6 +180,11 @@ inline bool flows(const Experiment& experiment) {
     return any_measurement(experiment, [](const Measurement& table) { return table.kind == MeasurementKind::flow_curve; });
 }
 
+/// A smooth viscosity may grow towards low rates in any way.
+inline bool flows_as_an_oil(const Experiment& experiment) {
+    return experiment.material.kind == MaterialKind::newtonian && flows(experiment);
+}
+
 inline bool knows_tool_and_frequencies(const Experiment& experiment) {
     return knows_tool(experiment) && knows_frequency(experiment);
 }

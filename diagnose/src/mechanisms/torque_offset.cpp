@@ -5,6 +5,7 @@ namespace coagula::diagnose::mechanisms {
 namespace {
 
 constexpr double usual_radius = 25e-3;  // m
+constexpr double least_offset = 1e-4;   // Pa: 2.5 nN m, about the least torque that instruments state
 
 /// One torque is the less stress the wider the plate, as one over the cube of its radius.
 std::complex<double> with_offset(std::complex<double> modulus, const Observation& row, Values values) {
@@ -16,22 +17,17 @@ std::complex<double> with_offset(std::complex<double> modulus, const Observation
     return modulus + std::complex<double>(0, stress / row.shear_rate);
 }
 
-/// A smooth viscosity may grow towards low rates in the same way.
-bool flows_as_an_oil(const Experiment& experiment) {
-    return experiment.material.kind == MaterialKind::newtonian && flows(experiment);
-}
-
 }  // namespace
 
-/// Up to a micronewton metre under plates of 25 mm: friction of the bearing, a rim that the sample wets unevenly (Johnston and
-/// Ewoldt 2013). It does not oscillate, and so drops out of moduli.
+/// From nanonewton metres, which a mapped bearing leaves, to more than a micronewton metre of friction or of a rim that the sample
+/// wets unevenly (Johnston and Ewoldt 2013). It does not oscillate, and so drops out of moduli.
 Mechanism torque_offset() {
     return {
         .name = "torque-offset",
         .term = "a torque that does not come from the sample stays however slowly the tool turns",
         .signature =
             "the viscosity rises, or falls through zero, towards low shear rates, as one over the rate, most under small plates",
-        .parameters = {{"stress_offset", "Pa", -0.1, 0.1, false}},
+        .parameters = {{"stress_offset", "Pa", -0.1, 0.1, false, 0, least_offset}},
         .effect = ChangesTool{with_offset},
         .applies = flows_as_an_oil};
 }

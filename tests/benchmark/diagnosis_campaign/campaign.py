@@ -123,7 +123,7 @@ def run(row, number, program, folder):
                                 if cause["posterior"] > 0.01 or cause["name"] == session.hidden.name]
     entry["found"]["stated"] = stated_share(found["causes"])
     told = session.hidden.name
-    in_catalogue = row not in ("outside", "contacts-removed", "volume-fraction", "thinning-oil") and told != "nothing" and " + " not in told
+    in_catalogue = row not in ("outside", "contacts-removed", "volume-fraction") and told != "nothing" and " + " not in told
     if in_catalogue and found["detected"] and found["causes"][0]["name"] != told:
         entry["told"] = diagnose(program, experiment, folder / "simulations.txt", "--causes", told, *seed).get("gain")
     if row in ("tie", "tie-stiffening", "tie-yield") and found["verdict"] == "tied" and "proposed_measurement" in found:

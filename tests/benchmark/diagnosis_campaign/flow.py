@@ -25,7 +25,7 @@ class Flow:
         hidden = self.hidden
         speed = RATES * gap / plate
         true_rate = speed * plate / (gap + hidden.gap_error)
-        thinning = 1 + hidden.thinning / numpy.sqrt(true_rate)
+        thinning = 1 + hidden.thinning / true_rate**hidden.exponent
         torque = numpy.pi * plate**3 / 2 * self.viscosity * thinning * true_rate + hidden.torque + hidden.braking * speed
         return 2 * torque / (numpy.pi * plate**3) / RATES
 

@@ -46,7 +46,8 @@ class Hidden:
     density: float = 0.0    # of a sample through which waves pass [kg/m3]
     overfill: float = 0.0   # by which the sample is wider than its plate [m]
     torque: float = 0.0     # that does not come from the sample [N.m]
-    thinning: float = 0.0   # of the viscosity at a rate of 1/s, as one over the root of the rate
+    thinning: float = 0.0   # of the viscosity at a rate of 1/s
+    exponent: float = 0.5   # of the rate, by which it is the less
     images: tuple = ()      # errors in the plane and along z [m], shares of missed and of false centres
     sizes: float = 0.0      # relative deviation of the particles' radii
     potential: float = 0.0  # of the surfaces on which particles coagulated [V]

@@ -62,13 +62,21 @@ def ageing_after_shears(name):
     return draw
 
 
-def flow(name, part, largest, signed, plates=(NARROW,) * 3, gaps=(1e-3,) * 3):
+def flow(name, part, largest, plates=(NARROW,) * 3, gaps=(1e-3,) * 3):
     """An oil in steady flow with one effect of a drawn gain."""
     def draw(generator, material):
-        sign = float(generator.choice([-1, 1])) if signed else 1.0
+        sign = float(generator.choice([-1, 1]))
         oil = Flow(Hidden(), within(0.1, 10, generator), plates, gaps)
         return scaled(oil, material, float(generator.choice(GAINS)), lambda place: Hidden(name, **{part: sign * largest * 1e-6**(1 - place)}))
     return draw
+
+
+def thinning(generator, material):
+    """An oil that is none."""
+    exponent = generator.uniform(0.1, 0.9)
+    oil = Flow(Hidden(), within(0.1, 10, generator), (NARROW,) * 3, (1e-3,) * 3)
+    return scaled(oil, material, float(generator.choice(GAINS)),
+                  lambda place: Hidden("shear-thinning", thinning=1e-6**(1 - place), exponent=exponent))
 
 
 def localisation(generator, material):
@@ -94,8 +102,8 @@ def pair(generator):
 
 ROWS = {"contact-nonlinearity": hertz, "ageing-up-and-down": ageing_up_and_down, "prestress": prestress, "bond-bending-series": bending_series,
         "ageing-after-shear": after_shear, "ageing-sheared": ageing_after_shears("ageing"),
-        "torque-offset": flow("torque-offset", "torque", 1e-5, True),
-        "torque-offset-plates": flow("torque-offset", "torque", 1e-5, True, plates=(NARROW, NARROW, WIDE, WIDE), gaps=(1e-3,) * 4),
-        "thinning-oil": flow("thinning", "thinning", 1.0, False),
+        "torque-offset": flow("torque-offset", "torque", 1e-5),
+        "torque-offset-plates": flow("torque-offset", "torque", 1e-5, plates=(NARROW, NARROW, WIDE, WIDE), gaps=(1e-3,) * 4),
+        "shear-thinning": thinning,
         "localisation-error": localisation, "polydispersity": sizes, "surface-potential": potential,
         "null-coordinates": sharp("coordinates", "vem"), "null-pores": sharp("pore-curve", "brownian")}

@@ -317,8 +317,20 @@ TEST(Mechanisms, PlacesAndValuesAreInverse) {
         for (const MechanismParameter& parameter : mechanism.parameters) {
             EXPECT_NEAR(parameter.place_of(parameter.at(0.37)), 0.37, 1e-12) << mechanism.name;
             EXPECT_LT(parameter.low, parameter.high);
+            EXPECT_NEAR(parameter.at(0), parameter.low, 1e-12 * std::abs(parameter.low)) << mechanism.name;
+            EXPECT_NEAR(parameter.at(1), parameter.high, 1e-12 * std::abs(parameter.high)) << mechanism.name;
         }
     }
+}
+
+/// Where nothing says how small: a decade more is as likely as the next, and nothing is lost at zero.
+TEST(Mechanisms, APriorOfEitherSignIsUniformInTheLogarithmFarFromZero) {
+    const MechanismParameter parameter{"offset", "Pa", -0.1, 0.1, false, 0, 1e-4};
+    EXPECT_NEAR(parameter.at(0.5), 0, 1e-18);
+    EXPECT_DOUBLE_EQ(parameter.at(0.2), -parameter.at(0.8));
+    const double decade = parameter.place_of(1e-1) - parameter.place_of(1e-2);
+    EXPECT_NEAR(parameter.place_of(1e-2) - parameter.place_of(1e-3), decade, 0.02 * decade);
+    EXPECT_NEAR(parameter.place_of(2e-5) - parameter.place_of(1e-5), parameter.place_of(1e-5) - 0.5, 1e-4);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ class Simulator;
 class StrainHistory;
 struct Observation;
 
-/// A parameter with its physical range, over which the prior is uniform (or uniform in the logarithm).
+/// A parameter with its physical range, over which the prior is uniform, or uniform in the logarithm.
 struct MechanismParameter {
     std::string name;
     std::string unit;  ///< UDUNITS text
@@ -27,6 +27,9 @@ struct MechanismParameter {
     bool logarithmic;
     /// The place of a fit is a multiple of this, where it is not 0: runs that take long serve other fits again.
     double step = 0;
+    /// Where it is not 0, the prior is about uniform from minus this to this, and uniform in the logarithm beyond: for what has
+    /// either sign and may be as small as one knows.
+    double small = 0;
 
     /// The value at a place 0 .. 1 of the prior, and back.
     double at(double place) const;

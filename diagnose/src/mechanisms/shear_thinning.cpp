@@ -1,0 +1,26 @@
+#include "mechanisms.hpp"
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// 1 + excess (1 s-1 / rate)^exponent.
+std::complex<double> thinning(const Observation& row, Values values, const SimulatedSample& /*sample*/) {
+    return is_steady(row) ? 1 + values[0] * std::pow(row.shear_rate, -values[1]) : 1;
+}
+
+}  // namespace
+
+/// Sisko's law (Industrial and Engineering Chemistry 50, 1789, 1958) of what is no oil, as a grease: a constant viscosity at high
+/// rates, a power of the rate at low ones. At an exponent of 1 it were a stress that stays, as `torque_offset` leaves it.
+Mechanism shear_thinning() {
+    return {.name = "shear-thinning",
+            .term = "the sample is no Newtonian fluid: its viscosity falls with the shear rate",
+            .signature = "the viscosity rises towards low shear rates, slower than as one over the rate, under all plates alike",
+            .parameters = {{"excess_at_1_per_s", "1", 1e-3, 10, true}, {"exponent", "1", 0.1, 0.9, false}},
+            .effect = ScalesMaterial{thinning},
+            .applies = flows_as_an_oil,
+            .in_any_fluid = true};
+}
+
+}  // namespace coagula::diagnose::mechanisms
