@@ -104,7 +104,7 @@ class Oil(Tables):
         found = self.diagnosis(self.gap_series(3e-5, ""))
         members = {name for cause in found["causes"] for name in cause["name"].split(" + ")}
         self.assertLessEqual(members, {"base", "none of the catalogue", "gap-error", "wall-slip", "tool-compliance", "tool-inertia",
-                                       "bearing-damping", "phase-offset", "torque-offset", "sample-inertia", "temperature-drift",
+                                       "bearing-damping", "phase-offset", "torque-offset", "shear-thinning", "sample-inertia", "temperature-drift",
                                        "drying-rim", "sudden-loss"})
         self.assertFalse((self.folder / "results" / "extended_model.toml").exists())
 
@@ -285,15 +285,15 @@ class FlowCurves(Tables):
 
     RADIUS = 25e-3
 
-    def curves(self, gap_error=0.0, damping=0.0, offset=0.0, heads=("shear_rate [1/s]", "viscosity [Pa.s]")):
-        number = random.Random(2)
+    def curves(self, gap_error=0.0, damping=0.0, offset=0.0, excess=0.0, seed=2, heads=("shear_rate [1/s]", "viscosity [Pa.s]")):
+        number = random.Random(seed)
         text = (f'[material]\nkind = "newtonian"\n\n[instrument]\ngeometry = "plate-plate"\nplate_radius = {self.RADIUS}\ngap = 1e-3\n\n'
                 + NOISE)
         for place, gap in enumerate((0.1e-3, 0.2e-3, 0.4e-3, 0.8e-3, 1.6e-3)):
             viscosity = gap / (gap + gap_error) + damping * 2 * gap / (math.pi * self.RADIUS**4)
             rows = []
             for rate in (10**(k / 4 - 1) for k in range(13)):
-                shown = (viscosity + offset / rate) * (1 + number.gauss(0, 0.01))
+                shown = (viscosity + offset / rate + excess / rate**0.5) * (1 + number.gauss(0, 0.01))
                 rows.append((rate, shown * (rate if "stress" in heads[1] else 1)))
             self.table(f"flow{place}.csv", heads, rows)
             text += (f'[[measurement]]\nkind = "flow-curve"\nfile = "flow{place}.csv"\nsample = "oil"\nrun_order = {place}\n'
@@ -328,7 +328,7 @@ class FlowCurves(Tables):
         where = found["where"][0]
         self.assertEqual((where["observable"], where["axis"]), ("viscosity", "shear_rate"))
         self.assertLess(where["from"], 0.05)
-        self.assertEqual(found["credible_set"], ["torque-offset"])
+        self.assertEqual(found["credible_set"], ["torque-offset", "shear-thinning"])  # as few rows do not tell 1 / rate from less
         parameters = found["causes"][0]["parameters"]
         self.assertTrue(parameters["viscosity"]["low"] < 0.0367 < parameters["viscosity"]["high"], parameters)
         self.assertTrue(1e-4 < parameters["stress_offset"]["value"] < 4e-4, parameters)
@@ -341,6 +341,19 @@ class FlowCurves(Tables):
             self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["torque-offset"]))
             stress = found["causes"][0]["parameters"]["stress_offset"]
             self.assertTrue(stress["low"] < offset < stress["high"], stress)
+
+    def test_show_a_sample_that_is_no_oil(self):
+        found = self.diagnosis(self.curves(excess=0.1))
+        self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["shear-thinning"]))
+        for name, value in (("excess_at_1_per_s", 0.1), ("exponent", 0.5), ("viscosity", 1)):
+            parameter = found["causes"][0]["parameters"][name]
+            self.assertTrue(parameter["low"] < value < parameter["high"], found["causes"][0])
+
+    def test_that_leave_a_torque_and_thinning_open_ask_for_another_tool(self):
+        found = self.diagnosis(self.curves(offset=0.002, seed=3))
+        self.assertLessEqual({"shear-thinning", "torque-offset"}, set(found["credible_set"]))
+        self.assertIn("half the radius (12.5 mm)", found["proposed_measurements"][0]["what"])
+        self.assertTrue(all("flow curve" in each["what"] for each in found["proposed_measurements"]), found["proposed_measurements"])
 
     def test_show_a_torque_that_is_less_of_a_stress_under_a_wider_plate(self):
         number = random.Random(3)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <iomanip>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -211,6 +212,46 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
     return candidates;
 }
 
+/// Over the shear rates so far.
+std::vector<Candidate> flow_candidates(const Experiment& experiment, const std::vector<Observation>& observations) {
+    double slowest = std::numeric_limits<double>::infinity();
+    double fastest = 0;
+    for (const Observation& one : observations) {
+        if (is_steady(one)) {
+            slowest = std::min(slowest, one.shear_rate);
+            fastest = std::max(fastest, one.shear_rate);
+        }
+    }
+    const double duration = habits_of(observations).duration;
+    Measurement upwards;
+    upwards.kind = MeasurementKind::flow_curve;
+    upwards.label = upwards.sample = "proposed";
+    upwards.columns = {{"shear_rate", "1/s", logarithmic_steps(slowest, fastest, rows)},
+                       {"viscosity", "Pa.s", std::vector<double>(rows, 1.0)},
+                       {"time", "s", logarithmic_steps(duration / rows, duration, rows)}};
+    Measurement downwards = upwards;
+    std::reverse(downwards.columns.front().values.begin(), downwards.columns.front().values.end());
+
+    std::vector<Candidate> candidates;
+    const auto add = [&](const std::string& what, const Measurement& measurement) -> Instrument& {
+        candidates.push_back({what, experiment, {}});
+        candidates.back().experiment.measurements = {measurement};
+        return candidates.back().experiment.instrument;
+    };
+    add("a flow curve of a fresh sample from low shear rates to high ones", upwards);
+    add("a flow curve of a fresh sample from high shear rates to low ones", downwards);
+    if (const double half = 0.5 * experiment.instrument.plate_radius; std::isfinite(half)) {
+        add("a flow curve of a fresh sample with a tool of half the radius" + millimetres({half}), upwards).plate_radius = half;
+    }
+    if (const double third = experiment.instrument.gap / 3; std::isfinite(third)) {
+        add("a flow curve of a fresh sample at a third of the gap" + millimetres({third}), upwards).gap = third;
+    }
+    for (Candidate& candidate : candidates) {
+        candidate.observations = observations_of(candidate.experiment);
+    }
+    return candidates;
+}
+
 /// As many particles as were seen so far.
 Candidate images_again(const Experiment& experiment, const Measurement& table) {
     Candidate candidate{"the same particles imaged twice, one image after the other", experiment, {}};
@@ -226,8 +267,13 @@ Candidate images_again(const Experiment& experiment, const Measurement& table) {
 
 std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations) {
     std::vector<Candidate> candidates;
-    if (std::any_of(observations.begin(), observations.end(), is_modulus)) {
+    const auto oscillates = [](const Observation& one) { return is_modulus(one) && !is_steady(one); };
+    if (std::any_of(observations.begin(), observations.end(), oscillates)) {
         candidates = shear_candidates(experiment, observations);
+    }
+    if (std::any_of(observations.begin(), observations.end(), is_steady)) {
+        const std::vector<Candidate> flows = flow_candidates(experiment, observations);
+        candidates.insert(candidates.end(), flows.begin(), flows.end());
     }
     const auto& tables = experiment.measurements;
     const auto image = std::find_if(tables.begin(), tables.end(),
