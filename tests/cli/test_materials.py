@@ -345,7 +345,7 @@ class FlowCurves(Tables):
     def test_show_a_sample_that_is_no_oil(self):
         found = self.diagnosis(self.curves(excess=0.1))
         self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["shear-thinning"]))
-        for name, value in (("excess_at_1_per_s", 0.1), ("exponent", 0.5), ("viscosity", 1)):
+        for name, value in (("excess_at_1_per_s", 0.1), ("thinning_exponent", 0.5), ("viscosity", 1)):
             parameter = found["causes"][0]["parameters"][name]
             self.assertTrue(parameter["low"] < value < parameter["high"], found["causes"][0])
 

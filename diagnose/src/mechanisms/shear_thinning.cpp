@@ -17,7 +17,7 @@ Mechanism shear_thinning() {
     return {.name = "shear-thinning",
             .term = "the sample is no Newtonian fluid: its viscosity falls with the shear rate",
             .signature = "the viscosity rises towards low shear rates, slower than as one over the rate, under all plates alike",
-            .parameters = {{"excess_at_1_per_s", "1", 1e-3, 10, true}, {"exponent", "1", 0.1, 0.9, false}},
+            .parameters = {{"excess_at_1_per_s", "1", 1e-3, 10, true}, {"thinning_exponent", "1", 0.1, 0.9, false}},
             .effect = ScalesMaterial{thinning},
             .applies = flows_as_an_oil,
             .in_any_fluid = true};
