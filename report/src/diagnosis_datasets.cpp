@@ -225,8 +225,11 @@ Results datasets_of(const DiagnosisRecord& record) {
     const Diagnosis& found = record.diagnosis;
     Results results;
     results.push_back(io::text(group + "verdict", diagnose::name_of(found.verdict), verdict_sentence(found)));
-    results.push_back(io::text(group + "credible_set", lines(found.credible_set, [](const std::string& name) { return name; }),
+    const auto itself = [](const std::string& name) { return name; };
+    results.push_back(io::text(group + "credible_set", lines(found.credible_set, itself),
                                "smallest set of causes with 95 % of the posterior, one per line"));
+    results.push_back(io::text(group + "certain_causes", lines(found.certain, itself),
+                               "causes that every member of that set is or has, one per line"));
     add_tables(results, record.experiment);
     add_predictions(results, found);
     add_detection(results, found);

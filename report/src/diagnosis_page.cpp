@@ -270,6 +270,34 @@ std::string gained(const diagnose::Gain& gain) {
                                     change_of_density(gain, print_number) + ".";
 }
 
+/// Of a member "a + b" of the credible set, what is none of these causes.
+std::string without(std::string member, const std::vector<std::string>& causes) {
+    const std::string joint = " + ";
+    for (const std::string& cause : causes) {
+        member = member == cause                     ? std::string{}
+                 : member.starts_with(cause + joint) ? member.substr(cause.size() + joint.size())
+                 : member.ends_with(joint + cause)   ? member.substr(0, member.size() - cause.size() - joint.size())
+                                                     : member;
+    }
+    return member;
+}
+
+/// What data tell that leave several causes: goes on after "The base model fails".
+std::string tied_sentence(const Diagnosis& found) {
+    const std::string unknown = "hese data cannot tell whether ";
+    if (found.certain.empty()) {
+        return "; t" + unknown + "the cause is " + joined(found.credible_set) + ".";
+    }
+    std::vector<std::string> others;
+    for (const std::string& member : found.credible_set) {
+        others.push_back(without(member, found.certain));
+    }
+    const bool alone = std::erase(others, "") > 0;
+    const std::string certain = joined(found.certain);
+    return alone ? ", and " + certain + " is a cause. T" + unknown + joined(others) + " is another."
+                 : ", and " + certain + " is one cause. There is another; t" + unknown + "that is " + joined(others) + ".";
+}
+
 }  // namespace
 
 std::string verdict_sentence(const Diagnosis& found) {
@@ -287,7 +315,7 @@ std::string verdict_sentence(const Diagnosis& found) {
     }
     const std::string next = found.proposals.empty() ? "" : next_sentence(found.proposals.front());
     if (found.verdict == Verdict::tied) {
-        return fails + "; these data cannot tell whether the cause is " + joined(found.credible_set) + "." + next;
+        return fails + tied_sentence(found) + next;
     }
     const Cause& cause = found.causes.front();
     return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + probability_text(cause.posterior) +

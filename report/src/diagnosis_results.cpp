@@ -135,6 +135,7 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
                  {"base", cause_json(diagnosis.base)},
                  {"causes", Json::array()},
                  {"credible_set", diagnosis.credible_set},
+                 {"certain_causes", diagnosis.certain},
                  {"where", Json::array()},
                  {"rows", Json::array()}};
     for (const Cause& cause : diagnosis.causes) {
@@ -199,6 +200,9 @@ Table table_of(const Diagnosis& diagnosis) {
         lines.emplace_back("where", failure.sentence);
     }
     lines.emplace_back("95 % set of causes", list_of(diagnosis.credible_set));
+    if (diagnosis.credible_set.size() > 1 && !diagnosis.certain.empty()) {
+        lines.emplace_back("in all of that set", list_of(diagnosis.certain));
+    }
     for (const Cause& cause : diagnosis.causes) {
         if (cause.posterior > 0.01) {
             lines.emplace_back("  " + cause.name, describe(cause));

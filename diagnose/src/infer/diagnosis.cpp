@@ -148,6 +148,20 @@ std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
     return set;
 }
 
+/// Causes that every member of the set is or has.
+std::vector<std::string> common_causes(const std::vector<std::string>& set, const std::vector<const Mechanism*>& possible) {
+    std::vector<std::string> common;
+    for (const Mechanism* one : possible) {
+        const bool in_all = !set.empty() && std::all_of(set.begin(), set.end(), [&](const std::string& name) {
+            return name == one->name || contains(name, one->name);
+        });
+        if (in_all) {
+            common.push_back(one->name);
+        }
+    }
+    return common;
+}
+
 /// Whether the best cause with a smooth departure on top leaves more than half of what the base model leaves.
 bool leaves_most(const Comparison& comparison, const Inference& inference) {
     const ErrorModel& errors = inference.errors();
@@ -284,6 +298,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.remainder.detected = comparison.p_value <= options.level;
     diagnosis.remainder.most = diagnosis.remainder.detected && leaves_most(comparison, inference);
     rank_causes(comparison, inference, priors, diagnosis);
+    diagnosis.certain = common_causes(diagnosis.credible_set, possible);
     diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
     if (diagnosis.remainder.detected) {
         diagnosis.remainder.where =

@@ -145,6 +145,12 @@ def is_named(entry):
     return entry["found"]["verdict"] == "named" and entry["found"]["credible_set"] == [entry["truth"]]
 
 
+def is_certain(entry):
+    """Every member of the set is or has the true cause."""
+    found = entry["found"]
+    return found["verdict"] in ("named", "tied") and all(entry["truth"] in cause.split(" + ") for cause in found["credible_set"])
+
+
 def outliers(entry):
     return [note for note in entry["found"].get("notes") or [] if "left out as an outlier" in note]
 
@@ -164,6 +170,7 @@ def add_faults(table, of):
         table.add(row, "90 % intervals cover", [hit for entry in of(row) for hit in parameter_covered(entry)], 0.86, 0.94)
         table.add(row, "true cause named alone", [is_named(entry) for entry in of(row)], 0.90)
     table.add("bump", "true cause named alone", [is_named(entry) for entry in of("bump")], 0.90)
+    table.add("bump", "true cause in every member of the set", [is_certain(entry) for entry in of("bump")], 0.90)
     table.add("bump", "remainder found in G''", ["G''" in (entry["found"].get("remainder") or {}).get("where", "") for entry in of("bump")], 0.90)
     table.add("all of these", "confidently wrong", [confidently_wrong(entry) for entry in of("wrong-rows", "slid-sample", "negative-storage",
                                                     "drag", "bump", "contacts-removed", "volume-fraction")], 0.0, 0.01)

@@ -156,6 +156,7 @@ struct Diagnosis {
     Cause base;
     std::vector<Cause> causes;              ///< all that were compared, most probable first
     std::vector<std::string> credible_set;  ///< smallest set with 95 % of the posterior; pairs with a member of the set left out
+    std::vector<std::string> certain;       ///< causes that all of the credible set have, alone or in a pair
     std::vector<Failure> failures;          ///< strongest first
     double extended_p_value = 1;            ///< of the test, applied to the best cause
     Remainder remainder;                    ///< that the best cause leaves over
