@@ -24,18 +24,21 @@ std::string tied(Names set, Names certain) {
 
 TEST(VerdictSentence, CausesThatTie) {
     EXPECT_EQ(tied({"wall-slip", "gap-error", "none of the catalogue"}, {}),
-              "The base model fails (p ≤ 0.001); these data cannot tell whether the cause is wall-slip, gap-error or none of the catalogue.");
+              "The base model fails (p ≤ 0.001); these data cannot tell whether the cause is wall-slip, gap-error or none of the "
+              "catalogue.");
 }
 
 TEST(VerdictSentence, ACauseAloneOrWithAnother) {
-    EXPECT_EQ(tied({"ageing", "ageing + contact-relaxation"}, {"ageing"}),
-              "The base model fails (p ≤ 0.001), and ageing is a cause. These data cannot tell whether contact-relaxation is another.");
+    EXPECT_EQ(
+        tied({"ageing", "ageing + contact-relaxation"}, {"ageing"}),
+        "The base model fails (p ≤ 0.001), and ageing is a cause. These data cannot tell whether contact-relaxation is another.");
 }
 
 TEST(VerdictSentence, ACauseWithOneOfTwoOthers) {
-    EXPECT_EQ(tied({"tool-inertia + solvent-drag", "phase-offset + tool-inertia"}, {"tool-inertia"}),
-              "The base model fails (p ≤ 0.001), and tool-inertia is one cause. There is another; these data cannot tell whether that is "
-              "solvent-drag or phase-offset.");
+    EXPECT_EQ(
+        tied({"tool-inertia + solvent-drag", "phase-offset + tool-inertia"}, {"tool-inertia"}),
+        "The base model fails (p ≤ 0.001), and tool-inertia is one cause. There is another; these data cannot tell whether that is "
+        "solvent-drag or phase-offset.");
 }
 
 }  // namespace
