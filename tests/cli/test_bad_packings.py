@@ -40,10 +40,16 @@ class Packings(ProgramTest):
         self.assertIn("rigidity", found)
         return text
 
-    def test_few_points_in_a_periodic_box(self):
-        for count in (1, 2, 3, 4):
+    def measure_in_a_periodic_box(self, *counts):
+        for count in counts:
             self.packing(self.random_points(count), "--box", "8um")
             self.measure_all()
+
+    def test_one_or_two_points_in_a_periodic_box(self):
+        self.measure_in_a_periodic_box(1, 2)
+
+    def test_three_or_four_points_in_a_periodic_box(self):
+        self.measure_in_a_periodic_box(3, 4)
 
     def test_few_points_with_a_free_surface(self):
         for count in (1, 2, 3, 4):
