@@ -137,10 +137,9 @@ const Eigen::MatrixXd& Simulator::drag_excess_of(std::size_t group) {
     if (found != drag_excesses_.end()) {
         return found->second;
     }
-    const std::set<std::size_t> groups = distinct_groups();
     const auto count = static_cast<Eigen::Index>(structures_.size());
     Eigen::MatrixXd logarithms = Eigen::MatrixXd::Zero(drag_axis.count, count);
-    for (const std::size_t each : groups) {
+    for (const std::size_t each : distinct_groups_) {
         const std::vector<std::size_t> structures = members(each);
         Eigen::VectorXd sum = Eigen::VectorXd::Zero(drag_axis.count);
         for (const std::size_t k : structures) {
@@ -157,8 +156,9 @@ const Eigen::MatrixXd& Simulator::drag_excess_of(std::size_t group) {
     for (int node = 0; node < drag_axis.count; ++node) {
         drags[node] = drag_axis.node(node);
     }
-    const DragScatter scatter = drag_scatter(drags, particles(group), logarithms, static_cast<Eigen::Index>(groups.size()),
-                                             static_cast<Eigen::Index>(members(group).size()));
+    const DragScatter scatter =
+        drag_scatter(drags, particles(group), logarithms, static_cast<Eigen::Index>(distinct_groups_.size()),
+                     static_cast<Eigen::Index>(members(group).size()));
     drag_degrees_ = scatter.degrees;
     Eigen::MatrixXd excess(drag_axis.count, 1 + scatter.errors.cols());
     excess << scatter.excess, scatter.errors;
@@ -170,14 +170,14 @@ Eigen::RowVectorXcd Simulator::drag_excess(const Settings& settings, double angu
     constexpr double step = 0.1;
     const Eigen::MatrixXd& nodes = drag_excess_of(group);
     const double drag = reduced_drag(settings, angular_frequency);
-    const auto at = [&](double where) {
-        return interpolate_nodes(drag_axis, where, [&](int node) { return Eigen::RowVectorXd(nodes.row(node)); });
+    const auto at = [&](double where) -> Eigen::RowVectorXd {
+        const NearNodes near = near_nodes(drag_axis, where);
+        return Eigen::RowVector4d(near.weight.data()) * nodes.middleRows<4>(near.first);
     };
     const Eigen::RowVectorXd slope = (at(drag * std::exp(step)) - at(drag * std::exp(-step))) / (2 * step);
     const Eigen::RowVectorXcd own = at(drag) + Complex(0, 0.5 * pi) * slope;
-    const std::set<std::size_t> groups = distinct_groups();
-    const auto place = std::distance(groups.begin(), groups.find(group));
-    const auto blocks = static_cast<Eigen::Index>(groups_.empty() ? 1 : groups.size() + 1);  // that of all together comes last
+    const auto place = std::distance(distinct_groups_.begin(), distinct_groups_.find(group));
+    const auto blocks = static_cast<Eigen::Index>(groups_.empty() ? 1 : distinct_groups_.size() + 1);  // that of all comes last
     const Eigen::Index count = own.size() - 1;
     Eigen::RowVectorXcd excess = Eigen::RowVectorXcd::Zero(1 + blocks * count);
     excess[0] = own[0];

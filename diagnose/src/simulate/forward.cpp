@@ -19,6 +19,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr double small_step = 1e-5;  ///< relative, of a modulus
+
 /// What the simulation of the material depends on, for unit normal stiffness: of the viscosity, its ratio to the stiffness.
 Settings of_material(Settings settings) {
     settings.felt_viscosity /= settings.normal_stiffness;
@@ -215,17 +217,28 @@ Eigen::MatrixXd Forward::stiffening_errors(const Settings& settings) const {
 
 /// Those that each structure leaves, also where no row shows them.
 void Forward::add_drag_errors(const Settings& settings, UncertainModuli& moduli) const {
+    struct Drag {
+        Complex dragged;
+        Eigen::RowVectorXcd excess;
+    };
+    std::map<std::pair<double, std::size_t>, Drag> drags;  // many rows share a frequency
     moduli.logarithms.setZero(moduli.mean.size(), simulator_.drag_excess(settings, 1).size() - 1);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
-        if (!is_modulus(observation) || is_fluid(observation) || !std::isfinite(observation.angular_frequency)) {
+        const double frequency = observation.angular_frequency;
+        const std::size_t group = observation.structures;
+        if (!is_modulus(observation) || is_fluid(observation) || !std::isfinite(frequency)) {
             continue;
         }
-        const Complex response = simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
-        const Eigen::RowVectorXcd excess = simulator_.drag_excess(settings, observation.angular_frequency, observation.structures);
-        moduli.dragged[static_cast<Index>(k)] = 1.0 - 1.0 / response;
-        moduli.excess[static_cast<Index>(k)] = excess[0];
-        moduli.logarithms.row(static_cast<Index>(k)) = excess.tail(excess.size() - 1);
+        const auto [found, added] = drags.try_emplace({frequency, group});
+        Drag& drag = found->second;
+        if (added) {
+            drag = {1.0 - 1.0 / simulator_.drag_response(settings, frequency, group),
+                    simulator_.drag_excess(settings, frequency, group)};
+        }
+        moduli.dragged[static_cast<Index>(k)] = drag.dragged;
+        moduli.excess[static_cast<Index>(k)] = drag.excess[0];
+        moduli.logarithms.row(static_cast<Index>(k)) = drag.excess.tail(drag.excess.size() - 1);
     }
 }
 
@@ -335,12 +348,25 @@ Prediction Forward::prediction(const Model& model) const {
 }
 
 Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors) const {
-    constexpr double step = 1e-5;
     const UncertainModuli& material = remembered_material(model, false);
     const Index of_material = material.errors();
     const Eigen::MatrixXd& shared = shared_errors_of(model);
     const Eigen::MatrixXcd moduli = material.tangents(errors.head(of_material));
-    const Eigen::VectorXd values = seen(model, moduli.col(0), false);
+    Prediction all = about(model, moduli.col(0), errors);
+    all.errors.degrees = degrees_of_errors(model.simulated(), of_material > 0);
+    all.errors.changes.resize(moduli.rows(), errors.size());
+    all.errors.changes << changes_by_instrument(model, moduli), shared;
+    return all;
+}
+
+Prediction Forward::without_changes(const Model& model, const Eigen::VectorXd& errors) const {
+    const UncertainModuli& material = remembered_material(model, false);
+    return about(model, material.with(errors.head(material.errors())), errors);
+}
+
+/// At these moduli of the material with these errors, but for how they change it.
+Prediction Forward::about(const Model& model, const Eigen::VectorXcd& moduli, const Eigen::VectorXd& errors) const {
+    const Eigen::VectorXd values = seen(model, moduli, false);
     // What neither geometry nor tool change is in proportion to the modulus of the material.
     const bool plain = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
         return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
@@ -348,16 +374,25 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
     });
     Eigen::VectorXd level_slope = values;
     if (!plain) {
-        level_slope = (seen(model, (1 + step) * moduli.col(0), false) - values) / step;
+        level_slope = (seen(model, (1 + small_step) * moduli, false) - values) / small_step;
     }
-    Eigen::MatrixXd changes(values.size(), errors.size());
-    for (Index error = 0; error < of_material; ++error) {
-        changes.col(error) = seen(model, moduli.col(0) + moduli.col(error + 1), false) - values;
+    const Eigen::MatrixXd& shared = shared_errors_of(model);
+    return {values + shared * errors.tail(shared.cols()), std::move(level_slope), {.changes = {}, .about = errors}};
+}
+
+/// Of what the instrument shows by the errors of the material. @param moduli and how these change them.
+Eigen::MatrixXd Forward::changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli) const {
+    const auto tangents = moduli.rightCols(moduli.cols() - 1);
+    if (tangents.cols() == 0) {
+        return Eigen::MatrixXd(moduli.rows(), 0);
     }
-    changes.rightCols(shared.cols()) = shared;
-    return {values + shared * errors.tail(shared.cols()),
-            std::move(level_slope),
-            {std::move(changes), degrees_of_errors(model.simulated(), of_material > 0), errors}};
+    const Eigen::VectorXd values = seen(model, moduli.col(0), false);
+    const Eigen::VectorXd steps = small_step * (moduli.real().cwiseAbs() + moduli.imag().cwiseAbs()).rowwise().maxCoeff();
+    const auto by_step = [&](Complex direction) -> Eigen::VectorXd {
+        const Eigen::VectorXd moved = seen(model, moduli.col(0) + direction * steps, false);
+        return (steps.array() > 0).select((moved - values).array() / steps.array(), 0.0);
+    };
+    return by_step({1, 0}).asDiagonal() * tangents.real() + by_step({0, 1}).asDiagonal() * tangents.imag();
 }
 
 Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {

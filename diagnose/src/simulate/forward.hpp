@@ -53,6 +53,8 @@ public:
     Prediction prediction(const Model& model) const;
     /// The same about these errors.
     Prediction prediction(const Model& model, const Eigen::VectorXd& errors) const;
+    /// The same without how these change it.
+    Prediction without_changes(const Model& model, const Eigen::VectorXd& errors) const;
 
     /// Whether the prediction of a model bends with its errors.
     bool bends(const Model& model) const { return remembered_material(model, false).logarithms.cols() > 0; }
@@ -104,6 +106,8 @@ private:
     const Eigen::MatrixXd& shared_errors_of(const Model& model) const;
     const UncertainModuli& remembered_material(const Model& model, bool exact) const;
     Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
+    Prediction about(const Model& model, const Eigen::VectorXcd& moduli, const Eigen::VectorXd& errors) const;
+    Eigen::MatrixXd changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli) const;
 
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;

@@ -27,14 +27,25 @@ struct LinearAxis {
     double place(double value) const { return (count - 1) * (value - low) / (high - low); }
 };
 
-/// The value at `value` from those at the nodes, at(k): a cubic through the four nearest nodes; outside the axis its end.
-template <class AnyAxis, class At>
-auto interpolate_nodes(const AnyAxis& axis, double value, const At& at) {
+/// The four nodes nearest to a value, and their weights in the cubic through them; outside the axis those of its end.
+struct NearNodes {
+    int first;
+    std::array<double, 4> weight;
+};
+
+template <class AnyAxis>
+NearNodes near_nodes(const AnyAxis& axis, double value) {
     const double place = std::clamp(axis.place(value), 0.0, static_cast<double>(axis.count - 1));
     const int first = std::clamp(static_cast<int>(std::floor(place)) - 1, 0, axis.count - 4);
     const double t = place - first;
-    const std::array<double, 4> weight{-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2,
-                                       t * (t - 1) * (t - 2) / 6};
+    return {first,
+            {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2, t * (t - 1) * (t - 2) / 6}};
+}
+
+/// The value at `value` from those at the nodes, at(k).
+template <class AnyAxis, class At>
+auto interpolate_nodes(const AnyAxis& axis, double value, const At& at) {
+    const auto [first, weight] = near_nodes(axis, value);
     std::decay_t<decltype(at(first))> sum = weight[0] * at(first);
     for (int k = 1; k < 4; ++k) {
         sum += weight[static_cast<std::size_t>(k)] * at(first + k);

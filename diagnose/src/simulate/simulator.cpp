@@ -48,6 +48,7 @@ Simulator::Simulator(Structures structures, std::vector<std::string> names, Simu
     : structures_(std::move(structures)),
       names_(std::move(names)),
       groups_(std::move(groups)),
+      distinct_groups_(groups_.empty() ? std::set<std::size_t>{0} : std::set(groups_.begin(), groups_.end())),
       cache_(cache),
       progress_(std::move(progress)),
       radius_(radius) {}
@@ -61,10 +62,6 @@ std::vector<std::size_t> Simulator::members(std::size_t group) const {
     }
     require(!found.empty(), "no structure belongs to group " + std::to_string(group));
     return found;
-}
-
-std::set<std::size_t> Simulator::distinct_groups() const {
-    return groups_.empty() ? std::set<std::size_t>{0} : std::set(groups_.begin(), groups_.end());
 }
 
 double Simulator::particles(std::size_t group) const {
@@ -132,8 +129,7 @@ double Simulator::scatter_between_structures() {
         }
         degrees += static_cast<double>(values.size()) - 1;
     };
-    const std::set<std::size_t> groups = distinct_groups();
-    for (const std::size_t group : groups) {
+    for (const std::size_t group : distinct_groups_) {
         std::vector<double> moduli;
         for (const std::size_t k : members(group)) {
             moduli.push_back(linear_moduli(k, base.stiffness_ratio, 0, base.bond_tolerance).front());

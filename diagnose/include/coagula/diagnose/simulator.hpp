@@ -157,7 +157,6 @@ private:
     const PoreCurve& imaged_pores(const std::array<double, 4>& errors);
     double change_in_images(const Settings& settings, double pore_radius, double probability, bool exact);
     std::vector<std::size_t> members(std::size_t group) const;
-    std::set<std::size_t> distinct_groups() const;
     const std::vector<double>& linear_moduli(std::size_t structure, double ratio, double bending, double tolerance);
     double node(double ratio, double bending, double tolerance, std::size_t group);
     double scatter_between_structures();
@@ -193,6 +192,7 @@ private:
     Structures structures_;
     std::vector<std::string> names_;
     std::vector<std::size_t> groups_;
+    std::set<std::size_t> distinct_groups_;                      ///< 0 where there are none
     std::map<std::size_t, double> volume_fractions_;             ///< by group
     std::map<std::array<double, 4>, double> nodes_;              ///< by ratio, bending, tolerance and group
     std::map<std::array<double, 3>, double> exponents_;          ///< of the volume fraction, by ratio, bending and tolerance
