@@ -108,32 +108,25 @@ ErrorModel::ErrorModel(const DataSet& data)
     saturated_ = scales.log_density() - 0.5 * log_determinant_;
 }
 
-Eigen::MatrixXd ErrorModel::directions(const Prediction& prediction) const {
-    const Index errors = prediction.errors.changes.cols();
-    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(size(), data_.samples() + errors);
-    // Rows of different samples have independent errors: whitening keeps each in its column.
-    const Eigen::VectorXd level = whiten(prediction.level_slope);
+/// By the level of the material. Rows of different samples have independent errors: whitening keeps the rows of each together.
+Eigen::VectorXd ErrorModel::whitened_level(const Prediction& prediction) const {
+    Eigen::VectorXd level = whiten(prediction.level_slope);
     for (Index row = 0; row < size(); ++row) {
-        if (const Index sample = data_.sample[static_cast<std::size_t>(row)]; sample >= 0) {
-            parts(row, sample) = level[row];
-        }
+        level[row] *= data_.sample[static_cast<std::size_t>(row)] >= 0 ? 1.0 : 0.0;
     }
-    for (Index error = 0; error < errors; ++error) {
-        parts.col(data_.samples() + error) = whiten(prediction.errors.changes.col(error));
-    }
-    return parts;
+    return level;
 }
 
 /// Departures of the data from a prediction with what they share.
 struct ErrorModel::Shared {
     Shared(const ErrorModel& model, const Prediction& prediction, const Eigen::MatrixXd& further)
         : plain(model.white_ - model.whiten(prediction.without_errors())) {
-        const Eigen::MatrixXd all = model.directions(prediction);
-        const Index samples = model.data_.samples();
-        level = all.leftCols(samples).rowwise().sum();
-        errors = all.cols() - samples;
-        others.resize(all.rows(), errors + further.cols());
-        others.leftCols(errors) = all.rightCols(errors);
+        level = model.whitened_level(prediction);
+        errors = prediction.errors.changes.cols();
+        others.resize(plain.size(), errors + further.cols());
+        for (Index error = 0; error < errors; ++error) {
+            others.col(error) = model.whiten(prediction.errors.changes.col(error));
+        }
         if (further.cols() > 0) {
             others.rightCols(further.cols()) = further;
         }
@@ -157,6 +150,18 @@ struct ErrorModel::Shared {
     Eigen::VectorXd scales;  ///< deviations of the others
     Index errors = 0;        ///< of the prediction
 };
+
+Eigen::MatrixXd ErrorModel::directions(const Prediction& prediction) const {
+    const Shared shared(*this, prediction, {});
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(size(), data_.samples() + shared.errors);
+    for (Index row = 0; row < size(); ++row) {
+        if (const Index sample = data_.sample[static_cast<std::size_t>(row)]; sample >= 0) {
+            parts(row, sample) = shared.level[row];
+        }
+    }
+    parts.rightCols(shared.errors) = shared.others;
+    return parts;
+}
 
 Eigen::VectorXd ErrorModel::effects(const Prediction& prediction, const Eigen::MatrixXd& further) const {
     const Shared shared(*this, prediction, further);
@@ -197,7 +202,26 @@ double ErrorModel::log_marginal(NormalEffects& effects, double effect, const Eig
 double ErrorModel::log_density(const Prediction& prediction, const Eigen::MatrixXd& further, Accuracy accuracy) const {
     Shared shared(*this, prediction, further);
     NormalEffects effects = shared.effects(*this);
-    const std::vector<double> variances = variances_about(1, shared.errors > 0 ? prediction.errors.degrees : infinite);
+    return log_density(shared, effects, prediction.errors.degrees, accuracy);
+}
+
+std::array<double, 3> ErrorModel::log_densities(const Prediction& prediction, const Prediction& change, Accuracy accuracy) const {
+    Shared shared(*this, prediction, {});
+    NormalEffects effects = shared.effects(*this);
+    const Eigen::VectorXd plain = whiten(change.values);
+    const Eigen::VectorXd level = whitened_level(change);
+    std::array<double, 3> densities{};
+    for (std::size_t k = 0; k < densities.size(); ++k) {
+        const double offset = static_cast<double>(k) - 1;
+        effects.replace(shared.plain - offset * plain, shared.level + offset * level);
+        densities[k] = log_density(shared, effects, prediction.errors.degrees, accuracy);
+    }
+    return densities;
+}
+
+/// @param degrees of freedom of the variance of the errors of the prediction.
+double ErrorModel::log_density(Shared& shared, NormalEffects& effects, double degrees, Accuracy accuracy) const {
+    const std::vector<double> variances = variances_about(1, shared.errors > 0 ? degrees : infinite);
     Scales scales(*this);  // hardly others from one deviation of the effects to the next
     const auto at = [&](std::size_t of_effect, std::size_t of_error) {
         shared.scales.head(shared.errors).setConstant(std::sqrt(variances[variances.size() > 1 ? of_error : 0]));

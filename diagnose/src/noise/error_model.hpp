@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -49,6 +50,8 @@ public:
     /// @param further whitened directions, of unit deviation each, in which the data may depart besides.
     double log_density(const Prediction& prediction, const Eigen::MatrixXd& further = {},
                        Accuracy accuracy = Accuracy::whole) const;
+    /// The same at the prediction less a change, at it, and with the change; the errors of the prediction stay.
+    std::array<double, 3> log_densities(const Prediction& prediction, const Prediction& change, Accuracy accuracy) const;
     /// What that of no prediction exceeds: that of one that meets every number.
     double saturated() const { return saturated_; }
 
@@ -59,6 +62,8 @@ public:
 private:
     class Scales;
     struct Shared;
+    Eigen::VectorXd whitened_level(const Prediction& prediction) const;
+    double log_density(Shared& shared, NormalEffects& effects, double degrees, Accuracy accuracy) const;
     double log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others, Scales& scales) const;
 
     const DataSet& data_;

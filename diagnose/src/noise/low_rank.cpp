@@ -5,30 +5,38 @@ namespace coagula::diagnose {
 NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, const std::vector<Index>& sample,
                              Index samples, const Eigen::MatrixXd& others, const std::vector<std::size_t>& group,
                              std::size_t groups)
-    : numbers_(numbers), level_(level), sample_(sample), others_(others) {
-    const Index count = others.cols();
-    products_.assign(groups, {{},
-                              Eigen::VectorXd::Zero(samples),
-                              Eigen::MatrixXd::Zero(samples, count),
-                              Eigen::MatrixXd::Zero(count, count),
-                              Eigen::VectorXd::Zero(samples + count)});
+    : sample_(sample), group_(group), others_(others), rows_(groups), products_(groups) {
+    for (Products& products : products_) {
+        products.own.resize(samples);
+        products.between.resize(samples, others.cols());
+        products.right.resize(samples + others.cols());
+    }
+    for (Index row = 0; row < others.rows(); ++row) {
+        rows_[group[static_cast<std::size_t>(row)]].push_back(row);
+    }
     for (std::size_t number = 0; number < groups; ++number) {
+        const Eigen::MatrixXd own = others(rows_[number], Eigen::all);
+        products_[number].rest = own.transpose() * own;
+    }
+    replace(numbers, level);
+}
+
+void NormalEffects::replace(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level) {
+    numbers_ = numbers;
+    level_ = level;
+    for (std::size_t number = 0; number < products_.size(); ++number) {
         Products& products = products_[number];
-        std::vector<Index>& rows = products.rows;
-        for (Index row = 0; row < numbers.size(); ++row) {
-            if (group[static_cast<std::size_t>(row)] != number) {
-                continue;
-            }
-            rows.push_back(row);
-            if (const Index one = sample[static_cast<std::size_t>(row)]; one >= 0) {
+        products.own.setZero();
+        products.between.setZero();
+        products.right.setZero();
+        for (const Index row : rows_[number]) {
+            products.right.tail(others_.cols()) += numbers[row] * others_.row(row).transpose();
+            if (const Index one = sample_[static_cast<std::size_t>(row)]; one >= 0) {
                 products.own[one] += level[row] * level[row];
                 products.right[one] += level[row] * numbers[row];
-                products.between.row(one) += level[row] * others.row(row);
+                products.between.row(one) += level[row] * others_.row(row);
             }
         }
-        const Eigen::MatrixXd own = others(rows, Eigen::all);
-        products.rest.noalias() = own.transpose() * own;
-        products.right.tail(count) = own.transpose() * numbers(rows);
     }
 }
 
@@ -42,39 +50,46 @@ void NormalEffects::solve(double effect, const Eigen::VectorXd& scales, const st
     const Index count = others_.cols();
     deviation_.resize(samples + count);
     deviation_ << Eigen::VectorXd::Constant(samples, effect), scales;
-    own_ = Eigen::VectorXd::Ones(samples);
-    between_ = Eigen::MatrixXd::Zero(samples, count);
-    Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(count, count);
+    own_.setOnes(samples);
+    between_.setZero(samples, count);
+    Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(count, count);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(samples + count);
     for (std::size_t group = 0; group < products_.size(); ++group) {
         const Products& products = products_[group];
         const double weight = 1 / variances[group];
         own_ += weight * effect * effect * products.own;
-        between_ += weight * effect * products.between * scales.asDiagonal();
-        rest += weight * scales.asDiagonal() * products.rest * scales.asDiagonal();
-        right += weight * deviation_.cwiseProduct(products.right);
+        between_ += weight * effect * products.between;
+        rest += weight * products.rest;
+        right += weight * products.right;
     }
+    between_ *= scales.asDiagonal();
+    right.array() *= deviation_.array();
     log_determinant_ = own_.array().log().sum();
     effects_.resize(samples + count);
     if (count > 0) {
         const Eigen::MatrixXd eliminated = own_.cwiseInverse().asDiagonal() * between_;
-        rest_.compute(rest - between_.transpose() * eliminated);
+        rest = scales.asDiagonal() * rest * scales.asDiagonal();
+        rest.diagonal().array() += 1;
+        rest.noalias() -= between_.transpose() * eliminated;
+        rest_.compute(rest);
         log_determinant_ += 2 * rest_.matrixLLT().diagonal().array().log().sum();
         effects_.tail(count) = rest_.solve(right.tail(count) - eliminated.transpose() * right.head(samples));
     }
     effects_.head(samples) = (right.head(samples) - between_ * effects_.tail(count)).cwiseQuotient(own_);
 
     const Eigen::VectorXd moved = deviation_.cwiseProduct(effects_);
-    Eigen::VectorXd left = numbers_ - others_ * moved.tail(count);
-    for (Index row = 0; effect > 0 && row < left.size(); ++row) {
-        const Index sample = sample_[static_cast<std::size_t>(row)];
-        left[row] -= sample >= 0 ? level_[row] * moved[sample] : 0.0;
+    Eigen::VectorXd left = numbers_;
+    left.noalias() -= others_ * moved.tail(count);
+    squares_.assign(products_.size(), 0.0);
+    for (Index row = 0; row < left.size(); ++row) {
+        const auto place = static_cast<std::size_t>(row);
+        const Index sample = sample_[place];
+        const double each = left[row] - (sample >= 0 ? level_[row] * moved[sample] : 0.0);
+        squares_[group_[place]] += each * each;
     }
     misfit_ = effects_.squaredNorm();
-    squares_.clear();
-    for (std::size_t group = 0; group < products_.size(); ++group) {
-        squares_.push_back(left(products_[group].rows).squaredNorm());
-        misfit_ += squares_.back() / variances[group];
+    for (std::size_t group = 0; group < squares_.size(); ++group) {
+        misfit_ += squares_[group] / variances[group];
     }
 }
 
@@ -97,13 +112,17 @@ Eigen::MatrixXd NormalEffects::covariance() const {
 std::vector<double> NormalEffects::expected_squares() const {
     const Index samples = own_.size();
     const Index others = others_.cols();
-    const Eigen::MatrixXd open = deviation_.asDiagonal() * covariance() * deviation_.asDiagonal();
+    const Eigen::MatrixXd open = covariance();
+    const Eigen::VectorXd own = open.diagonal().head(samples).cwiseProduct(deviation_.head(samples).cwiseAbs2());
+    const Eigen::MatrixXd between =
+        deviation_.head(samples).asDiagonal() * open.topRightCorner(samples, others) * deviation_.tail(others).asDiagonal();
+    const Eigen::MatrixXd rest =
+        deviation_.tail(others).asDiagonal() * open.bottomRightCorner(others, others) * deviation_.tail(others).asDiagonal();
     std::vector<double> squares = squares_;
     for (std::size_t group = 0; group < squares.size(); ++group) {
         const Products& products = products_[group];
-        squares[group] += open.diagonal().head(samples).dot(products.own) +
-                          2 * open.topRightCorner(samples, others).cwiseProduct(products.between).sum() +
-                          open.bottomRightCorner(others, others).cwiseProduct(products.rest).sum();
+        squares[group] +=
+            own.dot(products.own) + 2 * between.cwiseProduct(products.between).sum() + rest.cwiseProduct(products.rest).sum();
     }
     return squares;
 }

@@ -22,6 +22,9 @@ public:
     /// Effects of no sample, numbers of one group.
     NormalEffects(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& others);
 
+    /// Others of both, with the same directions of the others. @param level as there.
+    void replace(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level);
+
     /// @param effect deviation of the effects of the samples. @param scales of the others. @param variances of the groups.
     void solve(double effect, const Eigen::VectorXd& scales, const std::vector<double>& variances);
 
@@ -36,9 +39,8 @@ public:
     std::vector<double> expected_squares() const;
 
 private:
-    /// The numbers of a group; products of their directions with each other and with the numbers.
+    /// Of the directions of the numbers of a group with each other and with the numbers.
     struct Products {
-        std::vector<Index> rows;
         Eigen::VectorXd own;      ///< of each sample's direction with itself
         Eigen::MatrixXd between;  ///< samples x others
         Eigen::MatrixXd rest;     ///< others x others
@@ -48,7 +50,9 @@ private:
     Eigen::VectorXd numbers_;
     Eigen::VectorXd level_;
     std::vector<Index> sample_;
-    Eigen::MatrixXd others_;
+    std::vector<std::size_t> group_;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> others_;
+    std::vector<std::vector<Index>> rows_;  ///< of each group
     std::vector<Products> products_;
     Eigen::VectorXd deviation_;  ///< of all effects
     // Precision of e: diagonal for the samples, in full for the others once the samples are eliminated, and between both.

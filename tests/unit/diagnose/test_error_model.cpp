@@ -154,6 +154,24 @@ TEST(ErrorModel, AveragesOverAnUncertainSampleEffect) {
 }
 
 /// A prediction may be absurd: the density falls with its square and never exceeds that of one that meets every number.
+TEST(ErrorModel, HasTheDensitiesBesideAPrediction) {
+    DataSet data = correlated();
+    data.effect_degrees = 3;
+    const ErrorModel model(data);
+    const Prediction here = with_errors(5);
+    const Prediction change(Eigen::VectorXd::LinSpaced(40, 0.3, -0.2), Eigen::VectorXd::LinSpaced(40, -0.1, 0.4), {});
+    for (const Accuracy accuracy : {Accuracy::whole, Accuracy::middle}) {
+        const std::array<double, 3> densities = model.log_densities(here, change, accuracy);
+        for (std::size_t k = 0; k < densities.size(); ++k) {
+            Prediction moved = here;
+            const double offset = static_cast<double>(k) - 1;
+            moved.values += offset * change.values;
+            moved.level_slope += offset * change.level_slope;
+            EXPECT_NEAR(densities.at(k), model.log_density(moved, {}, accuracy), 1e-9);
+        }
+    }
+}
+
 TEST(ErrorModel, DoesNotCancelWhereAPredictionIsAbsurd) {
     const DataSet data = correlated();
     const ErrorModel model(data);
