@@ -10,7 +10,7 @@ set(coagula_slow_tests
   "ContactLosses[.](A|Low).*"
   "ContactNonlinearity[.].*"
   "Diagnosis[.](NamesTheStrengthOfTheBonds|FollowsTheScaleOfTheModuli)"
-  "HiddenEffects[.](ASampleThatLiesApart|ErrorsOf|FalseParticles|ShearStiffness).*"
+  "HiddenEffects[.](ASampleThatLiesApart|ErrorsOf|FalseParticles|ShearStiffness|TwoEffects).*"
   "MissingContacts[.](A|Curve|Follow).*"
   "PlateStrainField[.].*"
   "PoroelasticBackflow[.]Is.*"

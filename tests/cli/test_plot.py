@@ -60,14 +60,20 @@ class Plot(ProgramTest):
         self.assertIn("pore radius r / r0", texts)
         self.assertTrue(any(text.startswith("exact, a = ") for text in texts), texts)
 
-    def test_every_measure_has_its_figure(self):
+    def draw_measures(self, figures):
         path = self.copy_of_packing()
         self.succeed("characterize", path, "--only", "all", "--most-voxels", "10000")
-        for figure in MEASURES:
+        for figure in figures:
             found = self.succeed_json("plot", path, "--figure", figure, "-o", figure + ".svg", "--data", figure + ".csv")
             self.assertGreaterEqual(found["series"][0]["points"], 5, figure)
             texts = self.texts_of(figure + ".svg")
             self.assertFalse(any("m-" in text for text in texts), texts)
+
+    def test_every_second_measure_has_its_figure(self):
+        self.draw_measures(MEASURES[::2])
+
+    def test_the_other_measures_have_their_figures(self):
+        self.draw_measures(MEASURES[1::2])
 
     def test_size_and_units(self):
         path = self.copy_of_measured("a.h5")

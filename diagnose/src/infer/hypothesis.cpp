@@ -1,11 +1,7 @@
 #include "hypothesis.hpp"
 
-#include "departures.hpp"
 #include "noise/weights.hpp"
-#include "simulate/quiet_log.hpp"
 
-#include <ceres/ceres.h>
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
@@ -23,16 +19,6 @@ using std::numbers::pi;
 constexpr double log_stiffness_range = 18.42;  ///< of eight decades
 constexpr int posterior_draws = 64;
 
-/// Logarithm of the density, for each axis, that a grid lacks at its best node where it misses the crest of a ridge; one along the
-/// axes lies beside the mode by half a cell of each at most, which is less.
-constexpr double missed = 1.5;
-
-/// Logarithms of the weight below the best node from which on one counts for nothing.
-constexpr double negligible = 20;
-
-/// Nodes per axis that a grid must count for, effectively, to have seen the posterior.
-constexpr double enough_nodes = 2.5;
-
 Eigen::VectorXd rounded(const std::vector<MechanismParameter>& parameters, Eigen::VectorXd place) {
     for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
         double& along = place[static_cast<Eigen::Index>(axis)];
@@ -41,7 +27,8 @@ Eigen::VectorXd rounded(const std::vector<MechanismParameter>& parameters, Eigen
     return place;
 }
 
-/// A hypothesis at a place of its prior.
+}  // namespace
+
 Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, double normal_stiffness) {
     std::vector<double> values;
     for (const MechanismParameter& parameter : parameters_of(hypothesis)) {
@@ -49,8 +36,6 @@ Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, doubl
     }
     return {hypothesis, values, normal_stiffness};
 }
-
-}  // namespace
 
 bool Inference::shows_scale() const {
     const auto& observations = errors_.data().observations;
@@ -95,8 +80,8 @@ struct Inference::AlongStiffness {
 /// Gauss and Newton's method, in steps of one standard error at most, shorter each time that it turns. A model that needs errors
 /// that do not happen stands at the farthest that do.
 Prediction Inference::prediction(const Model& model, const Eigen::MatrixXd& further, int most_steps) const {
-    constexpr double converged = 0.03;  // standard errors
-    constexpr double farthest = 8;      // all errors together
+    constexpr double converged = 0.1;  // standard errors: half of its square is what the density may lack
+    constexpr double farthest = 8;     // all errors together
     if (!forward_.bends(model)) {
         return forward_.prediction(model);
     }
@@ -127,17 +112,22 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
     constexpr int steps_on_the_way = 2;
     const Prediction here = prediction(model, {}, accuracy == Accuracy::whole ? many_steps : steps_on_the_way);
     model.settings.normal_stiffness = std::exp(log_stiffness + step);
-    const Prediction there = forward_.prediction(model, here.errors.about);
-    const auto density = [&](double offset) {
-        Prediction moved = here;
-        moved.values += offset / step * (there.values - here.values);
-        moved.level_slope += offset / step * (there.level_slope - here.level_slope);
-        return errors_.log_density(moved, {}, accuracy) + log_prior(log_stiffness + offset);
-    };
-    const double value = density(0);
-    const double above = density(step);
-    const double below = density(-step);
-    return {value, (above - below) / (2 * step), (2 * value - above - below) / (step * step)};
+    Prediction change = forward_.without_changes(model, here.errors.about);
+    change.values -= here.values;
+    change.level_slope -= here.level_slope;
+    const auto [below, value, above] = errors_.log_densities(here, change, accuracy);
+    const double prior = log_prior(log_stiffness);
+    const double prior_above = log_prior(log_stiffness + step) - prior;
+    const double prior_below = log_prior(log_stiffness - step) - prior;
+    const double rise = above - below + prior_above - prior_below;
+    const double bend = 2 * value - above - below - prior_above - prior_below;
+    return {value + prior, rise / (2 * step), bend / (step * step)};
+}
+
+/// As a whole, which may exceed that at the middle of the deviations by far: the data may ask for larger ones.
+double Inference::density_at(Model model, double log_stiffness) const {
+    model.settings.normal_stiffness = std::exp(log_stiffness);
+    return errors_.log_density(prediction(model)) + log_prior(log_stiffness);
 }
 
 /// Newton's method for the logarithm of the stiffness, with the density as a whole near its end only. @param least log weight from
@@ -148,8 +138,7 @@ Node Inference::best_stiffness(const Model& model, double start, double least) c
         return {start, 0, density, density};
     }
     constexpr int most_steps = 40;
-    constexpr double near = 0.1;       // standard deviations, from where a parabola is exact enough
-    constexpr double inaccurate = 20;  // logarithms that the density at the middle of the deviations may be off
+    constexpr double near = 0.3;  // standard deviations, from where a parabola is exact enough
     Accuracy accuracy = Accuracy::middle;
     double place = start;
     double longest = 1;  // step; shorter each time that the slope turns, for the density has long tails
@@ -162,133 +151,30 @@ Node Inference::best_stiffness(const Model& model, double start, double least) c
         const double moved = std::clamp(place + std::clamp(along.step(), -longest, longest), log_level_ - 0.5 * log_stiffness_range,
                                         log_level_ + 0.5 * log_stiffness_range);
         if (moved == place || (along.curvature > 0 && std::abs(moved - place) < near * along.deviation())) {
-            const double top = along.at(moved - place);
-            if (accuracy == Accuracy::whole || top + along.log_width() < least - inaccurate) {
+            double top = along.at(moved - place);
+            if (accuracy == Accuracy::middle && top + along.log_width() < least) {
+                top += density_at(model, place) - along.value;
+            }
+            if (accuracy == Accuracy::whole || top + along.log_width() < least) {
                 return {moved, along.deviation(), top, top + along.log_width()};
             }
             accuracy = Accuracy::whole;
         }
         place = moved;
     }
-    return {place, along.deviation(), along.value, along.value + along.log_width()};
+    const double found = density_at(model, place);
+    return {place, along.deviation(), found, found + along.log_width()};
 }
 
-/// Whitened residuals by the places of the parameters in their priors, stiffness, sample effects and errors of the model at their
-/// best for these: what those move is projected out (Kaufman, BIT 15 (1975) 49).
-class Inference::ProjectedResiduals : public ceres::CostFunction {
-public:
-    ProjectedResiduals(const Inference& inference, const Hypothesis& hypothesis, const Eigen::VectorXd& start,
-                       const EvaluateNode& evaluate)
-        : inference_(inference), hypothesis_(hypothesis), evaluate_(evaluate) {
-        mutable_parameter_block_sizes()->push_back(static_cast<int>(start.size()));
-        set_num_residuals(static_cast<int>(departures_at(start).residual.size()));
+/// Of the base model at its best stiffness, or at a higher maximum where there is one.
+Node Inference::highest_of_base(const Node& found) const {
+    if (!scales_) {
+        return found;
     }
-
-    bool Evaluate(const double* const* places, double* residuals, double** jacobians) const override {
-        const Index axes = parameter_block_sizes().front();
-        const Departures departures = departures_at(Eigen::Map<const Eigen::VectorXd>(places[0], axes));
-        const Eigen::MatrixXd& all = departures.jacobian;
-        Eigen::MatrixXd others(all.rows(), all.cols() - axes);
-        others << all.col(0), all.rightCols(all.cols() - 1 - axes);
-        const Eigen::MatrixXd basis = orthonormal_basis(others);
-        const auto project = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
-            return columns - basis * (basis.transpose() * columns);
-        };
-        Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = project(departures.residual);
-        if (jacobians != nullptr && jacobians[0] != nullptr) {
-            using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-            Eigen::Map<RowMajor>(jacobians[0], num_residuals(), axes) = -project(all.middleCols(1, axes));
-        }
-        return true;
-    }
-
-private:
-    Departures departures_at(const Eigen::VectorXd& place) const {
-        Fit fit{.hypothesis = hypothesis_,
-                .model = model_at(hypothesis_, place, std::exp(evaluate_(place).log_stiffness)),
-                .parameters = {},
-                .draws = {}};
-        return departures_of(inference_, fit);
-    }
-
-    const Inference& inference_;
-    const Hypothesis& hypothesis_;
-    const EvaluateNode& evaluate_;
-};
-
-/// Least squares from a place of the prior, kept inside it; then the grid about what it finds, by the covariance there. None where
-/// not all parameters are determined.
-std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
-                                                        const EvaluateNode& evaluate) const {
-    const QuietLog quiet;
-    const Index axes = place.size();
-    ceres::Problem problem;
-    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the problem owns it
-    problem.AddResidualBlock(new ProjectedResiduals(*this, hypothesis, place, evaluate), nullptr, place.data());
-    for (int axis = 0; axis < static_cast<int>(axes); ++axis) {
-        place[axis] = std::clamp(place[axis], prior_edge, 1 - prior_edge);
-        problem.SetParameterLowerBound(place.data(), axis, prior_edge);
-        problem.SetParameterUpperBound(place.data(), axis, 1 - prior_edge);
-    }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.max_num_iterations = 30;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-
-    ceres::Covariance::Options dense;
-    dense.algorithm_type = ceres::DENSE_SVD;
-    dense.null_space_rank = -1;  // what is not determined has no variance then
-    dense.min_reciprocal_condition_number = 1e-13;
-    ceres::Covariance covariance(dense);
-    Eigen::MatrixXd matrix(axes, axes);
-    if (!summary.IsSolutionUsable() || !covariance.Compute(std::vector<const double*>{place.data()}, &problem) ||
-        !covariance.GetCovarianceBlock(place.data(), place.data(), matrix.data())) {
-        return std::nullopt;
-    }
-    const Eigen::LLT<Eigen::MatrixXd> root(matrix);
-    if (root.info() != Eigen::Success || root.rcond() < 1e-13) {
-        return std::nullopt;
-    }
-    return diagnose::grid_about(place, root.matrixL(), evaluate);
-}
-
-PosteriorGrid Inference::grid_for(const Hypothesis& hypothesis) const {
-    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
-    const auto axes = static_cast<Index>(parameters.size());
-    double start = log_level_;
-    double best = -std::numeric_limits<double>::infinity();
-    const auto evaluate = [&](const Eigen::VectorXd& place) {
-        const Model model = model_at(hypothesis, place, 1);
-        const Node node = best_stiffness(model, better_start(model, start), best - negligible);
-        start = node.log_stiffness;
-        best = std::max(best, node.log_weight);
-        return node;
-    };
-    PosteriorGrid grid = grid_along_axes(axes, evaluate);
-    if (axes == 0 && scales_) {
-        const double place = highest_maximum([&](double there) { return density_of_base(there) + log_prior(there); }).first;
-        const AlongStiffness along = density_along(Model{}, place, Accuracy::whole);
-        const Node highest{place, along.deviation(), along.value, along.value + along.log_width()};
-        if (highest.log_weight > grid.nodes.front().log_weight) {
-            grid.nodes.front() = highest;
-        }
-    }
-    if (axes > 1) {
-        // A narrow ridge between the axes: the grid along these misses its crest, or sees it at few nodes. At the edge of the prior
-        // the grid about the mode may see less.
-        const auto about = grid_about_mode(hypothesis, grid.places[grid.best()], evaluate);
-        const double gain = about && !about->nodes.empty()
-                                ? about->nodes[about->best()].log_weight - grid.nodes[grid.best()].log_weight
-                                : -std::numeric_limits<double>::infinity();
-        const bool coarse = grid.effective_nodes() < std::pow(enough_nodes, axes);
-        if (gain > missed * static_cast<double>(axes) ||
-            (coarse && gain > -1 && about->effective_nodes() > grid.effective_nodes())) {
-            return *about;
-        }
-    }
-    return grid;
+    const double place = highest_maximum([&](double there) { return density_of_base(there) + log_prior(there); }).first;
+    const AlongStiffness along = density_along(Model{}, place, Accuracy::whole);
+    const Node highest{place, along.deviation(), along.value, along.value + along.log_width()};
+    return highest.log_weight > found.log_weight ? highest : found;
 }
 
 /// Whether the data ask for more of a parameter than its prior has: a tenth of the range beyond its end they would be more probable
@@ -335,7 +221,7 @@ Eigen::MatrixXd Inference::draws_from(const PosteriorGrid& grid, const std::vect
 
 Fit Inference::fit(const Hypothesis& hypothesis) const {
     const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
-    const PosteriorGrid grid = grid_for(hypothesis);
+    const PosteriorGrid grid = posterior(hypothesis);
     const std::size_t best = grid.best();
     const Eigen::VectorXd place = rounded(parameters, grid.places[best]);
     const Node node = place == grid.places[best] ? grid.nodes[best]

@@ -53,6 +53,9 @@ inline Eigen::VectorXd shown(const Prediction& prediction, const Eigen::VectorXd
     return prediction.errors.about.isZero(0) ? prediction.values : prediction.with(errors);
 }
 
+/// A hypothesis at a place of its prior.
+Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, double normal_stiffness);
+
 /// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
 /// posterior is (along its principal axes where it is a narrow ridge), with the Laplace approximation for the stiffness, which
 /// scales the moduli. The prior of the stiffness is normal in its logarithm where the experiment knows it, else uniform over
@@ -98,15 +101,17 @@ private:
     bool level_is_open() const;
     class ProjectedResiduals;
     static Eigen::MatrixXd draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters);
-    PosteriorGrid grid_for(const Hypothesis& hypothesis) const;
+    PosteriorGrid posterior(const Hypothesis& hypothesis) const;
     std::optional<PosteriorGrid> grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
                                                  const EvaluateNode& evaluate) const;
+    Node highest_of_base(const Node& found) const;
     bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
     double log_level(Model model = {}) const;
     double better_start(Model model, double before) const;
     std::pair<double, double> highest_maximum(const std::function<double(double)>& density) const;
     double density_of_base(double log_stiffness) const;
     double log_prior(double log_stiffness) const;
+    double density_at(Model model, double log_stiffness) const;
     struct AlongStiffness;
     AlongStiffness density_along(Model model, double log_stiffness, Accuracy accuracy) const;
     Node best_stiffness(const Model& model, double start, double least = -std::numeric_limits<double>::infinity()) const;

@@ -26,8 +26,7 @@ using Eigen::Index;
 
 constexpr double relevant = 14;  // logarithms below the best node that count
 constexpr double heavy = 6;      // logarithms below the best node that are not to lie at the edge of the grid
-constexpr int most_rounds = 8;
-constexpr double reach = 5;  // standard deviations
+constexpr double reach = 5;      // standard deviations
 
 /// Nodes along an axis for so many axes.
 int nodes_for(Index axes) {
@@ -83,6 +82,11 @@ double PosteriorGrid::effective_nodes() const {
     return 1 / squares;
 }
 
+bool PosteriorGrid::is_fine() const {
+    constexpr double enough = 2.5;  // per axis
+    return effective_nodes() >= std::pow(enough, static_cast<double>(half_widths.size()));
+}
+
 double PosteriorGrid::quantile(Index axis, double part) const {
     const std::vector<double> probability = probabilities_of(log_weights(*this));
     const double half = half_widths[axis];
@@ -118,48 +122,62 @@ double PosteriorGrid::log_stiffness_quantile(double part, double further) const 
     return halved(below, part, low, high);
 }
 
-PosteriorGrid grid_along_axes(Index axes, const EvaluateNode& evaluate) {
+ClosingGrid::ClosingGrid(Index axes, EvaluateNode evaluate)
+    : evaluate_(std::move(evaluate)), low_(Eigen::ArrayXd::Zero(axes)), high_(Eigen::ArrayXd::Ones(axes)) {
+    fill();
+}
+
+void ClosingGrid::fill() {
+    const Index axes = low_.size();
     const int nodes = nodes_for(axes);
-    const std::vector<Eigen::VectorXd> cells = middles(axes, nodes);
-    Eigen::ArrayXd low = Eigen::ArrayXd::Zero(axes);
-    Eigen::ArrayXd high = Eigen::ArrayXd::Ones(axes);
-    PosteriorGrid grid;
-    for (int round = 0; round < most_rounds; ++round) {
-        grid = {};
-        for (const Eigen::VectorXd& cell : cells) {
-            grid.places.emplace_back((low + (high - low) * cell.array()).matrix());
-            grid.nodes.push_back(evaluate(grid.places.back()));
-        }
-        const Eigen::ArrayXd width = (high - low) / nodes;
-        grid.log_cell = width.log().sum();
-        grid.half_widths = (0.5 * width).matrix();
-        Eigen::ArrayXd next_low = Eigen::ArrayXd::Constant(axes, 1.0);
-        Eigen::ArrayXd next_high = Eigen::ArrayXd::Zero(axes);
-        // A ridge between the nodes of a coarse grid may lead out of the box: where it cuts the posterior, go beyond.
-        Eigen::ArrayXd lowest = low;
-        Eigen::ArrayXd highest = high;
-        const double largest = grid.nodes[grid.best()].log_weight;
-        for (std::size_t k = 0; k < grid.nodes.size(); ++k) {
-            const Eigen::ArrayXd place = grid.places[k].array();
-            if (grid.nodes[k].log_weight > largest - relevant) {
-                next_low = next_low.min(place - 1.5 * width);
-                next_high = next_high.max(place + 1.5 * width);
-            }
-            if (grid.nodes[k].log_weight > largest - heavy) {
-                lowest = (place < low + width).select(0.0, lowest);
-                highest = (place > high - width).select(1.0, highest);
-            }
-        }
-        next_low = next_low.max(lowest);
-        next_high = next_high.min(highest);
-        const bool inside = (next_low >= low).all() && (next_high <= high).all();
-        if (axes == 0 || (inside && ((next_high - next_low) > 0.6 * (high - low)).all())) {
-            break;
-        }
-        low = next_low;
-        high = next_high;
+    grid_ = {};
+    for (const Eigen::VectorXd& cell : middles(axes, nodes)) {
+        grid_.places.emplace_back((low_ + (high_ - low_) * cell.array()).matrix());
+        grid_.nodes.push_back(evaluate_(grid_.places.back()));
     }
-    return grid;
+    const Eigen::ArrayXd width = (high_ - low_) / nodes;
+    grid_.log_cell = width.log().sum();
+    grid_.half_widths = (0.5 * width).matrix();
+}
+
+void ClosingGrid::close_in(int rounds) {
+    constexpr double same_size = 0.6;
+    constexpr double same_evidence = 0.1;  // logarithms
+    const double enough = 2.0 * static_cast<double>(low_.size());
+    for (int round = 0; round < rounds && !settled_; ++round) {
+        const auto [low, high] = box_of_posterior();
+        settled_ = (low >= low_).all() && (high <= high_).all() && ((high - low) > same_size * (high_ - low_)).all();
+        if (!settled_) {
+            const double before = grid_.log_evidence();
+            low_ = low;
+            high_ = high;
+            fill();
+            settled_ = std::abs(grid_.log_evidence() - before) < same_evidence && grid_.effective_nodes() > enough;
+        }
+    }
+}
+
+/// Its lower and upper corner, about the nodes that count. A ridge between the nodes of a coarse grid may lead out of the box:
+/// where that cuts the posterior, go beyond.
+std::pair<Eigen::ArrayXd, Eigen::ArrayXd> ClosingGrid::box_of_posterior() const {
+    const Eigen::ArrayXd width = 2 * grid_.half_widths.array();
+    Eigen::ArrayXd low = Eigen::ArrayXd::Ones(width.size());
+    Eigen::ArrayXd high = Eigen::ArrayXd::Zero(width.size());
+    Eigen::ArrayXd lowest = low_;
+    Eigen::ArrayXd highest = high_;
+    const double largest = grid_.nodes[grid_.best()].log_weight;
+    for (std::size_t k = 0; k < grid_.nodes.size(); ++k) {
+        const Eigen::ArrayXd place = grid_.places[k].array();
+        if (grid_.nodes[k].log_weight > largest - relevant) {
+            low = low.min(place - 1.5 * width);
+            high = high.max(place + 1.5 * width);
+        }
+        if (grid_.nodes[k].log_weight > largest - heavy) {
+            lowest = (place < low_ + width).select(0.0, lowest);
+            highest = (place > high_ - width).select(1.0, highest);
+        }
+    }
+    return {low.max(lowest), high.min(highest)};
 }
 
 PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& factor, const EvaluateNode& evaluate) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -29,6 +30,8 @@ struct PosteriorGrid {
     double log_evidence() const;
     /// Number of nodes of equal weight that would say as much: few where the grid is too coarse.
     double effective_nodes() const;
+    /// Whether these are enough for its quantiles.
+    bool is_fine() const;
     /// Place along an axis below which a part of the probability lies.
     double quantile(Eigen::Index axis, double part) const;
     /// Logarithm of the stiffness below which a part of the probability lies, whatever the place.
@@ -36,8 +39,26 @@ struct PosteriorGrid {
     double log_stiffness_quantile(double part, double further) const;
 };
 
-/// A grid along the axes that closes in on where the posterior is.
-PosteriorGrid grid_along_axes(Eigen::Index axes, const EvaluateNode& evaluate);
+/// A grid along the axes, first over the whole prior, that closes in on where the posterior is.
+class ClosingGrid {
+public:
+    ClosingGrid(Eigen::Index axes, EvaluateNode evaluate);
+
+    /// Fills it anew, at most so many times, until it does not change any more.
+    void close_in(int rounds);
+
+    const PosteriorGrid& grid() const { return grid_; }
+
+private:
+    void fill();
+    std::pair<Eigen::ArrayXd, Eigen::ArrayXd> box_of_posterior() const;
+
+    EvaluateNode evaluate_;
+    Eigen::ArrayXd low_;  ///< corners of the part of the prior that it fills
+    Eigen::ArrayXd high_;
+    PosteriorGrid grid_;
+    bool settled_ = false;
+};
 
 /// A grid along the principal axes of a normal posterior, clipped to the prior.
 /// @param factor of its covariance, lower triangular.

@@ -20,9 +20,15 @@ EvaluateNode normal_density(const Eigen::Vector2d& mean, const Eigen::Matrix2d& 
     };
 }
 
+PosteriorGrid grid_along_axes(const EvaluateNode& evaluate) {
+    ClosingGrid closing(2, evaluate);
+    closing.close_in(7);
+    return closing.grid();
+}
+
 TEST(PosteriorGrid, IntegratesWhatLiesAlongTheAxes) {
     const Eigen::Matrix2d covariance = Eigen::Vector2d(1e-4, 4e-6).asDiagonal();
-    const PosteriorGrid grid = grid_along_axes(2, normal_density({0.3, 0.62}, covariance));
+    const PosteriorGrid grid = grid_along_axes(normal_density({0.3, 0.62}, covariance));
     EXPECT_NEAR(grid.log_evidence(), 0, 1e-3);
     EXPECT_NEAR(grid.quantile(0, 0.5), 0.3, 1e-4);
     EXPECT_NEAR(grid.quantile(0, 0.95) - grid.quantile(0, 0.05), 2 * 1.645 * 0.01, 0.06 * 0.0329);  // a cell is a deviation wide
@@ -34,7 +40,7 @@ TEST(PosteriorGrid, FollowsARidgeAcrossTheAxes) {
     covariance << 1e-4, 0.9999e-4, 0.9999e-4, 1e-4;
     const Eigen::Vector2d mean(0.41, 0.57);
     const EvaluateNode density = normal_density(mean, covariance);
-    EXPECT_LT(grid_along_axes(2, density).effective_nodes(), 2.5 * 2.5) << "the grid along the axes would do";
+    EXPECT_LT(grid_along_axes(density).effective_nodes(), 2.5 * 2.5) << "the grid along the axes would do";
     const PosteriorGrid grid = grid_about(mean, Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL(), density);
     EXPECT_NEAR(grid.log_evidence(), 0, 1e-3);
     EXPECT_NEAR(grid.quantile(1, 0.95) - grid.quantile(1, 0.05), 2 * 1.645 * 0.01, 1e-3);

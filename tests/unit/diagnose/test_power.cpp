@@ -15,14 +15,14 @@ namespace {
 
 using std::numbers::pi;
 
-const Packing& known() {
+const Packing& known_structure() {
     static const Packing made = structure(200, 1);
     return made;
 }
 
 Simulator& known_simulator() {
     static StoredSimulations stored("one_structure");
-    static Simulator made({known()}, {"one"}, stored.results());
+    static Simulator made({known_structure()}, {"one"}, stored.results());
     return made;
 }
 
@@ -77,7 +77,8 @@ double found_share(const PowerOptions& options, double springpot_over_spring, do
     model.shear_springpot_stiffness = springpot_over_spring * 5;
     model.normal_springpot_time = model.shear_springpot_time = 1 / (2 * pi);
     model.normal_springpot_exponent = model.shear_springpot_exponent = exponent;
-    const auto truth = mechanics::solve_frequency_sweep(known(), find_contacts(known(), 0.01), model, frequencies());
+    const auto truth =
+        mechanics::solve_frequency_sweep(known_structure(), find_contacts(known_structure(), 0.01), model, frequencies());
     DiagnosisOptions diagnosis = options.diagnosis;
     diagnosis.noise.sample = options.noise.stated_sample;
     diagnosis.level = 0;  // nothing is asked but the p-value of the base model

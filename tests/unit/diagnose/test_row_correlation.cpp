@@ -12,7 +12,7 @@
 namespace coagula::diagnose {
 namespace {
 
-constexpr double known = 0.45;  // of correlations from 0 to 0.9 that are equally probable
+constexpr double known_correlation = 0.45;  // of correlations from 0 to 0.9 that are equally probable
 constexpr double known_error = 0.26;
 
 /// Tables of moduli whose rows have errors of 2; row 3 of the first is missing.
@@ -22,18 +22,18 @@ DataSet tables_of(Index rows, Index tables) {
         Observation one;
         one.measurement = static_cast<std::size_t>(k / rows);
         one.row = static_cast<std::size_t>(k % rows) + (k < rows && k > 2 ? 1U : 0U);
-        one.errors.correlation = known;
+        one.errors.correlation = known_correlation;
         one.errors.correlation_error = known_error;
         data.observations.push_back(one);
         data.noise.previous.push_back(k % rows == 0 ? -1 : k - 1);
     }
     data.values = Eigen::VectorXd::Zero(rows * tables);
     data.noise.deviation = Eigen::VectorXd::Constant(rows * tables, 2);
-    data.noise.correlation = Eigen::VectorXd::Constant(rows * tables, known);
+    data.noise.correlation = Eigen::VectorXd::Constant(rows * tables, known_correlation);
     for (Index table = 0; table < tables; ++table) {
         data.noise.correlation[table * rows] = 0;
     }
-    data.noise.correlation[3] = known * known;
+    data.noise.correlation[3] = known_correlation * known_correlation;
     return data;
 }
 
@@ -77,8 +77,8 @@ double direct_mean(const DataSet& data, const Eigen::VectorXd& departures, Index
         }
         const Index polynomials = data.size() / rows;
         const auto degrees = static_cast<double>(data.size() - 4 * polynomials);
-        logarithms[node] =
-            share * (-determinants - 0.5 * degrees * std::log(squares)) - 0.5 * std::pow((correlation - known) / known_error, 2);
+        logarithms[node] = share * (-determinants - 0.5 * degrees * std::log(squares)) -
+                           0.5 * std::pow((correlation - known_correlation) / known_error, 2);
     }
     const Eigen::ArrayXd weights = (logarithms.array() - logarithms.maxCoeff()).exp();
     const Eigen::ArrayXd places = Eigen::ArrayXd::LinSpaced(logarithms.size(), 0.0015, 0.8985);
@@ -97,7 +97,7 @@ TEST(RowCorrelation, DepartsLittleFromWhatWasKnownWhereTheModelFails) {
     const double once = correlations_shown(data, errors)[0].mean;
     const double failing = correlations_shown(data, 10 * errors)[0].mean;
     EXPECT_LT(once, 0.3);
-    EXPECT_NEAR(failing, known, 0.02);
+    EXPECT_NEAR(failing, known_correlation, 0.02);
 }
 
 TEST(RowCorrelation, LongTablesTellItAndACubicDoesNotCount) {
@@ -119,7 +119,7 @@ TEST(RowCorrelation, LongTablesTellItAndACubicDoesNotCount) {
 TEST(RowCorrelation, ShortTablesSayNothing) {
     const DataSet data = tables_of(7, 3);
     const RowCorrelations shown = correlations_shown(data, drawn(data, 0.6, 3));
-    EXPECT_EQ(shown[0].mean, known);
+    EXPECT_EQ(shown[0].mean, known_correlation);
     EXPECT_EQ(shown[0].deviation, known_error);
     EXPECT_EQ(shown[1].mean, 0);  // there are no phases
 }

@@ -40,7 +40,7 @@ struct KnownSeries {
     std::optional<Simulator> simulator;
 };
 
-KnownSeries& known() {
+KnownSeries& known_series() {
     static KnownSeries made("structure_series", {200});
     return made;
 }
@@ -101,20 +101,20 @@ ContactModel springs(double stiffness) {
 }
 
 TEST(StructureSeries, FindsNothingWhereNothingIsHidden) {
-    EXPECT_FALSE(diagnose_series(series(springs(40), 0.01, 1), known()).detected);
+    EXPECT_FALSE(diagnose_series(series(springs(40), 0.01, 1), known_series()).detected);
 }
 
 TEST(StructureSeries, FindsTheBendingOfBonds) {
     ContactModel model = springs(40);
     model.bending_stiffness = model.twisting_stiffness = 0.1 * 20 * particle_radius * particle_radius;
-    const Diagnosis found = diagnose_series(series(model, 0.01, 2), known());
+    const Diagnosis found = diagnose_series(series(model, 0.01, 2), known_series());
     EXPECT_TRUE(found.detected);
     EXPECT_TRUE(in_set(found, "bond-bending"));
     EXPECT_GT(found.gain.rmse_ratio, 2);
 }
 
 TEST(StructureSeries, FindsTheRangeOfBonds) {
-    const Diagnosis found = diagnose_series(series(springs(40), 0.045, 3), known());
+    const Diagnosis found = diagnose_series(series(springs(40), 0.045, 3), known_series());
     EXPECT_TRUE(found.detected);
     EXPECT_TRUE(in_set(found, "bond-range"));
 }
@@ -123,8 +123,8 @@ TEST(StructureSeries, FindsTheRangeOfBonds) {
 /// hundredth of it is not.
 TEST(StructureSeries, PlanSaysWhichBendingItCouldFind) {
     Experiment plan;
-    plan.structure_groups = known().groups;
-    plan.structure_sizes = known().particles;
+    plan.structure_groups = known_series().groups;
+    plan.structure_sizes = known_series().particles;
     Measurement table;
     table.kind = MeasurementKind::structure_series;
     table.label = "plan";
@@ -135,7 +135,7 @@ TEST(StructureSeries, PlanSaysWhichBendingItCouldFind) {
     options.noise.stated_relative = 0.03;
     options.diagnosis.bootstrap = 199;
     options.diagnoses = 0;
-    const Power power = find_power(plan, *known().simulator, options);
+    const Power power = find_power(plan, *known_series().simulator, options);
     EXPECT_EQ(power.moduli, coordinations.size());
     EXPECT_NEAR(power.by_chance.count, 0.05 * power.by_chance.of, 4 * std::sqrt(0.05 * 0.95 * power.by_chance.of));
     const CausePower& bending = power.causes.front();
@@ -144,7 +144,7 @@ TEST(StructureSeries, PlanSaysWhichBendingItCouldFind) {
     const auto found = [&](double strength) {
         ContactModel model = springs(40);
         model.bending_stiffness = model.twisting_stiffness = strength * 20 * particle_radius * particle_radius;
-        return diagnose_series(series(model, 0.01, 4), known()).detected;
+        return diagnose_series(series(model, 0.01, 4), known_series()).detected;
     };
     EXPECT_TRUE(found(bending.range_high));
     EXPECT_FALSE(found(bending.half.value / 100));
@@ -156,7 +156,7 @@ TEST(StructureSeries, RefusesRowsThatNoStructureStandsFor) {
     table.columns = {{"coordination", "1", coordinations},
                      {"storage_modulus", "Pa", {1e6, 1e6, 1.1e6, 1.2e6, 1.3e6}},
                      {"structure", "1", {1, 2, 3, 4, 7}}};
-    EXPECT_THROW(diagnose_series(table, known()), InputError);
+    EXPECT_THROW(diagnose_series(table, known_series()), InputError);
 }
 
 /// What small structures leave: the standard deviation of repeated draws of a group's mean.

@@ -1,0 +1,58 @@
+// The evidence of causes, which is integrated over their parameters and the stiffness.
+#include "infer/hypothesis.hpp"
+
+#include "hidden_effects.hpp"
+
+#include <coagula/diagnose/mechanism.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coagula::diagnose {
+namespace {
+
+/// Frequency sweeps of samples of these levels.
+Experiment samples_of_levels(const std::vector<double>& levels) {
+    constexpr double error = 0.01;
+    const std::vector<double> angular_frequencies = logarithmic_steps(0.5, 50, 6);
+    Experiment experiment;
+    experiment.sample.particle_radius = 0.25e-6;
+    for (std::size_t number = 0; number < levels.size(); ++number) {
+        Column storage{"storage_modulus", "Pa", {}};
+        for (std::size_t row = 0; row < angular_frequencies.size(); ++row) {
+            const double value = 6e5 * levels[number];
+            storage.values.push_back(value * (1 + error * drawn_normal(number, row)));
+            storage.standard_errors.push_back(error * value);
+        }
+        const std::string sample = "sample " + std::to_string(number);
+        experiment.measurements.push_back({.kind = MeasurementKind::frequency_sweep,
+                                           .label = sample,
+                                           .sample = sample,
+                                           .columns = {{"strain", "1", std::vector<double>(angular_frequencies.size(), 1e-4)},
+                                                       {"angular_frequency", "rad/s", angular_frequencies},
+                                                       storage},
+                                           .left_out = {}});
+    }
+    return experiment;
+}
+
+/// Samples that differ far more than two degrees of freedom say that they do: where the deviation of samples is integrated out, the
+/// density exceeds that at its middle by many logarithms. What every place of a prior explains alike has the evidence of the base
+/// model all the same.
+TEST(Evidence, OfACauseThatScalesAllModuliIsThatOfTheBaseModel) {
+    const Experiment experiment = samples_of_levels({0.7, 1, 1.4});
+    DataSet data = data_set_of(experiment, {});
+    data.effect = 0.02;
+    data.effect_degrees = 2;
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const Fit base = inference.fit({});
+    const Prediction best = inference.prediction(base.model);
+    ASSERT_GT(errors.log_density(best) - errors.log_density(best, {}, Accuracy::middle), 60) << "the data ask for no larger deviation";
+    for (const char* cause : {"shear-stiffness", "bond-bending"}) {
+        EXPECT_NEAR(inference.fit({find_mechanism(cause)}).log_evidence, base.log_evidence, 0.05) << cause;
+    }
+}
+
+}  // namespace
+}  // namespace coagula::diagnose
