@@ -46,6 +46,7 @@ public:
 
     /// Fills it anew, at most so many times, until it does not change any more.
     void close_in(int rounds);
+    bool is_settled() const { return settled_; }
 
     const PosteriorGrid& grid() const { return grid_; }
 

@@ -19,11 +19,11 @@ namespace {
 /// Logarithms of the weight below the best node from which on one counts for nothing.
 constexpr double negligible = 20;
 
-/// Whether a grid about the mode sees more of a narrow ridge than one along the axes, which misses its crest or sees it at few nodes.
-/// At the edge of the prior it may see less.
+/// Whether a grid about the mode sees more of a narrow ridge than one along the axes, which misses its crest or sees it at few
+/// nodes. At the edge of the prior it may see less.
 bool sees_more(const PosteriorGrid& about, const PosteriorGrid& along) {
-    // What a grid along the axes lacks at its best node, for each axis, where it misses the crest: beside a mode that is no ridge it
-    // lies by half a cell of each at most, which is less.
+    // What a grid along the axes lacks at its best node, for each axis, where it misses the crest: beside a mode that is no ridge
+    // it lies by half a cell of each at most, which is less.
     constexpr double missed = 1.5;
     if (about.nodes.empty()) {
         return false;
@@ -137,15 +137,16 @@ PosteriorGrid Inference::posterior(const Hypothesis& hypothesis) const {
     // Along several axes every round is dear, and the mode soon near enough to be found.
     constexpr int few_rounds = 3;
     const int more_rounds = axes > 1 ? 2 : 4;
+    const auto about_mode = [&]() {
+        return axes > 1 ? grid_about_mode(hypothesis, grid.places[grid.best()], evaluate) : std::nullopt;
+    };
     closing.close_in(few_rounds);
-    for (const bool last : {false, true}) {
-        const auto about = axes > 1 ? grid_about_mode(hypothesis, grid.places[grid.best()], evaluate) : std::nullopt;
-        if (about && sees_more(*about, grid) && (last || about->is_fine())) {
-            return *about;
-        }
-        closing.close_in(last ? 0 : more_rounds);
+    auto about = about_mode();
+    if (!closing.is_settled() && !(about && about->is_fine() && sees_more(*about, grid))) {
+        closing.close_in(more_rounds);
+        about = about_mode();
     }
-    return grid;
+    return about && sees_more(*about, grid) ? *about : grid;
 }
 
 }  // namespace coagula::diagnose
