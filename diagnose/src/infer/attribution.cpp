@@ -46,6 +46,37 @@ void find_remainders(const Inference& inference, std::vector<Compared>& all) {
     }
 }
 
+/// Those towards which the data depart from a cause most.
+Hypothesis partners_of(const Detection& left, const Hypothesis& possible, std::size_t most) {
+    Hypothesis partners;
+    for (const MisfitStatistic& statistic : left.statistics) {
+        const auto found = std::find_if(possible.begin(), possible.end(),
+                                        [&](const Mechanism* mechanism) { return mechanism->name == statistic.cause; });
+        if (found != possible.end() && partners.size() < most) {
+            partners.push_back(*found);
+        }
+    }
+    return partners;
+}
+
+/// Single causes that explain alone nearly as much as the best one, best first, but for it and for that one.
+Hypothesis look_alikes(const std::vector<Compared>& all, std::size_t best, const Mechanism* partner) {
+    constexpr double near = 10;  // logarithms
+    std::vector<std::pair<double, const Mechanism*>> found;
+    for (std::size_t k = 1; k < all.size(); ++k) {
+        const Hypothesis& one = all[k].fit.hypothesis;
+        if (k != best && one.size() == 1 && one.front() != partner && all[k].log_weight() > all[best].log_weight() - near) {
+            found.emplace_back(all[k].log_weight(), one.front());
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    Hypothesis causes;
+    for (std::size_t k = 0; k < std::min(found.size(), most_pairs); ++k) {
+        causes.push_back(found[k].second);
+    }
+    return causes;
+}
+
 }  // namespace
 
 Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms) {
@@ -76,14 +107,20 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
     }
     const std::size_t best = heaviest_cause(all, [](const Compared& one) { return one.log_weight(); });
     const Detection rest = detect(inference, all[best].fit, possible, options.seed, options.bootstrap);
-    std::size_t pairs = 0;
-    for (const MisfitStatistic& statistic : rest.statistics) {
-        const auto partner =
-            std::find_if(possible.begin(), possible.end(), [&](const Mechanism* one) { return one->name == statistic.cause; });
-        if (rest.p_value < with_ease && partner != possible.end() && pairs < (effort == Effort::whole ? most_pairs : 1)) {
-            progress.update("attributing", 0.8, "pairs");
-            all.push_back({inference.fit({all[best].fit.hypothesis[0], *partner}), priors.pair});
-            ++pairs;
+    const auto add_pair = [&](const Mechanism* one, const Mechanism* other) {
+        progress.update("attributing", 0.8, "pairs");
+        all.push_back({inference.fit({one, other}), priors.pair});
+    };
+    if (rest.p_value < with_ease) {
+        for (const Mechanism* partner : partners_of(rest, possible, effort == Effort::whole ? most_pairs : 1)) {
+            add_pair(all[best].fit.hypothesis.front(), partner);
+        }
+        const Hypothesis pair = all[heaviest_cause(all, [](const Compared& one) { return one.log_weight(); })].fit.hypothesis;
+        if (effort == Effort::whole && pair.size() > 1) {
+            // The best cause may stand for another one that looks like it, beside the partner that it has found.
+            for (const Mechanism* other : look_alikes(all, best, pair[1])) {
+                add_pair(other, pair[1]);
+            }
         }
     }
     if (effort == Effort::whole) {

@@ -43,7 +43,7 @@ struct Comparison {
 enum class Effort { whole, brief };
 
 /// Fits single causes; where the best does not pass the test with ease, it is paired with those causes towards which the data still
-/// depart from it.
+/// depart from it. Where a pair is the best then, its second member is paired with those that explain nearly as much alone.
 Comparison compare(const Fit& base, const Hypothesis& possible, const Inference& inference, const DiagnosisOptions& options,
                    Effort effort = Effort::whole, const Progress& progress = {});
 

@@ -48,7 +48,8 @@ TEST(Evidence, OfACauseThatScalesAllModuliIsThatOfTheBaseModel) {
     const Inference inference(forward, errors);
     const Fit base = inference.fit({});
     const Prediction best = inference.prediction(base.model);
-    ASSERT_GT(errors.log_density(best) - errors.log_density(best, {}, Accuracy::middle), 60) << "the data ask for no larger deviation";
+    ASSERT_GT(errors.log_density(best) - errors.log_density(best, {}, Accuracy::middle), 60)
+        << "the data ask for no larger deviation";
     for (const char* cause : {"shear-stiffness", "bond-bending"}) {
         EXPECT_NEAR(inference.fit({find_mechanism(cause)}).log_evidence, base.log_evidence, 0.05) << cause;
     }
