@@ -49,7 +49,7 @@ TEST(NetworkFailure, SnappingPartsAreFollowed) {
 
 /// What is left of it snaps on and on: whether a path through that is found does not matter, the load is gone.
 TEST(NetworkFailure, RampPastTheLossOfLoadIsNoError) {
-    const auto sample = gel(100);
+    const auto sample = gel(90);
     ContactModel model = springs();
     model.normal_strength = 1e-10;
     const auto ramp =
