@@ -384,6 +384,7 @@ Prediction Forward::about(const Model& model, const Eigen::VectorXcd& moduli, co
 Eigen::MatrixXd Forward::changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli) const {
     const auto tangents = moduli.rightCols(moduli.cols() - 1);
     if (tangents.cols() == 0) {
+        // NOLINTNEXTLINE(modernize-return-braced-init-list): braces would hold two elements
         return Eigen::MatrixXd(moduli.rows(), 0);
     }
     const Eigen::VectorXd values = seen(model, moduli.col(0), false);
