@@ -9,7 +9,6 @@
 #include <cmath>
 #include <complex>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -18,8 +17,6 @@ namespace coagula::diagnose {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double small_step = 1e-5;  ///< relative, of a modulus
 
 /// What the simulation of the material depends on, for unit normal stiffness: of the viscosity, its ratio to the stiffness.
 Settings of_material(Settings settings) {
@@ -315,85 +312,6 @@ Eigen::VectorXd Forward::predict(const Model& model, const Eigen::VectorXd& erro
     const Eigen::MatrixXd& shared = shared_errors_of(model);
     return seen(model, remembered_material(model, false).with(errors.head(errors.size() - shared.cols())), false) +
            shared * errors.tail(shared.cols());
-}
-
-/// Of the errors that structures leave, the fewest.
-double Forward::degrees_of_errors(const Settings& settings, bool any) const {
-    double degrees = smooth_ ? SmoothMaterial::degrees : std::numeric_limits<double>::infinity();
-    if (any && settings.felt_viscosity > 0) {
-        degrees = std::min(degrees, simulator_.drag_degrees());
-    }
-    if (any && settings.contact_preload > 0) {
-        degrees = std::min(degrees, simulator_.contact_degrees());
-    }
-    if (any && std::isfinite(with_weakest_bonds(settings).critical_strain)) {
-        degrees = std::min(degrees, simulator_.yield_degrees());
-    }
-    return degrees;
-}
-
-Prediction Forward::prediction(const Model& model) const {
-    if (!smooth_) {
-        return prediction(model, Eigen::VectorXd::Zero(errors_of(model)));
-    }
-    // About the material that this instrument asks for: most instruments show it in proportion, slip and compliance nearly so.
-    constexpr int rounds = 2;
-    Eigen::VectorXd place = smooth_->start();
-    Prediction about = prediction(model, place);
-    for (int round = 0; round < rounds; ++round) {
-        place = smooth_->best(place, about.values, about.errors.changes);
-        about = prediction(model, place);
-    }
-    return about;
-}
-
-Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors) const {
-    const UncertainModuli& material = remembered_material(model, false);
-    const Index of_material = material.errors();
-    const Eigen::MatrixXd& shared = shared_errors_of(model);
-    const Eigen::MatrixXcd moduli = material.tangents(errors.head(of_material));
-    Prediction all = about(model, moduli.col(0), errors);
-    all.errors.degrees = degrees_of_errors(model.simulated(), of_material > 0);
-    all.errors.changes.resize(moduli.rows(), errors.size());
-    all.errors.changes << changes_by_instrument(model, moduli), shared;
-    return all;
-}
-
-Prediction Forward::without_changes(const Model& model, const Eigen::VectorXd& errors) const {
-    const UncertainModuli& material = remembered_material(model, false);
-    return about(model, material.with(errors.head(material.errors())), errors);
-}
-
-/// At these moduli of the material with these errors, but for how they change it.
-Prediction Forward::about(const Model& model, const Eigen::VectorXcd& moduli, const Eigen::VectorXd& errors) const {
-    const Eigen::VectorXd values = seen(model, moduli, false);
-    // What neither geometry nor tool change is in proportion to the modulus of the material.
-    const bool plain = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
-        return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
-               std::holds_alternative<ChangesTool>(one.mechanism->effect);
-    });
-    Eigen::VectorXd level_slope = values;
-    if (!plain) {
-        level_slope = (seen(model, (1 + small_step) * moduli, false) - values) / small_step;
-    }
-    const Eigen::MatrixXd& shared = shared_errors_of(model);
-    return {values + shared * errors.tail(shared.cols()), std::move(level_slope), {.changes = {}, .about = errors}};
-}
-
-/// Of what the instrument shows by the errors of the material. @param moduli and how these change them.
-Eigen::MatrixXd Forward::changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli) const {
-    const auto tangents = moduli.rightCols(moduli.cols() - 1);
-    if (tangents.cols() == 0) {
-        // NOLINTNEXTLINE(modernize-return-braced-init-list): braces would hold two elements
-        return Eigen::MatrixXd(moduli.rows(), 0);
-    }
-    const Eigen::VectorXd values = seen(model, moduli.col(0), false);
-    const Eigen::VectorXd steps = small_step * (moduli.real().cwiseAbs() + moduli.imag().cwiseAbs()).rowwise().maxCoeff();
-    const auto by_step = [&](Complex direction) -> Eigen::VectorXd {
-        const Eigen::VectorXd moved = seen(model, moduli.col(0) + direction * steps, false);
-        return (steps.array() > 0).select((moved - values).array() / steps.array(), 0.0);
-    };
-    return by_step({1, 0}).asDiagonal() * tangents.real() + by_step({0, 1}).asDiagonal() * tangents.imag();
 }
 
 Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) const {

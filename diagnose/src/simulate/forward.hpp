@@ -106,8 +106,8 @@ private:
     const Eigen::MatrixXd& shared_errors_of(const Model& model) const;
     const UncertainModuli& remembered_material(const Model& model, bool exact) const;
     Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
-    Prediction about(const Model& model, const Eigen::VectorXcd& moduli, const Eigen::VectorXd& errors) const;
-    Eigen::MatrixXd changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli) const;
+    Eigen::VectorXd level_slope(const Model& model, const Eigen::VectorXcd& moduli, const Eigen::VectorXd& values) const;
+    Eigen::MatrixXd changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli, const Eigen::VectorXd& values) const;
 
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;

@@ -1,0 +1,97 @@
+// What the instrument shows, with how it changes with the errors of the prediction.
+#include "forward.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double small_step = 1e-5;  ///< relative, of a modulus
+
+}  // namespace
+
+/// Of the errors that structures leave, the fewest.
+double Forward::degrees_of_errors(const Settings& settings, bool any) const {
+    double degrees = smooth_ ? SmoothMaterial::degrees : std::numeric_limits<double>::infinity();
+    if (any && settings.felt_viscosity > 0) {
+        degrees = std::min(degrees, simulator_.drag_degrees());
+    }
+    if (any && settings.contact_preload > 0) {
+        degrees = std::min(degrees, simulator_.contact_degrees());
+    }
+    if (any && std::isfinite(with_weakest_bonds(settings).critical_strain)) {
+        degrees = std::min(degrees, simulator_.yield_degrees());
+    }
+    return degrees;
+}
+
+Prediction Forward::prediction(const Model& model) const {
+    if (!smooth_) {
+        return prediction(model, Eigen::VectorXd::Zero(errors_of(model)));
+    }
+    // About the material that this instrument asks for: most instruments show it in proportion, slip and compliance nearly so.
+    constexpr int rounds = 2;
+    Eigen::VectorXd place = smooth_->start();
+    Prediction about = prediction(model, place);
+    for (int round = 0; round < rounds; ++round) {
+        place = smooth_->best(place, about.values, about.errors.changes);
+        about = prediction(model, place);
+    }
+    return about;
+}
+
+Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors) const {
+    const UncertainModuli& material = remembered_material(model, false);
+    const Index of_material = material.errors();
+    const Eigen::MatrixXd& shared = shared_errors_of(model);
+    const Eigen::MatrixXcd moduli = material.tangents(errors.head(of_material));
+    const Eigen::VectorXd values = seen(model, moduli.col(0), false);
+    Eigen::MatrixXd changes(values.size(), errors.size());
+    changes << changes_by_instrument(model, moduli, values), shared;
+    return {values + shared * errors.tail(shared.cols()),
+            level_slope(model, moduli.col(0), values),
+            {std::move(changes), degrees_of_errors(model.simulated(), of_material > 0), errors}};
+}
+
+Prediction Forward::without_changes(const Model& model, const Eigen::VectorXd& errors) const {
+    const UncertainModuli& material = remembered_material(model, false);
+    const Eigen::MatrixXd& shared = shared_errors_of(model);
+    const Eigen::VectorXcd moduli = material.with(errors.head(material.errors()));
+    const Eigen::VectorXd values = seen(model, moduli, false);
+    return {values + shared * errors.tail(shared.cols()), level_slope(model, moduli, values), {.about = errors}};
+}
+
+/// Of what the instrument shows by the logarithm of the level of the material. @param values at these moduli of it.
+Eigen::VectorXd Forward::level_slope(const Model& model, const Eigen::VectorXcd& moduli, const Eigen::VectorXd& values) const {
+    const bool in_proportion = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
+        return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
+               std::holds_alternative<ChangesTool>(one.mechanism->effect);
+    });
+    return in_proportion ? values : Eigen::VectorXd((seen(model, (1 + small_step) * moduli, false) - values) / small_step);
+}
+
+/// Of what the instrument shows by the errors of the material. @param moduli and how these change them. @param values at the moduli.
+Eigen::MatrixXd Forward::changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli,
+                                               const Eigen::VectorXd& values) const {
+    const auto tangents = moduli.rightCols(moduli.cols() - 1);
+    if (tangents.cols() == 0) {
+        // NOLINTNEXTLINE(modernize-return-braced-init-list): braces would hold two elements
+        return Eigen::MatrixXd(moduli.rows(), 0);
+    }
+    const Eigen::VectorXd steps = small_step * (moduli.real().cwiseAbs() + moduli.imag().cwiseAbs()).rowwise().maxCoeff();
+    const auto by_step = [&](Complex direction) -> Eigen::VectorXd {
+        const Eigen::VectorXd moved = seen(model, moduli.col(0) + direction * steps, false);
+        return (steps.array() > 0).select((moved - values).array() / steps.array(), 0.0);
+    };
+    return by_step({1, 0}).asDiagonal() * tangents.real() + by_step({0, 1}).asDiagonal() * tangents.imag();
+}
+
+}  // namespace coagula::diagnose
