@@ -112,7 +112,7 @@ ErrorModel::ErrorModel(const DataSet& data)
 Eigen::VectorXd ErrorModel::whitened_level(const Prediction& prediction) const {
     Eigen::VectorXd level = whiten(prediction.level_slope);
     for (Index row = 0; row < size(); ++row) {
-        level[row] *= data_.sample[static_cast<std::size_t>(row)] >= 0 ? 1.0 : 0.0;
+        level[row] = data_.sample[static_cast<std::size_t>(row)] >= 0 ? level[row] : 0.0;
     }
     return level;
 }

@@ -1,18 +1,19 @@
 #include "low_rank.hpp"
 
+#include <utility>
+
 namespace coagula::diagnose {
 
-NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, const std::vector<Index>& sample,
-                             Index samples, const Eigen::MatrixXd& others, const std::vector<std::size_t>& group,
-                             std::size_t groups)
-    : sample_(sample), group_(group), others_(others), rows_(groups), products_(groups) {
+NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, std::vector<Index> sample, Index samples,
+                             const Eigen::MatrixXd& others, std::vector<std::size_t> group, std::size_t groups)
+    : sample_(std::move(sample)), group_(std::move(group)), others_(others), rows_(groups), products_(groups) {
     for (Products& products : products_) {
         products.own.resize(samples);
         products.between.resize(samples, others.cols());
         products.right.resize(samples + others.cols());
     }
     for (Index row = 0; row < others.rows(); ++row) {
-        rows_[group[static_cast<std::size_t>(row)]].push_back(row);
+        rows_[group_[static_cast<std::size_t>(row)]].push_back(row);
     }
     for (std::size_t number = 0; number < groups; ++number) {
         const Eigen::MatrixXd own = others(rows_[number], Eigen::all);

@@ -17,8 +17,8 @@ class NormalEffects {
 public:
     /// @param level of each number by the effect of its sample. @param sample of each number, -1: of none. @param group of each
     /// number, below `groups`.
-    NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, const std::vector<Index>& sample, Index samples,
-                  const Eigen::MatrixXd& others, const std::vector<std::size_t>& group, std::size_t groups);
+    NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, std::vector<Index> sample, Index samples,
+                  const Eigen::MatrixXd& others, std::vector<std::size_t> group, std::size_t groups);
     /// Effects of no sample, numbers of one group.
     NormalEffects(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& others);
 
