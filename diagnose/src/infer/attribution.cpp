@@ -59,7 +59,7 @@ Hypothesis partners_of(const Detection& left, const Hypothesis& possible, std::s
     return partners;
 }
 
-/// Single causes that explain alone nearly as much as the best one, best first, but for it and for that one.
+/// Single causes that explain alone nearly as much as the best one, best first: not itself, nor the partner that it has found.
 Hypothesis look_alikes(const std::vector<Compared>& all, std::size_t best, const Mechanism* partner) {
     constexpr double near = 10;  // logarithms
     std::vector<std::pair<double, const Mechanism*>> found;
@@ -105,7 +105,8 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
         progress.update("attributing", 0.5, mechanism->name);
         all.push_back({inference.fit({mechanism})});
     }
-    const std::size_t best = heaviest_cause(all, [](const Compared& one) { return one.log_weight(); });
+    const auto weight = [](const Compared& one) { return one.log_weight(); };
+    const std::size_t best = heaviest_cause(all, weight);
     const Detection rest = detect(inference, all[best].fit, possible, options.seed, options.bootstrap);
     const auto add_pair = [&](const Mechanism* one, const Mechanism* other) {
         progress.update("attributing", 0.8, "pairs");
@@ -115,7 +116,7 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
         for (const Mechanism* partner : partners_of(rest, possible, effort == Effort::whole ? most_pairs : 1)) {
             add_pair(all[best].fit.hypothesis.front(), partner);
         }
-        const Hypothesis pair = all[heaviest_cause(all, [](const Compared& one) { return one.log_weight(); })].fit.hypothesis;
+        const Hypothesis pair = all[heaviest_cause(all, weight)].fit.hypothesis;
         if (effort == Effort::whole && pair.size() > 1) {
             // The best cause may stand for another one that looks like it, beside the partner that it has found.
             for (const Mechanism* other : look_alikes(all, best, pair[1])) {

@@ -29,15 +29,12 @@ double Inference::log_level(Model model) const {
 
 /// Far from the data the density has long tails, in which a search may stay: it begins where the model lies among the data, or
 /// where it was before if that is nearer to them or the prediction bends.
-double Inference::better_start(Model model, double before) const {
+double Inference::better_start(const Model& model, double before) const {
     if (!scales_ || forward_.bends(model)) {
         return before;
     }
     const double level = log_level(model);
-    const auto density = [&](double place) {
-        model.settings.normal_stiffness = std::exp(place);
-        return errors_.log_density(forward_.prediction(model), {}, Accuracy::middle) + log_prior(place);
-    };
+    const auto density = [&](double place) { return density_at(model, place, Accuracy::middle); };
     return density(level) > density(before) ? level : before;
 }
 
@@ -60,12 +57,8 @@ std::pair<double, double> Inference::highest_maximum(const std::function<double(
     return -least > highest ? std::pair(top, -least) : std::pair(place, highest);
 }
 
-double Inference::density_of_base(double log_stiffness) const {
-    return errors_.log_density(forward_.prediction(Model({}, {}, std::exp(log_stiffness))));
-}
-
 double Inference::density_of_free_level() const {
-    return highest_maximum([&](double there) { return density_of_base(there); }).second;
+    return highest_maximum([&](double there) { return density_at(Model{}, there) - log_prior(there); }).second;
 }
 
 }  // namespace coagula::diagnose

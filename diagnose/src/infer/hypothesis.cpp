@@ -124,10 +124,10 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
     return {value + prior, rise / (2 * step), bend / (step * step)};
 }
 
-/// As a whole, which may exceed that at the middle of the deviations by far: the data may ask for larger ones.
-double Inference::density_at(Model model, double log_stiffness) const {
+/// As a whole it may exceed that at the middle of the deviations by far: the data may ask for larger ones.
+double Inference::density_at(Model model, double log_stiffness, Accuracy accuracy) const {
     model.settings.normal_stiffness = std::exp(log_stiffness);
-    return errors_.log_density(prediction(model)) + log_prior(log_stiffness);
+    return errors_.log_density(prediction(model), {}, accuracy) + log_prior(log_stiffness);
 }
 
 /// Newton's method for the logarithm of the stiffness, with the density as a whole near its end only. @param least log weight from
@@ -171,7 +171,7 @@ Node Inference::highest_of_base(const Node& found) const {
     if (!scales_) {
         return found;
     }
-    const double place = highest_maximum([&](double there) { return density_of_base(there) + log_prior(there); }).first;
+    const double place = highest_maximum([&](double there) { return density_at(Model{}, there); }).first;
     const AlongStiffness along = density_along(Model{}, place, Accuracy::whole);
     const Node highest{place, along.deviation(), along.value, along.value + along.log_width()};
     return highest.log_weight > found.log_weight ? highest : found;

@@ -107,11 +107,10 @@ private:
     Node highest_of_base(const Node& found) const;
     bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
     double log_level(Model model = {}) const;
-    double better_start(Model model, double before) const;
+    double better_start(const Model& model, double before) const;
     std::pair<double, double> highest_maximum(const std::function<double(double)>& density) const;
-    double density_of_base(double log_stiffness) const;
     double log_prior(double log_stiffness) const;
-    double density_at(Model model, double log_stiffness) const;
+    double density_at(Model model, double log_stiffness, Accuracy accuracy = Accuracy::whole) const;
     struct AlongStiffness;
     AlongStiffness density_along(Model model, double log_stiffness, Accuracy accuracy) const;
     Node best_stiffness(const Model& model, double start, double least = -std::numeric_limits<double>::infinity()) const;

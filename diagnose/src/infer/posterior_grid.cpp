@@ -143,6 +143,7 @@ void ClosingGrid::fill() {
 void ClosingGrid::close_in(int rounds) {
     constexpr double same_size = 0.6;
     constexpr double same_evidence = 0.1;  // logarithms
+    // Of a few nodes the evidence may stay by chance; what is not fine then, a grid about the mode may see.
     const double enough = 2.0 * static_cast<double>(low_.size());
     for (int round = 0; round < rounds && !settled_; ++round) {
         const auto [low, high] = box_of_posterior();
