@@ -10,7 +10,7 @@ set(coagula_slow_tests
   "ContactLosses[.](A|Low).*"
   "ContactNonlinearity[.].*"
   "Diagnosis[.](NamesTheStrengthOfTheBonds|FollowsTheScaleOfTheModuli)"
-  "HiddenEffects[.](ASampleThatLiesApart|ErrorsOf|FalseParticles|ShearStiffness|TwoEffects).*"
+  "HiddenEffects[.](ASampleThatLiesApart|ErrorsOf|FalseParticles|LookAlikes|ShearStiffness|TwoEffects).*"
   "MissingContacts[.](A|Curve|Follow).*"
   "PlateStrainField[.].*"
   "PoroelasticBackflow[.]Is.*"

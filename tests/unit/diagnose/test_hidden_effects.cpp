@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace coagula::diagnose {
 namespace {
 
@@ -119,6 +121,24 @@ TEST(HiddenEffects, SlipAtTheWallsIsInTheSet) {
     EXPECT_TRUE(in_set(found, "tool-compliance"));
     ASSERT_FALSE(found.proposals.empty());
     EXPECT_NE(found.proposals.front().what.find("rough plates"), std::string::npos);
+}
+
+/// Where another effect is hidden beside, what looks like the best cause is tried with the partner that it has found.
+TEST(HiddenEffects, LookAlikesAreTriedBesideThePartnerOfTheBest) {
+    const std::vector<double> times = logarithmic_steps(1, 5000, 20);
+    std::vector<Complex> moduli;
+    for (const double time : times) {
+        moduli.push_back(modulus_of(springs(40 * (1 + 0.1 * std::log10(1 + time))), 1));
+    }
+    Measurement setting = table_of(MeasurementKind::time_sweep, {"time", "s", times});
+    add_moduli(setting, moduli, 0.02, 6, false);
+    setting.sample = "another";
+    const Diagnosis found = diagnose_tables({gap_series({.slip = 1.5e-10}, 11), setting});
+    for (const std::string cause : {"wall-slip", "tool-compliance", "gap-error"}) {
+        EXPECT_TRUE(std::any_of(found.causes.begin(), found.causes.end(), [&](const Cause& one) {
+            return one.name == cause + " + ageing";
+        })) << cause;
+    }
 }
 
 /// What is proposed decides: nothing slips at rough plates.
