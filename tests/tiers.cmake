@@ -45,7 +45,7 @@ set(coagula_slow_tests
   "FrequencyResponse[.]WithoutLosses.*"
   "GeneralContacts[.]BalanceTheEnergyOfACycle"
   "HardSphereFluid[.].*"
-  "NetworkFailure[.](SnappingParts|RampPast).*"
+  "NetworkFailure[.](SnappingParts|RampGoesOn).*"
   "PoreSizes[.]DoNotDependOnTheNumberOfThreads"
   "RandomPoints[.].*"
   "Relax[.]IsEqualBit.*"

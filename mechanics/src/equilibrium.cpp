@@ -18,6 +18,8 @@ constexpr double krylov_tolerance = 1e-2;
 constexpr int stale_iterations = 15;   // beyond these a new factor is cheaper
 constexpr double longest_step = 0.05;  // of a particle in one iteration, in mean radii and radians
 constexpr int most_descents = 300;
+constexpr double least_damping = 1e-8;  // in contact stiffnesses
+constexpr double most_damping = 10;
 constexpr int most_corrections = 30;
 constexpr std::size_t trust = 8;     // corrections within which they must halve
 constexpr int most_updates = 10;     // of the factor, before the contacts are left as they are
@@ -71,9 +73,9 @@ bool EquilibriumSolver::is_balanced(const Trial& trial) {
     return balanced;
 }
 
-void EquilibriumSolver::factorise(const ShearedNetwork& network, const Trial& trial) {
+void EquilibriumSolver::factorise(const ShearedNetwork& network, const Trial& trial, double damping) {
     factor_.reset();  // two would need twice the memory
-    factor_ = std::make_unique<UpdatedFactor>(network, trial);
+    factor_ = std::make_unique<UpdatedFactor>(network, trial, damping);
     effort_.factorisations += factor_->factorisations();
     fresh_ = true;
     wasted_ = 0;
@@ -229,56 +231,65 @@ bool EquilibriumSolver::follow_newton(const ShearedNetwork& network, Trial& tria
     return is_balanced(trial);
 }
 
-/// Newton's direction where it leads down, else that of the preconditioner, which always does.
-Motion EquilibriumSolver::downhill(const ShearedNetwork& network, const Trial& trial) {
+/// The way down of particles in a liquid, by one implicit step as long as the inverse of the damping; without damping Newton's
+/// direction. Where the stiffness is not convex, that of the preconditioner, which always leads down.
+Motion EquilibriumSolver::downhill(const ShearedNetwork& network, const Trial& trial, double damping) {
     const StiffnessOfContacts stiffness(network, trial);
-    if (!factor_ || !fresh_) {
-        factorise(network, trial);
-    }
+    factorise(network, trial, damping);
     const Motion correction = precondition(trial.residual);
     Motion step = correction;
     if (factor_->is_convex()) {
-        const KrylovSolution newton = minimise_residual([&](const Motion& motion) { return precondition(stiffness * motion); },
-                                                        correction, krylov_tolerance, stale_iterations);
+        const auto damped = [&](const Motion& motion) { return precondition(stiffness * motion + damping * motion); };
+        const KrylovSolution newton = minimise_residual(damped, correction, krylov_tolerance, stale_iterations);
         step = trial.residual.dot(newton.solution) > 0 ? newton.solution : correction;
     }
     return std::min(1.0, longest_step / std::max(longest(step), 1e-300)) * step;
 }
 
+/// Shortens a step that leads down until the energy falls enough. Returns the share of it, 0 where it falls nowhere.
+double EquilibriumSolver::descend(const ShearedNetwork& network, const Motion& step, Trial& trial) {
+    constexpr int most_trials = 12;
+    constexpr double shorter = 0.3;
+    const double energy = network.reduced_energy(trial);
+    const double slope = trial.residual.dot(step);
+    double share = 1;
+    for (int attempt = 0; attempt < most_trials; ++attempt, share *= shorter) {
+        Trial next;
+        ++effort_.evaluations;
+        network.evaluate(trial.strain_increment, trial.motion + share * step, next);
+        const double reached = network.reduced_energy(next);
+        if (reached <= energy - 1e-4 * share * slope && reached < energy) {
+            trial = std::move(next);
+            return share;
+        }
+    }
+    return 0;
+}
+
+/// Contacts that open and close cut steps short. Damping shortens them too, but the contacts that bear now then hardly change, so
+/// that many steps come farther (pseudo-transient continuation: Kelley and Keyes, SIAM J. Numer. Anal. 35 (1998) 508).
 bool EquilibriumSolver::minimise(const ShearedNetwork& network, double strain_increment, const Motion& start, Trial& trial,
                                  const Progress& progress) {
     network.evaluate(strain_increment, start, trial);
-    double energy = network.reduced_energy(trial);
-    if (!std::isfinite(energy)) {
+    if (!std::isfinite(network.reduced_energy(trial))) {
         return false;
     }
-    for (int iteration = 0; iteration < most_descents; ++iteration) {
+    double damping = 0;
+    for (int iteration = 0; iteration < most_descents && damping < most_damping; ++iteration) {
         progress.update("looking for another equilibrium", static_cast<double>(iteration) / most_descents);
-        fresh_ = false;
-        Motion step = downhill(network, trial);
-        const double slope = trial.residual.dot(step);
-        bool accepted = false;
-        for (int attempt = 0; attempt < 12 && !accepted; ++attempt, step *= 0.3) {
-            Trial next;
-            ++effort_.evaluations;
-            network.evaluate(strain_increment, trial.motion + step, next);
-            const double reached = network.reduced_energy(next);
-            accepted = reached <= energy - 1e-4 * std::pow(0.3, attempt) * slope && reached < energy;
-            if (accepted) {
-                energy = reached;
-                trial = std::move(next);
-            }
+        const double share = descend(network, downhill(network, trial, damping), trial);
+        if (share < 0.1) {
+            damping = std::max(10 * damping, least_damping);
+        } else if (share > 0.5) {
+            damping = damping > least_damping ? 0.1 * damping : 0.0;
         }
         if (network.reach_used(strain_increment, trial.motion) > 1) {
             return false;
         }
         Trial found;
-        if ((!accepted || iteration % 3 == 2) && find(network, strain_increment, trial.motion, found)) {
+        if ((share == 0 || iteration % 3 == 2) && find(network, strain_increment, trial.motion, found)) {
             trial = std::move(found);
             return true;
-        }
-        if (!accepted) {
-            return false;
         }
     }
     return false;

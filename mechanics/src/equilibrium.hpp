@@ -33,11 +33,12 @@ public:
 
 private:
     bool is_balanced(const Trial& trial);
-    void factorise(const ShearedNetwork& network, const Trial& trial);
+    void factorise(const ShearedNetwork& network, const Trial& trial, double damping = 0);
     bool refresh(const ShearedNetwork& network, const Trial& trial);
     Motion precondition(const Motion& load);
     std::optional<Motion> newton_step(const ShearedNetwork& network, const Trial& trial, Motion& correction);
-    Motion downhill(const ShearedNetwork& network, const Trial& trial);
+    Motion downhill(const ShearedNetwork& network, const Trial& trial, double damping);
+    double descend(const ShearedNetwork& network, const Motion& step, Trial& trial);
     bool correct(const ShearedNetwork& network, Trial& trial);
     bool follow_newton(const ShearedNetwork& network, Trial& trial);
     bool search_line(const ShearedNetwork& network, const Motion& step, Trial& trial, Motion& correction);

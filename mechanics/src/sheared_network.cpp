@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 constexpr double skin = 0.15;
 /// Steps of the difference quotients of the contact law, in mean radii and radians: small where the law has kinks.
 constexpr double largest_difference = 1e-5;
-constexpr double smallest_difference = 1e-8;
+constexpr double smallest_difference = 1e-8;  // of a bond
+constexpr double least_difference = 1e-13;    // beyond it distances are rounded
 
 /// Stiffness of a contact of two mean particles at a small overlap, the unit in which residuals are measured.
 double typical_stiffness(const GeneralContact& law, double radius) {
@@ -127,15 +128,16 @@ void ShearedNetwork::gather(Trial& trial) const {
     trial.rms_residual = trial.residual.norm() / std::sqrt(static_cast<double>(particles()));
 }
 
-/// Bonds with linear springs are smooth; Hertz's law is over distances of the order of the overlap; contacts may slip or open.
+/// Bonds with linear springs are smooth; Hertz's law is over distances of the order of the overlap; contacts may slip, and must not
+/// open on the way.
 double ShearedNetwork::difference_step(const ContactMemory& memory) const {
+    const double overlap = std::abs(memory.rest_length - memory.branch.norm()) / length_;
     if (!memory.bonded) {
-        return smallest_difference;
+        return std::clamp(0.5 * overlap, least_difference, smallest_difference);
     }
     if (std::isnan(law_.model().young_modulus)) {
         return largest_difference;
     }
-    const double overlap = std::abs(memory.rest_length - memory.branch.norm()) / length_;
     return std::clamp(0.01 * overlap, smallest_difference, largest_difference);
 }
 

@@ -18,8 +18,9 @@ constexpr Index most_columns = 200;
 
 }  // namespace
 
-UpdatedFactor::UpdatedFactor(const ShearedNetwork& network, const Trial& trial) : generation_(network.generation()) {
-    factorise(network, trial);
+UpdatedFactor::UpdatedFactor(const ShearedNetwork& network, const Trial& trial, double damping)
+    : generation_(network.generation()) {
+    factorise(network, trial, std::max(damping, smallest_shift));
     base_.resize(12, most_columns);
     compliance_.resize(6 * network.particles(), most_columns);
     inner_.resize(most_columns, most_columns);
@@ -27,13 +28,13 @@ UpdatedFactor::UpdatedFactor(const ShearedNetwork& network, const Trial& trial) 
     update(network, trial);
 }
 
-void UpdatedFactor::factorise(const ShearedNetwork& network, const Trial& trial) {
+void UpdatedFactor::factorise(const ShearedNetwork& network, const Trial& trial, double least_shift) {
     const StiffnessOfContacts stiffness(network, trial);
     const BlasThreads threads(blas_threads);
     auto convex = StiffnessOfContacts::Convex::contacts_without_bond;
     BlockMatrix matrix = stiffness.symmetric_part(convex);
     const EliminationOrder order = elimination_order(matrix, Ordering::nested_dissection);
-    for (double shift = smallest_shift;; shift *= 10) {
+    for (double shift = least_shift;; shift *= 10) {
         ++factorisations_;
         try {
             factor_ = std::make_unique<CholeskyFactor>(shifted(matrix, shift), order);
@@ -46,7 +47,7 @@ void UpdatedFactor::factorise(const ShearedNetwork& network, const Trial& trial)
                 convex_ = false;
                 convex = StiffnessOfContacts::Convex::all;
                 matrix = stiffness.symmetric_part(convex);
-                shift = 0.1 * smallest_shift;
+                shift = 0.1 * least_shift;
             }
         }
     }

@@ -19,8 +19,8 @@ namespace coagula::mechanics {
 class UpdatedFactor {
 public:
     /// Factorises the tangent at a trial motion. Where its symmetric part has directions of negative stiffness, the contacts'
-    /// parts without theirs are summed instead.
-    UpdatedFactor(const ShearedNetwork& network, const Trial& trial);
+    /// parts without theirs are summed instead. @param damping added to the stiffness of every particle, in contact stiffnesses.
+    UpdatedFactor(const ShearedNetwork& network, const Trial& trial, double damping = 0);
 
     /// Takes in the contacts without a bond as they are now. Returns whether any has changed.
     bool update(const ShearedNetwork& network, const Trial& trial);
@@ -44,7 +44,7 @@ private:
         Slope now;
     };
 
-    void factorise(const ShearedNetwork& network, const Trial& trial);
+    void factorise(const ShearedNetwork& network, const Trial& trial, double least_shift);
     Change* find_change(Index contact);
     void add(const ShearedNetwork& network, const Trial& trial, const std::vector<Index>& contacts);
     Eigen::VectorXd project(const Motion& motion) const;

@@ -78,7 +78,8 @@ Eigen::VectorXd Forward::level_slope(const Model& model, const Eigen::VectorXcd&
     return in_proportion ? values : Eigen::VectorXd((seen(model, (1 + small_step) * moduli, false) - values) / small_step);
 }
 
-/// Of what the instrument shows by the errors of the material. @param moduli and how these change them. @param values at the moduli.
+/// Of what the instrument shows by the errors of the material. @param moduli and how these change them. @param values at the
+/// moduli.
 Eigen::MatrixXd Forward::changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli,
                                                const Eigen::VectorXd& values) const {
     const auto tangents = moduli.rightCols(moduli.cols() - 1);

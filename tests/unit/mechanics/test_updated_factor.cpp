@@ -7,7 +7,10 @@
 namespace coagula::mechanics {
 namespace {
 
+using testing::Columns;
 using testing::gel;
+using testing::radius;
+using testing::springs;
 
 /// Joints with moments, so that the factor's shift hardly matters.
 ContactModel joints_with_moments() {
@@ -28,6 +31,21 @@ double error_of(const UpdatedFactor& factor, const ShearedNetwork& network, cons
 /// A load that no rigid translation sees.
 Motion some_load(const ShearedNetwork& network, const Trial& trial) {
     return StiffnessOfContacts(network, trial) * Motion::LinSpaced(6 * network.particles(), -1, 2).array().sin().matrix();
+}
+
+/// The difference quotient must not reach to where the contact is open.
+TEST(ShearedNetwork, ContactsThatHardlyTouchAreAsStiffAsOthers) {
+    const double touching = 2 * radius;
+    for (const double overlap : {1e-4, 1e-8, 1e-9, 1e-11}) {
+        Columns pair({20 * radius, 20 * radius, 20 * radius}, {radius, radius});
+        pair.packing.positions.col(1) = pair.packing.positions.col(0) + Eigen::Vector3d(0, 0, touching - overlap * radius);
+        pair.join(0, 1, {0, 0, touching - overlap * radius});
+        ShearedNetwork network(pair.packing, pair.bonds, springs(), {.rest_length = RestLength::touching});
+        network.break_bond(0);
+        Trial trial;
+        network.evaluate(0, Motion::Zero(12), trial);
+        EXPECT_NEAR(network.linearise(trial).front()(2, 2), 1, 1e-3) << "overlap " << overlap;
+    }
 }
 
 TEST(UpdatedFactor, FollowsBrokenBonds) {
