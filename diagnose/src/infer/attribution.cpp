@@ -13,8 +13,10 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr std::size_t most_pairs = 4;
-constexpr double with_ease = 0.2;  ///< p-value of the best cause from which on pairs are not tried
-constexpr std::size_t most_with_remainder = 2;
+constexpr double with_ease =
+    0.2;  ///< p-value of the best cause from which on pairs are not tried, and few causes beside a remainder
+constexpr std::size_t most_with_remainder = 6;
+constexpr std::size_t few_with_remainder = 2;
 
 template <class Weight>
 std::size_t heaviest_cause(const std::vector<Compared>& all, const Weight& weight) {
@@ -24,8 +26,8 @@ std::size_t heaviest_cause(const std::vector<Compared>& all, const Weight& weigh
 }
 
 /// Of the base model, and of those causes that explain most, alone or beside the remainder that the base model has: a cause may
-/// hide behind one that makes a part of what is left over.
-void find_remainders(const Inference& inference, std::vector<Compared>& all) {
+/// hide behind one that makes a part of what is left over. @param most of each kind.
+void find_remainders(const Inference& inference, std::size_t most, std::vector<Compared>& all) {
     const SmoothDepartures departures = smooth_departures(inference.errors().data().observations);
     all.front().remainder = find_remainder(inference, all.front().fit, departures);
     const Eigen::MatrixXd& directions = all.front().remainder->directions;
@@ -37,7 +39,7 @@ void find_remainders(const Inference& inference, std::vector<Compared>& all) {
     }
     for (auto* order : {&alone, &beside}) {
         std::sort(order->rbegin(), order->rend());
-        for (std::size_t place = 0; place < std::min(order->size(), most_with_remainder); ++place) {
+        for (std::size_t place = 0; place < std::min(order->size(), most); ++place) {
             Compared& one = all[(*order)[place].second];
             if (!one.remainder) {
                 one.remainder = find_remainder(inference, one.fit, departures);
@@ -125,7 +127,7 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
         }
     }
     if (effort == Effort::whole) {
-        find_remainders(inference, all);
+        find_remainders(inference, rest.p_value < with_ease ? most_with_remainder : few_with_remainder, all);
     }
     comparison.winner = heaviest_cause(all, [&](const Compared& one) { return one.log_total(priors); });
     comparison.p_value = comparison.winner == best

@@ -167,6 +167,20 @@ double density_alone(const ErrorModel& errors, const Start& start) {
     return std::max(errors.log_density(start.prediction, start.following), errors.log_density(start.prediction) + log_width);
 }
 
+/// Density of the data beside a departure in these whitened directions, for every amplitude.
+std::vector<double> densities_beside(const Inference& inference, const Start& start, const Eigen::MatrixXd& white) {
+    const ErrorModel& errors = inference.errors();
+    if (!inference.forward().bends(start.fit.model)) {
+        return errors.log_densities(start.prediction, beside(start.following, white), white.cols(), smooth_amplitudes);
+    }
+    std::vector<double> densities;
+    for (const double amplitude : smooth_amplitudes) {
+        const Eigen::MatrixXd further = beside(start.following, amplitude * white);
+        densities.push_back(errors.log_density(beside_departures(inference, start, further), further));
+    }
+    return densities;
+}
+
 /// Of all departures at a start.
 SmoothRemainder remainder_at(const Inference& inference, const Start& start, const SmoothDepartures& departures, double alone) {
     const ErrorModel& errors = inference.errors();
@@ -177,14 +191,13 @@ SmoothRemainder remainder_at(const Inference& inference, const Start& start, con
         std::vector<double> members;
         for (const SmoothDeparture& departure : group) {
             const Eigen::MatrixXd factor = level.asDiagonal() * departure.factor;
-            const Eigen::MatrixXd white = errors.data().noise.whitened(factor);
-            for (const double amplitude : smooth_amplitudes) {
-                const Eigen::MatrixXd further = beside(start.following, amplitude * white);
-                members.push_back(errors.log_density(beside_departures(inference, start, further), further) - alone);
+            const std::vector<double> densities = densities_beside(inference, start, errors.data().noise.whitened(factor));
+            for (std::size_t k = 0; k < densities.size(); ++k) {
+                members.push_back(densities[k] - alone);
                 if (members.back() > found.best) {
                     found.best = members.back();
                     found.along = departure.along;
-                    found.factor = amplitude * factor;
+                    found.factor = smooth_amplitudes[k] * factor;
                 }
             }
         }

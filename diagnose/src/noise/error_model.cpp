@@ -219,6 +219,18 @@ std::array<double, 3> ErrorModel::log_densities(const Prediction& prediction, co
     return densities;
 }
 
+std::vector<double> ErrorModel::log_densities(const Prediction& prediction, const Eigen::MatrixXd& further, Index last,
+                                              const std::vector<double>& deviations) const {
+    Shared shared(*this, prediction, further);
+    NormalEffects effects = shared.effects(*this);
+    std::vector<double> densities;
+    for (const double deviation : deviations) {
+        shared.scales.tail(last).setConstant(deviation);
+        densities.push_back(log_density(shared, effects, prediction.errors.degrees, Accuracy::whole));
+    }
+    return densities;
+}
+
 /// @param degrees of freedom of the variance of the errors of the prediction.
 double ErrorModel::log_density(Shared& shared, NormalEffects& effects, double degrees, Accuracy accuracy) const {
     const std::vector<double> variances = variances_about(1, shared.errors > 0 ? degrees : infinite);

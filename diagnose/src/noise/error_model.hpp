@@ -52,6 +52,9 @@ public:
                        Accuracy accuracy = Accuracy::whole) const;
     /// The same at the prediction less a change, at it, and with the change; the errors of the prediction stay.
     std::array<double, 3> log_densities(const Prediction& prediction, const Prediction& change, Accuracy accuracy) const;
+    /// The same where the last of these directions, so many, are of each of these deviations.
+    std::vector<double> log_densities(const Prediction& prediction, const Eigen::MatrixXd& further, Index last,
+                                      const std::vector<double>& deviations) const;
     /// What that of no prediction exceeds: that of one that meets every number.
     double saturated() const { return saturated_; }
 

@@ -313,6 +313,8 @@ def with_bump(generator, material):
     """A cause of the catalogue and something besides."""
     session = draw_session(generator, material)
     name = str(generator.choice(["ageing", "tool-inertia"]))
+    if name == "tool-inertia":
+        session = replace(session, stiffness=session.stiffness / 5)  # a stiff gel hardly shows the largest inertia that there is
     known = scaled(session, material, float(generator.uniform(200, 400)), effects(generator, session)[name]).hidden
     return replace(session, hidden=replace(known, bump=(float(generator.uniform(0.02, 0.04)), 3.0, 0.25)))
 

@@ -153,7 +153,6 @@ TEST(ErrorModel, AveragesOverAnUncertainSampleEffect) {
     EXPECT_GT(std::abs(direct(data, data.effect) - exact), 0.1) << "the uncertainty makes no difference here";
 }
 
-/// A prediction may be absurd: the density falls with its square and never exceeds that of one that meets every number.
 TEST(ErrorModel, HasTheDensitiesBesideAPrediction) {
     DataSet data = correlated();
     data.effect_degrees = 3;
@@ -172,6 +171,23 @@ TEST(ErrorModel, HasTheDensitiesBesideAPrediction) {
     }
 }
 
+TEST(ErrorModel, HasTheDensitiesBesideDeparturesOfSeveralSizes) {
+    DataSet data = correlated();
+    data.effect_degrees = 3;
+    const ErrorModel model(data);
+    Eigen::MatrixXd further(40, 3);
+    further << model.whiten(Eigen::VectorXd::Ones(40)), model_errors();
+    const std::vector<double> deviations{0.5, 2, 10};
+    const std::vector<double> densities = model.log_densities(with_errors(5), further, 2, deviations);
+    ASSERT_EQ(densities.size(), deviations.size());
+    for (std::size_t k = 0; k < deviations.size(); ++k) {
+        Eigen::MatrixXd scaled = further;
+        scaled.rightCols(2) *= deviations[k];
+        EXPECT_NEAR(densities[k], model.log_density(with_errors(5), scaled), 1e-9);
+    }
+}
+
+/// A prediction may be absurd: the density falls with its square and never exceeds that of one that meets every number.
 TEST(ErrorModel, DoesNotCancelWhereAPredictionIsAbsurd) {
     const DataSet data = correlated();
     const ErrorModel model(data);
