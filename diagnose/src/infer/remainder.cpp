@@ -15,7 +15,7 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr double normal_half_width = 1.645;  ///< of 90 %, in standard deviations
-constexpr double free_deviation = 1e3;       ///< of what follows freely, in standard errors of the numbers together
+constexpr double free_deviation = 1;         ///< of what follows freely: a logarithm, or the place in the whole of a prior
 
 /// A model about which a remainder is looked for, with all that follows one along straight lines.
 struct Start {
@@ -66,7 +66,7 @@ Start start_of(const Inference& inference, const Fit& fit) {
         const bool stays = inference.forward().is_smooth() || (column > 0 && fit.active_end[static_cast<std::size_t>(column) - 1]);
         if (!stays && slope > 0) {
             start.follow.push_back(column);
-            deviations.push_back(column == 0 && std::isfinite(error) ? error : free_deviation / slope);
+            deviations.push_back(column == 0 && std::isfinite(error) ? error : free_deviation);
         }
     }
     start.deviations = Eigen::Map<const Eigen::VectorXd>(deviations.data(), static_cast<Index>(deviations.size()));

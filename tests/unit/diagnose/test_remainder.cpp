@@ -117,6 +117,26 @@ TEST(Remainder, LeadsTheParametersToWhereTheyStay) {
     EXPECT_GT(beside.high, 3e-5);
 }
 
+/// Beside a remainder that explains all there is nothing for a cause to add: its parameters lie anywhere in their priors, which is
+/// no evidence for it.
+TEST(Remainder, ThatExplainsAllIsNoEvidenceForACause) {
+    const Experiment experiment = sweeps_of(
+        [](double frequency) { return level * (1 + 0.03 * std::exp(-std::pow(std::log10(frequency / 12), 2) / 0.1)); }, 100);
+    const DataSet data = data_set_of(experiment, {.sample = 0.02});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const SmoothDepartures departures = smooth_departures(data.observations);
+    const auto evidence = [&](const Hypothesis& causes) {
+        const Fit fit = inference.fit(causes);
+        return fit.log_evidence + find_remainder(inference, fit, departures).log_factor;
+    };
+    const double none = evidence({});
+    for (const char* cause : {"tool-inertia", "contact-loss", "contact-relaxation", "phase-offset"}) {
+        EXPECT_LT(evidence({find_mechanism(cause)}), none + 3) << cause;
+    }
+}
+
 /// All that is seen is a level below that of the known particles: many causes lower it.
 TEST(Remainder, OfTheLevelAloneNamesNoCauseAlone) {
     Experiment experiment = sweeps_of([](double) { return level; }, 13);
