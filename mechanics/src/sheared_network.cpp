@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 constexpr double skin = 0.15;
 /// Steps of the difference quotients of the contact law, in mean radii and radians: small where the law has kinks.
 constexpr double largest_difference = 1e-5;
-constexpr double smallest_difference = 1e-8;  // of a bond
-constexpr double least_difference = 1e-13;    // beyond it distances are rounded
+constexpr double smallest_difference = 1e-8;  // of a bond; the largest of a contact without one
+constexpr double least_difference = 1e-13;    // of that: distances are rounded
 
 /// Stiffness of a contact of two mean particles at a small overlap, the unit in which residuals are measured.
 double typical_stiffness(const GeneralContact& law, double radius) {

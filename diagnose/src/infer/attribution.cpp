@@ -13,8 +13,8 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr std::size_t most_pairs = 4;
-constexpr double with_ease =
-    0.2;  ///< p-value of the best cause from which on pairs are not tried, and few causes beside a remainder
+/// p-value of the best cause from which on pairs are not tried, and few causes beside a remainder.
+constexpr double with_ease = 0.2;
 constexpr std::size_t most_with_remainder = 6;
 constexpr std::size_t few_with_remainder = 2;
 

@@ -13,7 +13,7 @@
 namespace coagula::diagnose {
 
 /// Standard deviations over |G*|, and lengths over the range, that are equally probable.
-inline const std::vector<double> smooth_amplitudes{0.03, 0.15, 0.75};
+inline constexpr std::array smooth_amplitudes{0.03, 0.15, 0.75};
 inline constexpr std::array smooth_lengths{0.2, 0.7};
 
 /// What a departure is of.

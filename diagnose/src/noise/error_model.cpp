@@ -220,7 +220,7 @@ std::array<double, 3> ErrorModel::log_densities(const Prediction& prediction, co
 }
 
 std::vector<double> ErrorModel::log_densities(const Prediction& prediction, const Eigen::MatrixXd& further, Index last,
-                                              const std::vector<double>& deviations) const {
+                                              std::span<const double> deviations) const {
     Shared shared(*this, prediction, further);
     NormalEffects effects = shared.effects(*this);
     std::vector<double> densities;

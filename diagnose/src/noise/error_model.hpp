@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -54,7 +55,7 @@ public:
     std::array<double, 3> log_densities(const Prediction& prediction, const Prediction& change, Accuracy accuracy) const;
     /// The same where the last of these directions, so many, are of each of these deviations.
     std::vector<double> log_densities(const Prediction& prediction, const Eigen::MatrixXd& further, Index last,
-                                      const std::vector<double>& deviations) const;
+                                      std::span<const double> deviations) const;
     /// What that of no prediction exceeds: that of one that meets every number.
     double saturated() const { return saturated_; }
 

@@ -123,15 +123,21 @@ TEST(HiddenEffects, SlipAtTheWallsIsInTheSet) {
     EXPECT_NE(found.proposals.front().what.find("rough plates"), std::string::npos);
 }
 
-/// Where another effect is hidden beside, what looks like the best cause is tried with the partner that it has found.
-TEST(HiddenEffects, LookAlikesAreTriedBesideThePartnerOfTheBest) {
+/// At constant strain. @param per_decade by which contacts stiffen.
+Measurement ageing_run(double per_decade) {
     const std::vector<double> times = logarithmic_steps(1, 5000, 20);
     std::vector<Complex> moduli;
     for (const double time : times) {
-        moduli.push_back(modulus_of(springs(40 * (1 + 0.1 * std::log10(1 + time))), 1));
+        moduli.push_back(modulus_of(springs(40 * (1 + per_decade * std::log10(1 + time))), 1));
     }
-    Measurement setting = table_of(MeasurementKind::time_sweep, {"time", "s", times});
-    add_moduli(setting, moduli, 0.02, 6, false);
+    Measurement table = table_of(MeasurementKind::time_sweep, {"time", "s", times});
+    add_moduli(table, moduli, 0.02, 6, false);
+    return table;
+}
+
+/// Where another effect is hidden beside, what looks like the best cause is tried with the partner that it has found.
+TEST(HiddenEffects, LookAlikesAreTriedBesideThePartnerOfTheBest) {
+    Measurement setting = ageing_run(0.1);
     setting.sample = "another";
     const Diagnosis found = diagnose_tables({gap_series({.slip = 1.5e-10}, 11), setting});
     for (const std::string cause : {"wall-slip", "tool-compliance", "gap-error"}) {
@@ -234,14 +240,7 @@ TEST(HiddenEffects, TwoEffectsAreFoundTogether) {
 }
 
 TEST(HiddenEffects, AgeingAtConstantStrainIsFirst) {
-    const std::vector<double> times = logarithmic_steps(1, 5000, 20);
-    std::vector<Complex> moduli;
-    for (const double time : times) {
-        moduli.push_back(modulus_of(springs(40 * (1 + 0.25 * std::log10(1 + time))), 1));
-    }
-    Measurement table = table_of(MeasurementKind::time_sweep, {"time", "s", times});
-    add_moduli(table, moduli, 0.02, 6, false);
-    const Diagnosis found = diagnose_table(table);
+    const Diagnosis found = diagnose_table(ageing_run(0.25));
     expect_found(found, "ageing");
     EXPECT_EQ(found.causes.front().name, "ageing");
 }
