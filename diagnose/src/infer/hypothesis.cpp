@@ -111,10 +111,7 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
     // On the way the errors follow the stiffness; at its end they are found.
     constexpr int steps_on_the_way = 2;
     const Prediction here = prediction(model, {}, accuracy == Accuracy::whole ? many_steps : steps_on_the_way);
-    model.settings.normal_stiffness = std::exp(log_stiffness + step);
-    Prediction change = forward_.without_changes(model, here.errors.about);
-    change.values -= here.values;
-    change.level_slope -= here.level_slope;
+    const Prediction change = forward_.change_by_stiffness(model, here, step);
     const auto [below, value, above] = errors_.log_densities(here, change, accuracy);
     const double prior = log_prior(log_stiffness);
     const double prior_above = log_prior(log_stiffness + step) - prior;

@@ -196,6 +196,10 @@ double ErrorModel::log_marginal(NormalEffects& effects, double effect, const Eig
             break;
         }
     }
+    return log_at(effects, scales);
+}
+
+double ErrorModel::log_at(const NormalEffects& effects, const Scales& scales) {
     return scales.log_density() - 0.5 * (effects.log_determinant() + effects.misfit());
 }
 
@@ -205,17 +209,27 @@ double ErrorModel::log_density(const Prediction& prediction, const Eigen::Matrix
     return log_density(shared, effects, prediction.errors.degrees, accuracy);
 }
 
+/// The variances of rows are those that are most probable at the prediction: there the density does not depend on them.
 std::array<double, 3> ErrorModel::log_densities(const Prediction& prediction, const Prediction& change, Accuracy accuracy) const {
     Shared shared(*this, prediction, {});
-    NormalEffects effects = shared.effects(*this);
+    NormalEffects here = shared.effects(*this);
+    std::array<NormalEffects, 2> sides{here, here};
     const Eigen::VectorXd plain = whiten(change.values);
     const Eigen::VectorXd level = whitened_level(change);
+    sides[0].replace(shared.plain + plain, shared.level - level);
+    sides[1].replace(shared.plain - plain, shared.level + level);
+    Scales scales(*this);
+    std::array<std::vector<double>, 3> logarithms;
+    for_deviations(shared, prediction.errors.degrees, accuracy, [&](double effect) {
+        logarithms[1].push_back(log_marginal(here, effect, shared.scales, scales));
+        for (std::size_t side = 0; side < sides.size(); ++side) {
+            sides.at(side).solve(effect, shared.scales, scales.variances());
+            logarithms.at(2 * side).push_back(log_at(sides.at(side), scales));
+        }
+    });
     std::array<double, 3> densities{};
-    for (std::size_t k = 0; k < densities.size(); ++k) {
-        const double offset = static_cast<double>(k) - 1;
-        effects.replace(shared.plain - offset * plain, shared.level + offset * level);
-        densities[k] = log_density(shared, effects, prediction.errors.degrees, accuracy);
-    }
+    std::transform(logarithms.begin(), logarithms.end(), densities.begin(),
+                   [&](const std::vector<double>& all) { return log_mean(all) - 0.5 * log_determinant_; });
     return densities;
 }
 
@@ -231,21 +245,30 @@ std::vector<double> ErrorModel::log_densities(const Prediction& prediction, cons
     return densities;
 }
 
-/// @param degrees of freedom of the variance of the errors of the prediction.
-double ErrorModel::log_density(Shared& shared, NormalEffects& effects, double degrees, Accuracy accuracy) const {
+/// Calls `at` with every deviation of the effects, those of the errors of the prediction being set beside it.
+/// @param degrees of freedom of the variance of these.
+template <class At>
+void ErrorModel::for_deviations(Shared& shared, double degrees, Accuracy accuracy, const At& at) const {
     const std::vector<double> variances = variances_about(1, shared.errors > 0 ? degrees : infinite);
-    Scales scales(*this);  // hardly others from one deviation of the effects to the next
-    const auto at = [&](std::size_t of_effect, std::size_t of_error) {
+    const auto at_pair = [&](std::size_t of_effect, std::size_t of_error) {
         shared.scales.head(shared.errors).setConstant(std::sqrt(variances[variances.size() > 1 ? of_error : 0]));
-        return log_marginal(effects, std::sqrt(variances_[variances_.size() > 1 ? of_effect : 0]), shared.scales, scales);
+        at(std::sqrt(variances_[variances_.size() > 1 ? of_effect : 0]));
     };
     if (accuracy == Accuracy::middle) {
-        return at(beside.size() / 2, beside.size() / 2) - 0.5 * log_determinant_;
+        at_pair(beside.size() / 2, beside.size() / 2);
+        return;
     }
-    std::vector<double> logarithms;
     for (std::size_t k = 0; k < std::max(variances_.size(), variances.size()); ++k) {
-        logarithms.push_back(at(k, beside.at(k)));
+        at_pair(k, beside.at(k));
     }
+}
+
+/// @param degrees as there.
+double ErrorModel::log_density(Shared& shared, NormalEffects& effects, double degrees, Accuracy accuracy) const {
+    Scales scales(*this);  // hardly others from one deviation of the effects to the next
+    std::vector<double> logarithms;
+    for_deviations(shared, degrees, accuracy,
+                   [&](double effect) { logarithms.push_back(log_marginal(effects, effect, shared.scales, scales)); });
     const double density = log_mean(logarithms) - 0.5 * log_determinant_;
     if (density > saturated_ + 1e-6 * (1 + std::abs(saturated_))) {
         throw std::logic_error("the density of the data exceeds that of a prediction that meets every number");

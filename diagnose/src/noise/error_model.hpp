@@ -67,6 +67,9 @@ private:
     class Scales;
     struct Shared;
     Eigen::VectorXd whitened_level(const Prediction& prediction) const;
+    template <class At>
+    void for_deviations(Shared& shared, double degrees, Accuracy accuracy, const At& at) const;
+    static double log_at(const NormalEffects& effects, const Scales& scales);
     double log_density(Shared& shared, NormalEffects& effects, double degrees, Accuracy accuracy) const;
     double log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others, Scales& scales) const;
 

@@ -226,7 +226,9 @@ Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) c
     Eigen::MatrixXcd factors = Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), columns);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
-        if (std::isfinite(observation.strain) && !observation.third_harmonic) {
+        if (const std::size_t first = first_of_row_[k]; first < k && bonds[first].before == bonds[k].before) {
+            factors.row(static_cast<Index>(k)) = factors.row(static_cast<Index>(first));
+        } else if (std::isfinite(observation.strain) && !observation.third_harmonic) {
             factors.row(static_cast<Index>(k)) = breaking_response(settings, observation, bonds[k]).transpose();
         }
     }

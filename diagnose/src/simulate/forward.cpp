@@ -35,6 +35,18 @@ Eigen::VectorXcd newtonian_moduli(const std::vector<Observation>& observations) 
     return moduli;
 }
 
+/// Of every observation the first one that shows the same G*, G'' beside G' of a row; else itself.
+std::vector<std::size_t> first_of_rows(const std::vector<Observation>& observations) {
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> firsts;
+    std::vector<std::size_t> all;
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const Observation& one = observations[k];
+        const bool shows_modulus = is_modulus(one) && !one.third_harmonic;
+        all.push_back(shows_modulus ? firsts.try_emplace({one.measurement, one.row}, k).first->second : k);
+    }
+    return all;
+}
+
 /// Those mechanisms that change the material.
 std::vector<ActingMechanism> acting_on_material(const Model& model) {
     std::vector<ActingMechanism> some;
@@ -66,6 +78,7 @@ void check_structure_series(const Experiment& experiment, const std::vector<Obse
 Forward::Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator)
     : experiment_(experiment),
       observations_(observations),
+      first_of_row_(first_of_rows(observations)),
       simulator_(simulator),
       runs_(run_times(experiment)),
       history_(experiment) {
@@ -142,15 +155,18 @@ UncertainModuli Forward::material(const Model& model, bool exact) const {
 void Forward::scale(UncertainModuli& moduli, const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const SimulatedSample sample{experiment_, simulator_, settings, history_, exact};
+    Eigen::VectorXcd factors = Eigen::VectorXcd::Ones(moduli.mean.size());
     for (std::size_t k = 0; k < observations_.size(); ++k) {
-        if (is_modulus(observations_[k])) {
-            model.for_each<ScalesMaterial>([&](const ScalesMaterial& effect, Values values) {
-                const Complex factor = effect.factor(observations_[k], values, sample);
-                moduli.mean[static_cast<Index>(k)] *= factor;
-                moduli.changes.row(static_cast<Index>(k)) *= factor;
-            });
+        Complex& factor = factors[static_cast<Index>(k)];
+        if (const std::size_t first = first_of_row_[k]; first < k) {
+            factor = factors[static_cast<Index>(first)];
+        } else if (is_modulus(observations_[k])) {
+            model.for_each<ScalesMaterial>(
+                [&](const ScalesMaterial& effect, Values values) { factor *= effect.factor(observations_[k], values, sample); });
         }
     }
+    moduli.mean.array() *= factors.array();
+    moduli.changes = factors.asDiagonal() * moduli.changes;
 }
 
 /// A fluid where one was in place of the sample.
@@ -175,7 +191,9 @@ UncertainModuli Forward::network(const Model& model, bool exact) const {
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         Complex& modulus = moduli[static_cast<Index>(k)];
-        if (observation.third_harmonic) {
+        if (const std::size_t first = first_of_row_[k]; first < k) {
+            modulus = moduli[static_cast<Index>(first)];
+        } else if (observation.third_harmonic) {
             modulus = third_harmonic(settings, observation, bonds[k]);
         } else if (is_modulus(observation) && !is_fluid(observation)) {
             modulus = linear.at(observation.structures) * linear_response(settings, observation, exact);
@@ -270,6 +288,7 @@ double Forward::seen_of_structure(const Settings& settings, const Observation& o
 Eigen::VectorXd Forward::seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const {
     const Settings settings = model.simulated();
     Eigen::VectorXd predicted(static_cast<Index>(observations_.size()));
+    Eigen::VectorXcd shown(predicted.size());
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         const auto i = static_cast<Index>(k);
@@ -279,8 +298,10 @@ Eigen::VectorXd Forward::seen(const Model& model, const Eigen::VectorXcd& moduli
             predicted[i] = seen_of_structure(settings, observation, exact);
         } else {
             const double scale = scales(observation) ? settings.normal_stiffness : 1.0;
-            const Complex modulus = seen_by_instrument(model, k, scale * moduli[i]);
-            predicted[i] = observation.loss ? modulus.imag() : modulus.real();
+            const auto first = static_cast<Index>(first_of_row_[k]);
+            const bool known = first < i && moduli[i] == moduli[first];
+            shown[i] = known ? shown[first] : seen_by_instrument(model, k, scale * moduli[i]);
+            predicted[i] = observation.loss ? shown[i].imag() : shown[i].real();
         }
     }
     return predicted;

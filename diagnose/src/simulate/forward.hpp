@@ -53,8 +53,8 @@ public:
     Prediction prediction(const Model& model) const;
     /// The same about these errors.
     Prediction prediction(const Model& model, const Eigen::VectorXd& errors) const;
-    /// The same without how these change it.
-    Prediction without_changes(const Model& model, const Eigen::VectorXd& errors) const;
+    /// How a prediction changes where the logarithm of the stiffness grows by a small step and its errors stay.
+    Prediction change_by_stiffness(const Model& model, const Prediction& here, double step) const;
 
     /// Whether the prediction of a model bends with its errors.
     bool bends(const Model& model) const { return remembered_material(model, false).logarithms.cols() > 0; }
@@ -103,6 +103,7 @@ private:
     Eigen::MatrixXd stiffening_errors(const Settings& settings) const;
     void add_drag_errors(const Settings& settings, UncertainModuli& moduli) const;
     double degrees_of_errors(const Settings& settings, bool any) const;
+    static bool shows_in_proportion(const Model& model);
     const Eigen::MatrixXd& shared_errors_of(const Model& model) const;
     const UncertainModuli& remembered_material(const Model& model, bool exact) const;
     Eigen::VectorXd seen(const Model& model, const Eigen::VectorXcd& moduli, bool exact) const;
@@ -111,6 +112,7 @@ private:
 
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;
+    std::vector<std::size_t> first_of_row_;  ///< of every observation the first one that shows the same G*
     Simulator& simulator_;
     std::vector<RunTime> runs_;
     StrainHistory history_;

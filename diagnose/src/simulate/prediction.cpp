@@ -61,21 +61,39 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
             {std::move(changes), degrees_of_errors(model.simulated(), of_material > 0), errors}};
 }
 
-Prediction Forward::without_changes(const Model& model, const Eigen::VectorXd& errors) const {
-    const UncertainModuli& material = remembered_material(model, false);
-    const Eigen::MatrixXd& shared = shared_errors_of(model);
+Prediction Forward::change_by_stiffness(const Model& model, const Prediction& here, double step) const {
+    if (shows_in_proportion(model) && model.simulated().felt_viscosity == 0) {
+        Prediction change(Eigen::VectorXd::Zero(here.values.size()));
+        for (Index row = 0; row < change.values.size(); ++row) {
+            const Observation& one = observations_[static_cast<std::size_t>(row)];
+            change.values[row] = scales(one) && !one.third_harmonic ? std::expm1(step) * here.values[row] : 0.0;
+        }
+        change.level_slope = change.values;
+        return change;
+    }
+    Model stiffer = model;
+    stiffer.settings.normal_stiffness *= std::exp(step);
+    const UncertainModuli& material = remembered_material(stiffer, false);
+    const Eigen::VectorXd& errors = here.errors.about;
+    const Eigen::MatrixXd& shared = shared_errors_of(stiffer);
     const Eigen::VectorXcd moduli = material.with(errors.head(material.errors()));
-    const Eigen::VectorXd values = seen(model, moduli, false);
-    return {values + shared * errors.tail(shared.cols()), level_slope(model, moduli, values), {.about = errors}};
+    const Eigen::VectorXd values = seen(stiffer, moduli, false);
+    return {
+        values + shared * errors.tail(shared.cols()) - here.values, level_slope(stiffer, moduli, values) - here.level_slope, {}};
+}
+
+/// Whether the instrument shows the material as it is.
+bool Forward::shows_in_proportion(const Model& model) {
+    return std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
+        return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
+               std::holds_alternative<ChangesTool>(one.mechanism->effect);
+    });
 }
 
 /// Of what the instrument shows by the logarithm of the level of the material. @param values at these moduli of it.
 Eigen::VectorXd Forward::level_slope(const Model& model, const Eigen::VectorXcd& moduli, const Eigen::VectorXd& values) const {
-    const bool in_proportion = std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
-        return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
-               std::holds_alternative<ChangesTool>(one.mechanism->effect);
-    });
-    return in_proportion ? values : Eigen::VectorXd((seen(model, (1 + small_step) * moduli, false) - values) / small_step);
+    return shows_in_proportion(model) ? values
+                                      : Eigen::VectorXd((seen(model, (1 + small_step) * moduli, false) - values) / small_step);
 }
 
 /// Of what the instrument shows by the errors of the material. @param moduli and how these change them. @param values at the
