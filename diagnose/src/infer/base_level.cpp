@@ -28,12 +28,16 @@ double Inference::log_level(Model model) const {
 }
 
 /// Far from the data the density has long tails, in which a search may stay: it begins where the model lies among the data, or
-/// where it was before if that is nearer to them or the prediction bends.
+/// where it was before if that is not far from there, nearer to the data, or the prediction bends.
 double Inference::better_start(const Model& model, double before) const {
+    constexpr double far = 0.5;
     if (!scales_ || forward_.bends(model)) {
         return before;
     }
     const double level = log_level(model);
+    if (std::abs(level - before) < far) {
+        return before;
+    }
     const auto density = [&](double place) { return density_at(model, place, Accuracy::middle); };
     return density(level) > density(before) ? level : before;
 }

@@ -29,10 +29,16 @@ constexpr double heavy = 6;      // logarithms below the best node that are not 
 constexpr double reach = 5;      // standard deviations
 
 /// Nodes along an axis for so many axes.
-int nodes_for(Index axes) {
-    constexpr std::array<int, 5> nodes{1, 41, 15, 9, 7};
-    const auto place = static_cast<std::size_t>(axes);
-    return place < nodes.size() ? nodes.at(place) : 5;
+struct NodesAlong {
+    int first;  ///< over the whole prior, enough where the posterior hardly differs from it
+    int whole;  ///< over the whole prior, to see where the posterior is
+    int box;    ///< over a box about the posterior
+    int mode;   ///< along the principal axes about a mode
+};
+
+NodesAlong nodes_for(Index axes) {
+    constexpr std::array<NodesAlong, 5> nodes{{{1, 1, 1, 1}, {11, 41, 31, 15}, {5, 13, 15, 15}, {4, 7, 8, 9}, {3, 5, 6, 7}}};
+    return nodes.at(std::min(static_cast<std::size_t>(axes), nodes.size() - 1));
 }
 
 /// Every node of a grid, as middles of cells 0 .. 1 along each axis.
@@ -52,6 +58,20 @@ std::vector<Eigen::VectorXd> middles(Index axes, int nodes) {
         all.push_back(std::move(place));
     }
     return all;
+}
+
+/// Largest difference of log weights between neighbours along any axis.
+double roughness(const std::vector<Node>& nodes, Index axes, int along) {
+    double largest = 0;
+    std::size_t stride = 1;
+    for (Index axis = 0; axis < axes; ++axis, stride *= static_cast<std::size_t>(along)) {
+        for (std::size_t k = 0; k + stride < nodes.size(); ++k) {
+            if (k / stride % static_cast<std::size_t>(along) + 1 < static_cast<std::size_t>(along)) {
+                largest = std::max(largest, std::abs(nodes[k + stride].log_weight - nodes[k].log_weight));
+            }
+        }
+    }
+    return largest;
 }
 
 std::vector<double> log_weights(const PosteriorGrid& grid) {
@@ -80,6 +100,22 @@ double PosteriorGrid::effective_nodes() const {
         squares += probability * probability;
     }
     return 1 / squares;
+}
+
+bool PosteriorGrid::reaches(const Eigen::VectorXd& place) const {
+    return factor.triangularView<Eigen::Lower>().solve(place - mode).norm() <= reach;
+}
+
+bool PosteriorGrid::resolves_axes() const {
+    const std::vector<double> probability = probabilities_of(log_weights(*this));
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(half_widths.size());
+    Eigen::VectorXd squares = mean;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        mean += probability[k] * places[k];
+        squares += probability[k] * places[k].cwiseAbs2();
+    }
+    const Eigen::VectorXd variance = squares - mean.cwiseAbs2();
+    return (variance.array() >= (2 * half_widths).array().square()).all();
 }
 
 bool PosteriorGrid::is_fine() const {
@@ -124,12 +160,18 @@ double PosteriorGrid::log_stiffness_quantile(double part, double further) const 
 
 ClosingGrid::ClosingGrid(Index axes, EvaluateNode evaluate)
     : evaluate_(std::move(evaluate)), low_(Eigen::ArrayXd::Zero(axes)), high_(Eigen::ArrayXd::Ones(axes)) {
-    fill();
+    constexpr double smooth = 1.5;  // logarithms from node to node: its square over 24 is what the evidence may err by
+    const NodesAlong nodes = nodes_for(axes);
+    fill(nodes.first);
+    is_flat_ = roughness(grid_.nodes, axes, nodes.first) < smooth;
+    settled_ = is_flat_;
+    if (!is_flat_) {
+        fill(nodes.whole);
+    }
 }
 
-void ClosingGrid::fill() {
+void ClosingGrid::fill(int nodes) {
     const Index axes = low_.size();
-    const int nodes = nodes_for(axes);
     grid_ = {};
     for (const Eigen::VectorXd& cell : middles(axes, nodes)) {
         grid_.places.emplace_back((low_ + (high_ - low_) * cell.array()).matrix());
@@ -152,8 +194,9 @@ void ClosingGrid::close_in(int rounds) {
             const double before = grid_.log_evidence();
             low_ = low;
             high_ = high;
-            fill();
-            settled_ = std::abs(grid_.log_evidence() - before) < same_evidence && grid_.effective_nodes() > enough;
+            fill(nodes_for(low_.size()).box);
+            settled_ = std::abs(grid_.log_evidence() - before) < same_evidence && grid_.effective_nodes() > enough &&
+                       grid_.resolves_axes();
         }
     }
 }
@@ -182,15 +225,23 @@ std::pair<Eigen::ArrayXd, Eigen::ArrayXd> ClosingGrid::box_of_posterior() const 
 }
 
 PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& factor, const EvaluateNode& evaluate) {
-    const int nodes = std::min(15, nodes_for(mode.size()));
+    const int nodes = nodes_for(mode.size()).mode;
     PosteriorGrid grid;
+    grid.mode = mode;
+    grid.factor = factor;
     grid.log_cell = static_cast<double>(mode.size()) * std::log(2 * reach / nodes) + factor.diagonal().array().abs().log().sum();
     grid.half_widths = reach / nodes * factor.rowwise().norm();
     for (const Eigen::VectorXd& cell : middles(mode.size(), nodes)) {
-        const Eigen::VectorXd place = mode + factor * (2 * reach * (cell.array() - 0.5)).matrix();
+        const Eigen::VectorXd departure = (2 * reach * (cell.array() - 0.5)).matrix();
+        const Eigen::VectorXd place = mode + factor * departure;
+        if (departure.norm() > reach) {
+            continue;
+        }
         if (place.minCoeff() >= 0 && place.maxCoeff() <= 1) {
             grid.places.push_back(place);
             grid.nodes.push_back(evaluate(place));
+        } else {
+            grid.clipped = true;
         }
     }
     return grid;

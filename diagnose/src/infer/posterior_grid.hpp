@@ -25,6 +25,9 @@ struct PosteriorGrid {
     std::vector<Node> nodes;
     double log_cell = 0;
     Eigen::VectorXd half_widths;  ///< of a cell along each axis
+    Eigen::VectorXd mode;         ///< about which the nodes lie, if they do about one
+    Eigen::MatrixXd factor;       ///< of the covariance there, lower triangular
+    bool clipped = false;         ///< the prior ends before that normal posterior does
 
     std::size_t best() const;
     double log_evidence() const;
@@ -32,6 +35,10 @@ struct PosteriorGrid {
     double effective_nodes() const;
     /// Whether these are enough for its quantiles.
     bool is_fine() const;
+    /// Whether along every axis the posterior is wider than a cell, by their standard deviation.
+    bool resolves_axes() const;
+    /// Whether nodes about the mode lie about this place, too.
+    bool reaches(const Eigen::VectorXd& place) const;
     /// Place along an axis below which a part of the probability lies.
     double quantile(Eigen::Index axis, double part) const;
     /// Logarithm of the stiffness below which a part of the probability lies, whatever the place.
@@ -39,7 +46,7 @@ struct PosteriorGrid {
     double log_stiffness_quantile(double part, double further) const;
 };
 
-/// A grid along the axes, first over the whole prior, that closes in on where the posterior is.
+/// A grid along the axes, first a coarse one over the whole prior, that closes in on where the posterior is.
 class ClosingGrid {
 public:
     ClosingGrid(Eigen::Index axes, EvaluateNode evaluate);
@@ -47,11 +54,13 @@ public:
     /// Fills it anew, at most so many times, until it does not change any more.
     void close_in(int rounds);
     bool is_settled() const { return settled_; }
+    /// Whether the posterior hardly differs from the prior.
+    bool is_flat() const { return is_flat_; }
 
     const PosteriorGrid& grid() const { return grid_; }
 
 private:
-    void fill();
+    void fill(int nodes);
     std::pair<Eigen::ArrayXd, Eigen::ArrayXd> box_of_posterior() const;
 
     EvaluateNode evaluate_;
@@ -59,9 +68,10 @@ private:
     Eigen::ArrayXd high_;
     PosteriorGrid grid_;
     bool settled_ = false;
+    bool is_flat_ = false;
 };
 
-/// A grid along the principal axes of a normal posterior, clipped to the prior.
+/// A grid along the principal axes of a normal posterior, as far as that reaches, clipped to the prior.
 /// @param factor of its covariance, lower triangular.
 PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& factor, const EvaluateNode& evaluate);
 

@@ -5,6 +5,7 @@
 
 #include <ceres/ceres.h>
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,9 @@ namespace coagula::diagnose {
 namespace {
 
 /// Logarithms of the weight below the best node from which on one counts for nothing.
-constexpr double negligible = 20;
+constexpr double negligible = 12;
+/// From which on one may lie outside of a normal posterior.
+constexpr double light = 9;
 
 /// Whether a grid about the mode sees more of a narrow ridge than one along the axes, which misses its crest or sees it at few
 /// nodes. At the edge of the prior it may see less.
@@ -31,6 +34,20 @@ bool sees_more(const PosteriorGrid& about, const PosteriorGrid& along) {
     const double gain = about.nodes[about.best()].log_weight - along.nodes[along.best()].log_weight;
     return gain > missed * static_cast<double>(along.half_widths.size()) ||
            (!along.is_fine() && gain > -1 && about.effective_nodes() > along.effective_nodes());
+}
+
+/// Whether a grid about the mode holds all of the posterior that one over the whole prior sees.
+bool holds(const PosteriorGrid& about, const PosteriorGrid& whole) {
+    if (about.nodes.empty() || about.clipped || !about.is_fine()) {
+        return false;
+    }
+    const double highest = about.nodes[about.best()].log_weight;
+    for (std::size_t k = 0; k < whole.nodes.size(); ++k) {
+        if (whole.nodes[k].log_weight > highest - light && !about.reaches(whole.places[k])) {
+            return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace
@@ -109,7 +126,11 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
         !covariance.GetCovarianceBlock(place.data(), place.data(), matrix.data())) {
         return std::nullopt;
     }
-    const Eigen::LLT<Eigen::MatrixXd> root(matrix);
+    // What the data hardly determine, the prior does.
+    constexpr double variance_of_prior = 1.0 / 12;
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(axes, axes);
+    const Eigen::MatrixXd with_prior = (identity + matrix / variance_of_prior).partialPivLu().solve(matrix);
+    const Eigen::LLT<Eigen::MatrixXd> root(0.5 * (with_prior + with_prior.transpose()));
     if (root.info() != Eigen::Success || root.rcond() < 1e-13) {
         return std::nullopt;
     }
@@ -119,29 +140,38 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
 PosteriorGrid Inference::posterior(const Hypothesis& hypothesis) const {
     double start = log_level_;
     double best = -std::numeric_limits<double>::infinity();
+    bool knows_start = false;
     const auto evaluate = [&](const Eigen::VectorXd& place) {
         const Model model = model_at(hypothesis, place, 1);
-        const Node node = best_stiffness(model, better_start(model, start), best - negligible);
-        start = node.log_stiffness;
+        const Node node = best_stiffness(model, knows_start ? start : better_start(model, start), best - negligible);
         best = std::max(best, node.log_weight);
+        start = node.log_weight > best - negligible ? node.log_stiffness : start;
         return node;
     };
     const auto axes = static_cast<Index>(parameters_of(hypothesis).size());
     ClosingGrid closing(axes, evaluate);
+    knows_start = true;
     const PosteriorGrid& grid = closing.grid();
     if (axes == 0) {
         PosteriorGrid base = grid;
         base.nodes.front() = highest_of_base(base.nodes.front());
         return base;
     }
+    const auto about_mode = [&]() {
+        return axes > 1 && !closing.is_flat() ? grid_about_mode(hypothesis, grid.places[grid.best()], evaluate) : std::nullopt;
+    };
+    std::optional<PosteriorGrid> about;
+    if (!grid.is_fine()) {  // of a narrow posterior the mode is found sooner than the box
+        about = about_mode();
+        if (about && holds(*about, grid)) {
+            return *about;
+        }
+    }
     // Along several axes every round is dear, and the mode soon near enough to be found.
     constexpr int few_rounds = 3;
     const int more_rounds = axes > 1 ? 2 : 4;
-    const auto about_mode = [&]() {
-        return axes > 1 ? grid_about_mode(hypothesis, grid.places[grid.best()], evaluate) : std::nullopt;
-    };
     closing.close_in(few_rounds);
-    auto about = about_mode();
+    about = about_mode();
     if (!closing.is_settled() && !(about && about->is_fine() && sees_more(*about, grid))) {
         closing.close_in(more_rounds);
         about = about_mode();

@@ -5,7 +5,11 @@
 
 #include <coagula/diagnose/mechanism.hpp>
 
+#include <coagula/common/logarithmic_steps.hpp>
+
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace coagula::diagnose {
 namespace {
@@ -52,6 +56,44 @@ TEST(Evidence, OfACauseThatScalesAllModuliIsThatOfTheBaseModel) {
         << "the data ask for no larger deviation";
     for (const char* cause : {"shear-stiffness", "bond-bending"}) {
         EXPECT_NEAR(inference.fit({find_mechanism(cause)}).log_evidence, base.log_evidence, 0.05) << cause;
+    }
+}
+
+/// Of a stiff sample with losses, between plates.
+Experiment sweep_with_losses() {
+    constexpr double level = 6e5;  // Pa
+    constexpr double error = 0.01;
+    Experiment experiment;
+    experiment.sample.particle_radius = 0.25e-6;
+    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
+    const std::vector<double> frequencies = logarithmic_steps(0.5, 50, 12);
+    Column storage{"storage_modulus", "Pa", {}};
+    Column loss{"loss_modulus", "Pa", {}};
+    for (std::size_t row = 0; row < frequencies.size(); ++row) {
+        storage.values.push_back(level * (1 + error * drawn_normal(7, 2 * row)));
+        loss.values.push_back(level * (0.05 * std::pow(frequencies[row], 0.1) + error * drawn_normal(7, 2 * row + 1)));
+        storage.standard_errors.push_back(error * level);
+        loss.standard_errors.push_back(error * level);
+    }
+    experiment.measurements.push_back({.kind = MeasurementKind::frequency_sweep,
+                                       .label = "sweep",
+                                       .sample = "A",
+                                       .columns = {{"angular_frequency", "rad/s", frequencies}, storage, loss},
+                                       .left_out = {}});
+    return experiment;
+}
+
+/// A partner of which the data tell only that it is not large: the mode lies anywhere, and the posterior is as wide as the prior.
+TEST(Evidence, OfAPairIsThatOfTheCauseWhereItsPartnerDoesLittle) {
+    const Experiment experiment = sweep_with_losses();
+    const DataSet data = data_set_of(experiment, {});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const Mechanism* losses = find_mechanism("contact-loss");
+    const double alone = inference.fit({losses}).log_evidence;
+    for (const char* partner : {"bearing-damping", "tool-compliance", "gap-error"}) {
+        EXPECT_NEAR(inference.fit({losses, find_mechanism(partner)}).log_evidence, alone, 0.2) << partner;
     }
 }
 
