@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -98,7 +99,7 @@ Followed followed(const Inference& inference, const Start& start, const Eigen::M
     const Eigen::VectorXd level = directions.leftCols(samples).rowwise().sum();
     const Eigen::VectorXd plain = errors.whiten(errors.data().values - prediction.without_errors());
     const std::vector<std::size_t> together(static_cast<std::size_t>(plain.size()), 0);
-    NormalEffects effects(plain, level, errors.data().sample, samples, others, together, 1);
+    NormalEffects effects(std::make_shared<Belonging>(errors.data().sample, samples, together, 1), plain, level, others);
     effects.solve(errors.data().effect, Eigen::VectorXd::Ones(others.cols()), {1.0});
     const Index first = directions.cols();
     return {

@@ -48,8 +48,8 @@ class ErrorModel::Scales {
 public:
     explicit Scales(const ErrorModel& model)
         : degrees_(model.degrees_), variances_(model.degrees_.size() + 1, 1.0), counts_(variances_.size(), 0.0) {
-        for (const std::size_t scale : model.scaled_) {
-            counts_[scale] += 1;
+        for (std::size_t scale = 0; scale < counts_.size(); ++scale) {
+            counts_[scale] = static_cast<double>(model.belonging_->rows[scale].size());
         }
     }
 
@@ -90,19 +90,21 @@ ErrorModel::ErrorModel(const DataSet& data)
       log_determinant_(data.noise.log_determinant()),
       variances_(variances_about(data.effect * data.effect, data.effect_degrees)) {
     std::map<std::pair<double, bool>, std::size_t> numbers;
+    std::vector<std::size_t> scaled;
     for (const Observation& one : data.observations) {
         const double degrees = one.errors.degrees;
         if (!std::isfinite(degrees)) {
-            scaled_.push_back(0);
+            scaled.push_back(0);
             continue;
         }
         const auto [found, added] = numbers.try_emplace({degrees, one.of_phase}, degrees_.size() + 1);
         if (added) {
             degrees_.push_back(degrees);
         }
-        scaled_.push_back(found->second);
+        scaled.push_back(found->second);
     }
-    scaled_.resize(static_cast<std::size_t>(data.size()), 0);
+    scaled.resize(static_cast<std::size_t>(data.size()), 0);
+    belonging_ = std::make_shared<Belonging>(data.sample, data.samples(), scaled, degrees_.size() + 1);
     Scales scales(*this);
     scales.update(std::vector<double>(degrees_.size() + 1, 0.0));
     saturated_ = scales.log_density() - 0.5 * log_determinant_;
@@ -133,9 +135,7 @@ struct ErrorModel::Shared {
         scales = Eigen::VectorXd::Ones(others.cols());
     }
 
-    NormalEffects effects(const ErrorModel& model) const {
-        return {plain, level, model.data_.sample, model.data_.samples(), others, model.scaled_, model.degrees_.size() + 1};
-    }
+    NormalEffects effects(const ErrorModel& model) const { return {model.belonging_, plain, level, others}; }
 
     /// At the stated deviations.
     NormalEffects solved(const ErrorModel& model) const {

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -77,9 +78,9 @@ private:
     Eigen::VectorXd white_;  ///< the data
     double log_determinant_;
     double saturated_;
-    std::vector<double> variances_;    ///< equally probable ones of the sample effect
-    std::vector<std::size_t> scaled_;  ///< of each row the number of its scale, from 1; 0 where its deviation is known
-    std::vector<double> degrees_;      ///< of freedom of each scale
+    std::vector<double> variances_;               ///< equally probable ones of the sample effect
+    std::vector<double> degrees_;                 ///< of freedom of each scale
+    std::shared_ptr<const Belonging> belonging_;  ///< of the rows to scales, from 1; to 0 where the deviation is known
 };
 
 }  // namespace coagula::diagnose

@@ -4,20 +4,24 @@
 
 namespace coagula::diagnose {
 
-NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, std::vector<Index> sample, Index samples,
-                             const Eigen::MatrixXd& others, std::vector<std::size_t> group, std::size_t groups)
-    : sample_(std::move(sample)), group_(std::move(group)), others_(others), rows_(groups), products_(groups) {
-    for (Products& products : products_) {
+Belonging::Belonging(std::vector<Index> in_sample, Index sample_count, const std::vector<std::size_t>& in_group, std::size_t groups)
+    : sample(std::move(in_sample)), samples(sample_count), rows(groups) {
+    for (std::size_t row = 0; row < in_group.size(); ++row) {
+        rows[in_group[row]].push_back(static_cast<Index>(row));
+    }
+}
+
+NormalEffects::NormalEffects(std::shared_ptr<const Belonging> belonging, const Eigen::VectorXd& numbers,
+                             const Eigen::VectorXd& level, const Eigen::MatrixXd& others)
+    : belonging_(std::move(belonging)), others_(others), products_(belonging_->rows.size()) {
+    const Index samples = belonging_->samples;
+    for (std::size_t group = 0; group < products_.size(); ++group) {
+        Products& products = products_[group];
         products.own.resize(samples);
         products.between.resize(samples, others.cols());
         products.right.resize(samples + others.cols());
-    }
-    for (Index row = 0; row < others.rows(); ++row) {
-        rows_[group_[static_cast<std::size_t>(row)]].push_back(row);
-    }
-    for (std::size_t number = 0; number < groups; ++number) {
-        const Eigen::MatrixXd own = others(rows_[number], Eigen::all);
-        products_[number].rest = own.transpose() * own;
+        const Eigen::MatrixXd own = others(belonging_->rows[group], Eigen::all);
+        products.rest = own.transpose() * own;
     }
     replace(numbers, level);
 }
@@ -30,9 +34,9 @@ void NormalEffects::replace(const Eigen::VectorXd& numbers, const Eigen::VectorX
         products.own.setZero();
         products.between.setZero();
         products.right.setZero();
-        for (const Index row : rows_[number]) {
+        for (const Index row : belonging_->rows[number]) {
             products.right.tail(others_.cols()) += numbers[row] * others_.row(row).transpose();
-            if (const Index one = sample_[static_cast<std::size_t>(row)]; one >= 0) {
+            if (const Index one = belonging_->sample[static_cast<std::size_t>(row)]; one >= 0) {
                 products.own[one] += level[row] * level[row];
                 products.right[one] += level[row] * numbers[row];
                 products.between.row(one) += level[row] * others_.row(row);
@@ -42,55 +46,59 @@ void NormalEffects::replace(const Eigen::VectorXd& numbers, const Eigen::VectorX
 }
 
 NormalEffects::NormalEffects(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& others)
-    : NormalEffects(numbers, Eigen::VectorXd::Zero(numbers.size()),
-                    std::vector<Index>(static_cast<std::size_t>(numbers.size()), -1), 0, others,
-                    std::vector<std::size_t>(static_cast<std::size_t>(numbers.size()), 0), 1) {}
+    : NormalEffects(std::make_shared<Belonging>(std::vector<Index>(static_cast<std::size_t>(numbers.size()), -1), 0,
+                                                std::vector<std::size_t>(static_cast<std::size_t>(numbers.size()), 0), 1),
+                    numbers, Eigen::VectorXd::Zero(numbers.size()), others) {}
 
 void NormalEffects::solve(double effect, const Eigen::VectorXd& scales, const std::vector<double>& variances) {
-    const Index samples = products_.front().own.size();
+    const Index samples = belonging_->samples;
     const Index count = others_.cols();
     deviation_.resize(samples + count);
     deviation_ << Eigen::VectorXd::Constant(samples, effect), scales;
     own_.setOnes(samples);
     between_.setZero(samples, count);
-    Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(count, count);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(samples + count);
+    precision_.setZero(count, count);
+    right_.setZero(samples + count);
     for (std::size_t group = 0; group < products_.size(); ++group) {
         const Products& products = products_[group];
         const double weight = 1 / variances[group];
         own_ += weight * effect * effect * products.own;
         between_ += weight * effect * products.between;
-        rest += weight * products.rest;
-        right += weight * products.right;
+        precision_ += weight * products.rest;
+        right_ += weight * products.right;
     }
     between_ *= scales.asDiagonal();
-    right.array() *= deviation_.array();
+    right_.array() *= deviation_.array();
     log_determinant_ = own_.array().log().sum();
     effects_.resize(samples + count);
     if (count > 0) {
-        const Eigen::MatrixXd eliminated = own_.cwiseInverse().asDiagonal() * between_;
-        rest = scales.asDiagonal() * rest * scales.asDiagonal();
-        rest.diagonal().array() += 1;
-        rest.noalias() -= between_.transpose() * eliminated;
-        rest_.compute(rest);
+        eliminated_ = own_.cwiseInverse().asDiagonal() * between_;
+        precision_.array() *= (scales * scales.transpose()).array();
+        precision_.diagonal().array() += 1;
+        precision_ -= between_.transpose().lazyProduct(eliminated_);  // a few rows: packing them takes longer
+        rest_.compute(precision_);
         log_determinant_ += 2 * rest_.matrixLLT().diagonal().array().log().sum();
-        effects_.tail(count) = rest_.solve(right.tail(count) - eliminated.transpose() * right.head(samples));
+        effects_.tail(count) = rest_.solve(right_.tail(count) - eliminated_.transpose() * right_.head(samples));
     }
-    effects_.head(samples) = (right.head(samples) - between_ * effects_.tail(count)).cwiseQuotient(own_);
+    effects_.head(samples) = (right_.head(samples) - between_ * effects_.tail(count)).cwiseQuotient(own_);
+    square_what_is_left(variances);
+}
 
+void NormalEffects::square_what_is_left(const std::vector<double>& variances) {
     const Eigen::VectorXd moved = deviation_.cwiseProduct(effects_);
-    Eigen::VectorXd left = numbers_;
-    left.noalias() -= others_ * moved.tail(count);
+    left_ = numbers_;
+    left_.noalias() -= others_ * moved.tail(others_.cols());
     squares_.assign(products_.size(), 0.0);
-    for (Index row = 0; row < left.size(); ++row) {
-        const auto place = static_cast<std::size_t>(row);
-        const Index sample = sample_[place];
-        const double each = left[row] - (sample >= 0 ? level_[row] * moved[sample] : 0.0);
-        squares_[group_[place]] += each * each;
-    }
     misfit_ = effects_.squaredNorm();
     for (std::size_t group = 0; group < squares_.size(); ++group) {
-        misfit_ += squares_[group] / variances[group];
+        double sum = 0;
+        for (const Index row : belonging_->rows[group]) {
+            const Index sample = belonging_->sample[static_cast<std::size_t>(row)];
+            const double each = left_[row] - (sample >= 0 ? level_[row] * moved[sample] : 0.0);
+            sum += each * each;
+        }
+        squares_[group] = sum;
+        misfit_ += sum / variances[group];
     }
 }
 

@@ -4,21 +4,31 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
 
 namespace coagula::diagnose {
 
 using Eigen::Index;
 
+/// What numbers belong to, made once for all effects on them.
+struct Belonging {
+    /// @param in_sample sample of each number, -1: of none. @param in_group group of each number, below `groups`.
+    Belonging(std::vector<Index> in_sample, Index sample_count, const std::vector<std::size_t>& in_group, std::size_t groups);
+
+    std::vector<Index> sample;
+    Index samples;
+    std::vector<std::vector<Index>> rows;  ///< of each group
+};
+
 /// Independent effects e ~ N(0, 1) on numbers r = X e + n, n ~ N(0, variance of the group of each number): one effect of each
 /// sample on its own numbers, and others on any. Nothing in it cancels: the misfit is a sum of squares at the most probable e,
 /// however large the numbers are. Products of the directions are made once, for all deviations and variances.
 class NormalEffects {
 public:
-    /// @param level of each number by the effect of its sample. @param sample of each number, -1: of none. @param group of each
-    /// number, below `groups`.
-    NormalEffects(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level, std::vector<Index> sample, Index samples,
-                  const Eigen::MatrixXd& others, std::vector<std::size_t> group, std::size_t groups);
+    /// @param level of each number by the effect of its sample.
+    NormalEffects(std::shared_ptr<const Belonging> belonging, const Eigen::VectorXd& numbers, const Eigen::VectorXd& level,
+                  const Eigen::MatrixXd& others);
     /// Effects of no sample, numbers of one group.
     NormalEffects(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& others);
 
@@ -47,12 +57,12 @@ private:
         Eigen::VectorXd right;    ///< of all with the numbers
     };
 
+    void square_what_is_left(const std::vector<double>& variances);
+
+    std::shared_ptr<const Belonging> belonging_;
     Eigen::VectorXd numbers_;
     Eigen::VectorXd level_;
-    std::vector<Index> sample_;
-    std::vector<std::size_t> group_;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> others_;
-    std::vector<std::vector<Index>> rows_;  ///< of each group
     std::vector<Products> products_;
     Eigen::VectorXd deviation_;  ///< of all effects
     // Precision of e: diagonal for the samples, in full for the others once the samples are eliminated, and between both.
@@ -63,6 +73,11 @@ private:
     std::vector<double> squares_;  ///< left in each group
     double misfit_ = 0;
     double log_determinant_ = 0;
+    // Kept from one solution to the next, for their memory.
+    Eigen::MatrixXd precision_;
+    Eigen::MatrixXd eliminated_;
+    Eigen::VectorXd right_;
+    Eigen::VectorXd left_;
 };
 
 }  // namespace coagula::diagnose
