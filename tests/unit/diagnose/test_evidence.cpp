@@ -2,6 +2,7 @@
 #include "infer/hypothesis.hpp"
 
 #include "hidden_effects.hpp"
+#include "noise/weights.hpp"
 
 #include <coagula/diagnose/mechanism.hpp>
 
@@ -10,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 namespace coagula::diagnose {
 namespace {
@@ -94,6 +97,50 @@ TEST(Evidence, OfAPairIsThatOfTheCauseWhereItsPartnerDoesLittle) {
     const double alone = inference.fit({losses}).log_evidence;
     for (const char* partner : {"bearing-damping", "tool-compliance", "gap-error"}) {
         EXPECT_NEAR(inference.fit({losses, find_mechanism(partner)}).log_evidence, alone, 0.2) << partner;
+    }
+}
+
+/// Logarithm of the integral of the density over the logarithm of the stiffness, by small steps about its highest point.
+double log_integral_over_stiffness(const Forward& forward, const ErrorModel& errors, Model model) {
+    constexpr double step = 0.05;
+    constexpr double small_step = 0.01;
+    constexpr double around = 0.6;
+    const auto density = [&](double log_stiffness) {
+        model.settings.normal_stiffness = std::exp(log_stiffness);
+        return errors.log_density(forward.prediction(model));
+    };
+    double highest = 0;
+    for (double place = highest; place < 14; place += step) {
+        highest = density(place) > density(highest) ? place : highest;
+    }
+    std::vector<double> logarithms;
+    for (double place = highest - around; place < highest + around; place += small_step) {
+        logarithms.push_back(density(place));
+    }
+    return log_sum(logarithms) + std::log(small_step);
+}
+
+/// By brute force, errors of rows known from few degrees of freedom, so that the density has long tails.
+TEST(Evidence, IsTheIntegralOverParameterAndStiffness) {
+    constexpr int places = 81;
+    const Experiment experiment = sweep_with_losses();
+    DataSet data = data_set_of(experiment, {});
+    for (Observation& one : data.observations) {
+        one.errors.degrees = 5;
+    }
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    for (const char* cause : {"tool-compliance", "contact-dashpot"}) {
+        const Hypothesis hypothesis{find_mechanism(cause)};
+        std::vector<double> logarithms;
+        for (int place = 0; place < places; ++place) {
+            const Model model = model_at(hypothesis, Eigen::VectorXd::Constant(1, (place + 0.5) / places), 1);
+            logarithms.push_back(log_integral_over_stiffness(forward, errors, model));
+        }
+        constexpr double decades = 8;  // of the prior of the stiffness
+        const double integral = log_mean(logarithms) - std::log(decades * std::numbers::ln10);
+        EXPECT_NEAR(inference.fit(hypothesis).log_evidence, integral, 0.1) << cause;
     }
 }
 
