@@ -1,7 +1,9 @@
+#include "hidden_effects.hpp"
 #include "infer/fold_errors.hpp"
 #include "infer/gain.hpp"
 
 #include <coagula/common/random.hpp>
+#include <coagula/diagnose/mechanism.hpp>
 #include <coagula/diagnose/stated_errors.hpp>
 
 #include <gtest/gtest.h>
@@ -98,6 +100,55 @@ TEST(Gain, KnowsNothingOfTheErrorsOfWhatIsHeldOut) {
     const DataSet others = data_set_of(alone, {});
     EXPECT_LT((rest.noise.deviation.head(60) - others.noise.deviation).cwiseAbs().maxCoeff(), 1e-6 * others.noise.deviation[0]);
     EXPECT_NEAR(rest.noise.deviation[70], 10, 3);  // what is expected of a sample like the others
+}
+
+/// Sweeps of three samples with losses like those of a solvent's drag. @param last factor on the losses of the last one.
+Experiment dragged_samples(double last) {
+    constexpr double level = 6e5;  // Pa
+    constexpr double error = 0.01;
+    Experiment experiment;
+    experiment.sample.particle_radius = 0.25e-6;
+    for (std::uint64_t sample = 0; sample < 3; ++sample) {
+        Measurement table;
+        table.label = table.sample = std::to_string(sample);
+        table.columns = {{"angular_frequency", "rad/s", logarithmic_steps(1, 100, 8)},
+                         {"storage_modulus", "Pa", {}},
+                         {"loss_modulus", "Pa", {}}};
+        for (std::size_t row = 0; row < 8; ++row) {
+            const double loss = 0.01 * std::pow(table.columns[0].values[row], 0.7) * (sample == 2 ? last : 1.0);
+            table.columns[1].values.push_back(level * (1 + error * drawn_normal(sample, 2 * row)));
+            table.columns[2].values.push_back(level * (loss + error * drawn_normal(sample, 2 * row + 1)));
+        }
+        experiment.measurements.push_back(table);
+    }
+    return experiment;
+}
+
+/// What the last sample is predicted to show by the base model and by the drag that the others ask for.
+Gain gain_of_last(double factor) {
+    Experiment experiment = dragged_samples(factor);
+    state_errors(experiment, noise_of_tables(experiment.measurements));
+    const DataSet data = data_set_of(experiment, {});
+    std::vector<bool> held_out;
+    for (const Observation& one : data.observations) {
+        held_out.push_back(one.measurement == 2);
+    }
+    return measure_gain(data, {held_out}, experiment, simulator(), {find_mechanism("solvent-drag")}, {});
+}
+
+/// Nor do the errors of the drag that structures leave follow rows that are held out.
+TEST(Gain, PredictsWhatIsHeldOutFromTheRestAlone) {
+    constexpr double same = 0.1;  // Pa, of moduli of up to 6e5
+    const Gain found = gain_of_last(1);
+    const Gain other = gain_of_last(2);
+    ASSERT_EQ(found.chosen, std::vector<std::string>{"solvent-drag"});
+    ASSERT_EQ(found.predictions.size(), 16U);
+    for (std::size_t k = 0; k < found.predictions.size(); ++k) {
+        EXPECT_NEAR(other.predictions[k].extended, found.predictions[k].extended, same);
+        EXPECT_NEAR(other.predictions[k].base, found.predictions[k].base, same);
+        EXPECT_NEAR(other.predictions[k].flexible, found.predictions[k].flexible, same);
+    }
+    EXPECT_LT(other.elpd_difference, found.elpd_difference - 10) << "twice the losses are no surprise";
 }
 
 }  // namespace
