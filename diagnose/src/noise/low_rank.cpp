@@ -86,8 +86,7 @@ void NormalEffects::solve(double effect, const Eigen::VectorXd& scales, const st
 
 void NormalEffects::square_what_is_left(const std::vector<double>& variances) {
     const Eigen::VectorXd moved = deviation_.cwiseProduct(effects_);
-    left_ = numbers_;
-    left_.noalias() -= others_ * moved.tail(others_.cols());
+    left_ = numbers_ - others_.lazyProduct(moved.tail(others_.cols()));  // rows of a few numbers
     squares_.assign(products_.size(), 0.0);
     misfit_ = effects_.squaredNorm();
     for (std::size_t group = 0; group < squares_.size(); ++group) {
