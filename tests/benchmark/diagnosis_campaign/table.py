@@ -169,6 +169,7 @@ def add_faults(table, of):
     for row in ("negative-storage", "drag"):
         table.add(row, "90 % intervals cover", [hit for entry in of(row) for hit in parameter_covered(entry)], 0.86, 0.94)
         table.add(row, "true cause named alone", [is_named(entry) for entry in of(row)], 0.90)
+    table.add("bump", "named first", [named_first(entry) for entry in of("bump")], 0.90)
     table.add("bump", "true cause named alone", [is_named(entry) for entry in of("bump")], 0.90)
     table.add("bump", "true cause in every member of the set", [is_certain(entry) for entry in of("bump")], 0.90)
     table.add("bump", "remainder found in G''", ["G''" in (entry["found"].get("remainder") or {}).get("where", "") for entry in of("bump")], 0.90)
