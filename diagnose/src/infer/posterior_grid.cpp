@@ -163,9 +163,8 @@ ClosingGrid::ClosingGrid(Index axes, EvaluateNode evaluate)
     constexpr double smooth = 1.5;  // logarithms from node to node: its square over 24 is what the evidence may err by
     const NodesAlong nodes = nodes_for(axes);
     fill(nodes.first);
-    is_flat_ = roughness(grid_.nodes, axes, nodes.first) < smooth;
-    settled_ = is_flat_;
-    if (!is_flat_) {
+    settled_ = roughness(grid_.nodes, axes, nodes.first) < smooth;
+    if (!settled_) {
         fill(nodes.whole);
     }
 }

@@ -53,9 +53,8 @@ public:
 
     /// Fills it anew, at most so many times, until it does not change any more.
     void close_in(int rounds);
+    /// From the start where the posterior hardly differs from the prior.
     bool is_settled() const { return settled_; }
-    /// Whether the posterior hardly differs from the prior.
-    bool is_flat() const { return is_flat_; }
 
     const PosteriorGrid& grid() const { return grid_; }
 
@@ -68,7 +67,6 @@ private:
     Eigen::ArrayXd high_;
     PosteriorGrid grid_;
     bool settled_ = false;
-    bool is_flat_ = false;
 };
 
 /// A grid along the principal axes of a normal posterior, as far as that reaches, clipped to the prior.

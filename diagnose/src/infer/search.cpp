@@ -157,8 +157,9 @@ PosteriorGrid Inference::posterior(const Hypothesis& hypothesis) const {
         base.nodes.front() = highest_of_base(base.nodes.front());
         return base;
     }
+    const bool is_flat = closing.is_settled();
     const auto about_mode = [&]() {
-        return axes > 1 && !closing.is_flat() ? grid_about_mode(hypothesis, grid.places[grid.best()], evaluate) : std::nullopt;
+        return axes > 1 && !is_flat ? grid_about_mode(hypothesis, grid.places[grid.best()], evaluate) : std::nullopt;
     };
     std::optional<PosteriorGrid> about;
     if (!grid.is_fine()) {  // of a narrow posterior the mode is found sooner than the box

@@ -229,7 +229,7 @@ std::array<double, 3> ErrorModel::log_densities(const Prediction& prediction, co
     });
     std::array<double, 3> densities{};
     std::transform(logarithms.begin(), logarithms.end(), densities.begin(),
-                   [&](const std::vector<double>& all) { return log_mean(all) - 0.5 * log_determinant_; });
+                   [&](const std::vector<double>& all) { return mean_density(all); });
     return densities;
 }
 
@@ -269,6 +269,11 @@ double ErrorModel::log_density(Shared& shared, NormalEffects& effects, double de
     std::vector<double> logarithms;
     for_deviations(shared, degrees, accuracy,
                    [&](double effect) { logarithms.push_back(log_marginal(effects, effect, shared.scales, scales)); });
+    return mean_density(logarithms);
+}
+
+/// Over equally probable deviations.
+double ErrorModel::mean_density(const std::vector<double>& logarithms) const {
     const double density = log_mean(logarithms) - 0.5 * log_determinant_;
     if (density > saturated_ + 1e-6 * (1 + std::abs(saturated_))) {
         throw std::logic_error("the density of the data exceeds that of a prediction that meets every number");

@@ -70,6 +70,7 @@ private:
     Eigen::VectorXd whitened_level(const Prediction& prediction) const;
     template <class At>
     void for_deviations(Shared& shared, double degrees, Accuracy accuracy, const At& at) const;
+    double mean_density(const std::vector<double>& logarithms) const;
     static double log_at(const NormalEffects& effects, const Scales& scales);
     double log_density(Shared& shared, NormalEffects& effects, double degrees, Accuracy accuracy) const;
     double log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others, Scales& scales) const;

@@ -45,6 +45,23 @@ TEST(PosteriorGrid, FollowsARidgeAcrossTheAxes) {
     EXPECT_NEAR(grid.log_evidence(), 0, 1e-3);
     EXPECT_NEAR(grid.quantile(1, 0.95) - grid.quantile(1, 0.05), 2 * 1.645 * 0.01, 1e-3);
     EXPECT_GT(grid.effective_nodes(), 2.5 * 2.5);
+    EXPECT_FALSE(grid.clipped);
+    EXPECT_TRUE(grid.reaches(mean + Eigen::Vector2d(0.03, 0.03)));  // three deviations along the ridge
+    EXPECT_FALSE(grid.reaches(mean + Eigen::Vector2d(0.03, -0.03)));
+}
+
+/// A slope of 4 logarithms over the prior needs no finer grid; one of 40 does.
+TEST(PosteriorGrid, HasFewNodesWhereThePosteriorHardlyDiffersFromThePrior) {
+    const auto slope_of = [](double slope) {
+        return ClosingGrid(2, [=](const Eigen::VectorXd& place) { return Node{.log_weight = slope * place[0]}; });
+    };
+    const ClosingGrid gentle = slope_of(4);
+    EXPECT_TRUE(gentle.is_settled());
+    EXPECT_EQ(gentle.grid().nodes.size(), 25U);
+    EXPECT_NEAR(gentle.grid().log_evidence(), std::log(std::expm1(4) / 4), 0.8 * 0.8 / 24 + 0.01);
+    const ClosingGrid steep = slope_of(40);
+    EXPECT_FALSE(steep.is_settled());
+    EXPECT_GT(steep.grid().nodes.size(), 100U);
 }
 
 TEST(PosteriorGrid, LeavesOutWhatThePriorDoesNotAllow) {
@@ -54,6 +71,7 @@ TEST(PosteriorGrid, LeavesOutWhatThePriorDoesNotAllow) {
         grid_about(corner, Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL(), normal_density(corner, covariance));
     EXPECT_NEAR(std::exp(grid.log_evidence()), 0.5, 0.15);  // to the half of a row of nodes
     EXPECT_GE(grid.quantile(0, 0.01), 0);
+    EXPECT_TRUE(grid.clipped);
 }
 
 /// Between two nodes far apart lie the quarter and three quarters of what the likelier one has.
