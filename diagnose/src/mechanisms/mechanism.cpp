@@ -30,10 +30,12 @@
     ENTRY(ageing_power)             \
     ENTRY(ageing_saturating)        \
     ENTRY(temperature_drift)        \
+    ENTRY(loading_relaxation)       \
     ENTRY(shear_thinning)           \
     ENTRY(evaporation)              \
     ENTRY(sedimentation)            \
     ENTRY(poroelastic_backflow)     \
+    ENTRY(normal_load)              \
     ENTRY(sample_inertia)           \
     ENTRY(gap_error)                \
     ENTRY(wall_slip)                \

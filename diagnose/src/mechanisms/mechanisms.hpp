@@ -63,6 +63,9 @@ inline bool takes_time(const Experiment& experiment) {
     return false;
 }
 
+/// The normal force was recorded in every row of every oscillation on the sample, and is not the same in all.
+bool knows_load(const Experiment& experiment);
+
 /// The plates are there, with a rim: their radius is known.
 inline bool knows_radius(const Experiment& experiment) {
     const auto states = [](const Measurement& table) { return find_column(table, "plate_radius") != nullptr; };

@@ -266,6 +266,19 @@ std::string how_fitted(const NoiseModel& noise, bool with_floor) {
                 : "; one sample tells nothing about differences between samples: stated, not measured");
 }
 
+/// What was fitted to the values beforehand has made their scatter smaller.
+void take_off_fitted(NoiseModel& noise, int fitted) {
+    if (fitted == 0) {
+        return;
+    }
+    const double left = std::max(noise.degrees - fitted, 1.0);
+    const double factor = std::sqrt(noise.degrees / left);
+    for (Estimate* estimate : {&noise.floor, &noise.relative}) {
+        *estimate = {factor * estimate->value, factor * estimate->low, factor * estimate->high};
+    }
+    noise.degrees = left;
+}
+
 void fit_replicates(NoiseModel& noise, const Replicates& replicates, const ReplicatedValues& data,
                     const std::vector<std::string>& names, const NoiseOptions& options) {
     const bool of_phase = is_of_phase(noise);
@@ -302,6 +315,7 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
         noise.conditions = static_cast<std::size_t>(data.conditions);
         noise.degrees = static_cast<double>(noise.values) - static_cast<double>(data.conditions) -
                         static_cast<double>(with_sample ? names.size() - 1 : 0);
+        take_off_fitted(noise, replicates.fitted);
     }
     noise.rows_estimated = true;
     noise.sample_estimated = with_sample;

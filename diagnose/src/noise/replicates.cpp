@@ -150,7 +150,7 @@ bool has_phase(const Group& tables) {
 /// The values of a column. Conditions are the axis values of the first table.
 Replicates replicates_in(const Group& tables, const Column& observable) {
     const std::vector<double>& axis = axis_of(*tables.front())->values;
-    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}, false, {}, {}};
+    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}, false, {}, {}, 0};
     replicates.axis = Eigen::VectorXd::Map(axis.data(), static_cast<Eigen::Index>(axis.size()));
     const std::vector<double> weights = floor_weights(*tables.front());
     replicates.floor_of_stress = !weights.empty();
@@ -174,6 +174,46 @@ Replicates replicates_in(const Group& tables, const Column& observable) {
         }
     }
     return replicates;
+}
+
+/// The normal force in the place of the values; NaN where a table has none.
+Eigen::MatrixXd forces_in(const Group& tables) {
+    const Column force{"normal_force", "N", {}};
+    return replicates_in(tables, force).values;
+}
+
+/// What is left of each row and then of each column without its mean.
+Eigen::MatrixXd without_means(Eigen::MatrixXd values) {
+    values.colwise() -= values.rowwise().mean().eval();
+    values.rowwise() -= values.colwise().mean().eval();
+    return values;
+}
+
+/// Samples that are pressed by different forces stiffen differently in the course of a run. That is no error: the part of the
+/// values that follows the force is taken out of them (least squares in the rows that all tables have).
+void take_out_load(Replicates& replicates, const Group& tables) {
+    constexpr double resolution = 0.1;  // N: what transducers drift by within hours
+    const Eigen::MatrixXd forces = forces_in(tables);
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index row = 0; row < forces.rows(); ++row) {
+        if (forces.row(row).allFinite() && replicates.values.row(row).allFinite() && replicates.values.row(row).mean() != 0) {
+            rows.push_back(row);
+        }
+    }
+    if (rows.size() < fewest_shared || tables.size() < 2) {
+        return;
+    }
+    const Eigen::MatrixXd loads = without_means(forces(rows, Eigen::all));
+    if (loads.cwiseAbs().maxCoeff() < resolution) {
+        return;
+    }
+    const Eigen::VectorXd means = replicates.values(rows, Eigen::all).rowwise().mean();
+    const Eigen::MatrixXd relative = means.cwiseInverse().asDiagonal() * replicates.values(rows, Eigen::all);
+    const double per_force = loads.cwiseProduct(without_means(relative)).sum() / loads.squaredNorm();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        replicates.values.row(rows[k]) -= means[static_cast<Eigen::Index>(k)] * per_force * loads.row(static_cast<Eigen::Index>(k));
+    }
+    replicates.fitted = 1;
 }
 
 /// |G*| along its mean over the tables, and what lies at right angles to that.
@@ -210,6 +250,7 @@ std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurem
         const Column* loss = find_column(first, first.kind == MeasurementKind::flow_curve ? "viscosity" : "loss_modulus");
         if (storage != nullptr && loss != nullptr && has_phase(tables)) {
             auto [modulus, phase] = torque_and_phase(replicates_in(tables, *storage), replicates_in(tables, *loss));
+            take_out_load(modulus, tables);
             all.push_back(std::move(modulus));
             all.push_back(std::move(phase));
             continue;
@@ -217,6 +258,7 @@ std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurem
         for (const Column* one : {storage, loss}) {
             if (one != nullptr) {
                 all.push_back(replicates_in(tables, *one));
+                take_out_load(all.back(), tables);
             }
         }
     }

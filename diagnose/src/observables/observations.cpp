@@ -101,6 +101,7 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
         .torque_per_modulus =
             tool_constants(experiment.instrument, cell(table, "gap", row), radius, table.cone_angle).torque_per_modulus(),
         .cone_angle = under_cone ? table.cone_angle : experiment.instrument.cone_angle,
+        .normal_force = cell(table, "normal_force", row),
         .errors = column.errors,
         .third_harmonic = what.third_harmonic,
         .rough_plates = table.rough_plates,

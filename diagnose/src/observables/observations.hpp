@@ -38,6 +38,7 @@ struct Observation {
     double plate_radius = unset;        ///< [m]
     double torque_per_modulus = unset;  ///< torque per deflection over the modulus [m^3]
     double cone_angle = unset;          ///< [rad]; NaN where there is no cone
+    double normal_force = unset;        ///< that pushes the plates apart [N]
     ErrorLaw errors = {};               ///< of the errors, torque or phase
     bool third_harmonic = false;        ///< of the stress over the first, elastic or viscous part, in place of a modulus
     bool rough_plates = false;

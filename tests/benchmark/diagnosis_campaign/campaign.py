@@ -32,6 +32,7 @@ DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "single
 BREAKING_ROWS = {*BREAKING, "tie-yield"}
 RUPTURE_ROWS = {"activated-rupture", "bond-strength-rates"}
 SETTLING_ROWS = {"sedimentation", "volume-fraction-gradient", *(f"{name}-gaps" for name in SETTLING_LOOK_ALIKES)}
+LOADED_ROWS = {"normal-load", "loading-relaxation"}
 SERIES_ROWS = {"null-series", "structure-series", "missing-contacts", "prestress", "bond-bending-series"}
 CONTACT_ROWS = {"structure-series", "tie-level", "bond-bending-series"}
 
@@ -153,7 +154,7 @@ def main():
                                                    series=not SERIES_ROWS.isdisjoint(chosen.rows), contacts=not CONTACT_ROWS.isdisjoint(chosen.rows),
                                                    dragged="drag" in chosen.rows, rupture=not RUPTURE_ROWS.isdisjoint(chosen.rows),
                                                    settling=not SETTLING_ROWS.isdisjoint(chosen.rows),
-                                                   hertzian="contact-nonlinearity" in chosen.rows)
+                                                   hertzian="contact-nonlinearity" in chosen.rows, loaded=not LOADED_ROWS.isdisjoint(chosen.rows))
     results = folder / "results.jsonl"
     done = {(each["row"], each["number"]) for each in map(json.loads, results.open())} if results.exists() else set()
     tasks = [(row, number, program, folder) for number in range(chosen.runs) for row in chosen.rows if (row, number) not in done]

@@ -12,7 +12,8 @@ EXACT = 1e-3                               # of the forces that are left over
 class Network:
     """Contacts of unit stiffness at rest and unit overlap there; lengths are those of the branch vectors over their mean."""
 
-    def __init__(self, count, bonds, plane):
+    def __init__(self, count, bonds, strain):
+        """@param strain of the box, a unit of it."""
         first, second, branch = bonds
         branch = branch / numpy.linalg.norm(branch, axis=1).mean()
         self.axis = branch / numpy.linalg.norm(branch, axis=1)[:, None]
@@ -23,9 +24,7 @@ class Network:
         one = numpy.broadcast_to(numpy.eye(3), (number, 3, 3))
         self.moved = numpy.concatenate([-one, turn, one, turn], axis=2)
         self.places = numpy.concatenate([6 * first[:, None] + numpy.arange(6), 6 * second[:, None] + numpy.arange(6)], axis=1)
-        a, b = ((0, 1), (0, 2), (1, 2))[plane]
-        self.affine = numpy.zeros((number, 3))  # of a unit shear strain
-        self.affine[:, a], self.affine[:, b] = branch[:, b] / 2, branch[:, a] / 2
+        self.branch, self.affine = branch, branch @ strain
         self.size = 6 * count
         self.rows, self.columns = numpy.repeat(self.places, 12, axis=1).ravel(), numpy.tile(self.places, 12).ravel()
         self.across = one - numpy.einsum("mi,mj->mij", self.axis, self.axis)
@@ -41,9 +40,9 @@ class Network:
         return scipy.sparse.linalg.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
     def stresses(self, strains):
-        """Shear stress times the volume at strains that grow, in units of the overlap at rest. The shear stiffness of a step is that in its middle, as the
-        step before has it, so that each step minimises a convex energy."""
-        sheared, stretched, last, found = numpy.zeros_like(self.axis), numpy.zeros(len(self.axis)), 0.0, []
+        """Stress times the volume at strains that grow, in units of the overlap at rest, and by how much each contact has opened. The shear stiffness of
+        a step is that in its middle, as the step before has it, so that each step minimises a convex energy."""
+        along_contacts, stretched, last = numpy.zeros_like(self.axis), numpy.zeros(len(self.axis)), 0.0
         per_strain = numpy.zeros(self.size)
         for strain in strains:
             step, change = (strain - last) * self.affine, (strain - last) * per_strain
@@ -54,7 +53,7 @@ class Network:
                 ends = step + numpy.einsum("mik,mk->mi", self.moved, change[self.places])
                 along = numpy.einsum("mi,mi->m", ends, self.axis)
                 overlap = 1 - stretched - along
-                force = sheared + shear[:, None] * (ends - along[:, None] * self.axis)
+                force = along_contacts + shear[:, None] * (ends - along[:, None] * self.axis)
                 pull = 2 / 3 * (1 - numpy.sign(overlap) * abs(overlap)**1.5)  # beyond that at rest, which something else bears
                 total = force + pull[:, None] * self.axis
                 left = self.assembled(total)
@@ -72,16 +71,26 @@ class Network:
                 change = accepted + move
             else:
                 raise RuntimeError("a network of Hertz contacts found no equilibrium")
-            sheared, stretched, per_strain, last = force, stretched + along, change / (strain - last), strain
-            found.append(float(numpy.sum(total * self.affine)))
-        return numpy.array(found)
+            along_contacts, stretched, per_strain, last = force, stretched + along, change / (strain - last), strain
+            yield float(numpy.sum(total * self.affine)), stretched
+
+
+def sheared(a, b):
+    """Strain in a plane."""
+    strain = numpy.zeros((3, 3))
+    strain[a, b] = strain[b, a] = 0.5
+    return strain
+
+
+PLANES = (sheared(0, 1), sheared(0, 2), sheared(1, 2))
 
 
 def secants(places, bonds, box, loads, plane):
     """Stress over strain at strains of so many times the overlap at rest, over that of small strains; mean of both directions. The overlap is in radii."""
-    network = Network(len(places), bonds, plane)
+    network = Network(len(places), bonds, PLANES[plane])
     loads = numpy.concatenate([[1e-3], loads])
     # Overlaps count in radii, branch vectors in diameters.
-    stresses = (network.stresses(2 * loads) - network.stresses(-2 * loads)) / 2
+    up, down = ([stress for stress, _ in network.stresses(sign * 2 * loads)] for sign in (1, -1))
+    stresses = (numpy.array(up) - numpy.array(down)) / 2
     secant = stresses / loads
     return (secant[1:] / secant[0]).tolist()

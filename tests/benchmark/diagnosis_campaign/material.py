@@ -12,6 +12,7 @@ import numpy
 import hertz
 import network
 import poroelastic
+import pressed
 
 PARTICLES = 400
 STRUCTURES = 8
@@ -52,7 +53,7 @@ class Material:
         for path in (self.bank / "material.json", self.results):
             self.known.update(json.loads(path.read_text()) if path.exists() else {})
 
-    def prepare(self, jobs, breaking, series, contacts, dragged, rupture, settling, hertzian):
+    def prepare(self, jobs, breaking, series, contacts, dragged, rupture, settling, hertzian, loaded):
         """Everything that is not drawn: moduli of structures, with breaking, series, other contacts, a dragging solvent, bonds that heat helps to
         break and layers of several volume fractions if asked for; and those structures that the diagnosis may know."""
         coordinations = COORDINATIONS if series else ()
@@ -66,6 +67,7 @@ class Material:
         tasks += [("elastic", number) for number in range(DRAGGED) if dragged]
         tasks += [("rupture", number) for number in range(BREAKING) if rupture]
         tasks += [("modulus", number, "volume-fraction", fraction) for fraction in FRACTIONS for number in range(STRUCTURES) if settling]
+        tasks += [("pressed_curve", number) for number in range(STRUCTURES) if loaded]
         tasks += [("hertz_curve", number) for number in range(STRUCTURES) if hertzian]
         for number in range(DRAGGED if dragged else BREAKING if breaking or rupture else STRUCTURES):
             self.structure(number)
@@ -174,6 +176,16 @@ class Material:
         loads = numpy.log(numpy.outer(numpy.atleast_1d(strains), numpy.sin(phases)) / preload)
         secants = numpy.exp(numpy.interp(loads, numpy.log(HERTZ_LOADS), numpy.log(curve)))
         return 2 * numpy.mean(secants * numpy.sin(phases)**2, axis=1)
+
+    def pressed_curve(self, number):
+        """G' between plates that press at pressed.PRESSURES over that of a sample without load."""
+        def compute():
+            places, radii, box = self.particles(self.structure(number))
+            return pressed.growth(places, network.bonds_of(places, radii, box)).tolist()
+        return self.remembered(f"pressed {number}", compute)
+
+    def pressed(self, number, pressures):
+        return numpy.interp(pressures, pressed.PRESSURES, self.pressed_curve(number))
 
     def left_by_bonds(self, number, share):
         """G' over that of all bonds where these shares of them are there, along straight lines."""
@@ -343,7 +355,7 @@ class Sketch:
     def __init__(self, material):
         self.modulus, self.mean_modulus, self.mean_breaking = material.modulus, material.mean_modulus, material.mean_breaking
         self.left_by_bonds, self.mean_rupture, self.layers = material.left_by_bonds, material.mean_rupture, material.layers
-        self.consolidation, self.hertz = material.consolidation, material.hertz
+        self.consolidation, self.hertz, self.pressed = material.consolidation, material.hertz, material.pressed
 
     def losses(self, number, ratio, exponent, frequencies):
         return 1 + ratio * (1j * numpy.asarray(frequencies))**exponent

@@ -10,6 +10,9 @@ from days import CONE, GAP, PLATE, SMALL_STRAIN, sweep
 from material import FRACTIONS_KNOWN, KNOWN_EACH
 
 
+FORCE_ERROR = 0.01  # of a normal force that is read [N]
+
+
 @dataclass(frozen=True)
 class Hidden:
     """What is switched on. `modulus` takes strain, frequency and time of a table's rows."""
@@ -52,6 +55,7 @@ class Hidden:
     sizes: float = 0.0      # relative deviation of the particles' radii
     potential: float = 0.0  # of the surfaces on which particles coagulated [V]
     hertz: float = 0.0      # overlap of Hertz contacts at rest, over the radius
+    pressure: float = 0.0   # that presses contacts as their adhesion does, where plates press them further apart or together [Pa] (pressed.py)
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first
 
 
@@ -80,6 +84,8 @@ class Session:
     mean_of: tuple = ()          # structures as large as which together the sample is, in a solvent that drags
     told_noise: bool = False     # the file states the errors that there are
     sheared: bool = False        # before each run, which destroys the structure
+    loads: dict = field(default_factory=dict)  # of each sample: pressure at the start, part that remains, time [s]
+    tells_load: bool = False     # the tables have a normal force
     two_fractions: bool = False  # the structures of the diagnosis have another volume fraction each
 
     def write(self, material, folder, generator):
@@ -110,6 +116,9 @@ class Session:
             measured *= numpy.array([10.0 if first + row in wrong else 1.0 for row in range(len(clean))])
             columns = {"strain [1]": table.strain, "frequency [Hz]": table.frequency, "time [s]": table.time, "gap [m]": table.gap,
                        "storage_modulus [Pa]": measured.real, "loss_modulus [Pa]": measured.imag}
+            if self.tells_load:
+                force = numpy.pi * table.plate**2 * pressure_on(self, table)
+                columns["normal force [N]"] = force + FORCE_ERROR * generator.standard_normal(len(force))
             if table.cone:
                 del columns["gap [m]"]
             if self.storage_only:
@@ -216,6 +225,8 @@ def true_modulus(material, session, table):
     if hidden.loads and table.kind == "amplitude-sweep":
         modulus *= material.mean_breaking(*hidden.loads, rim=hidden.rim and not table.cone)
     age = table.time if session.sheared else table.start + table.time
+    if hidden.pressure:
+        modulus *= material.pressed(session.structure, pressure_on(session, table) / hidden.pressure)
     if hidden.hertz:
         modulus *= material.hertz(hidden.hertz, table.strain)
     if hidden.ageing:
@@ -267,6 +278,12 @@ def with_waves(modulus, density, table, layers=400):
             moved[place + 1] = (2 - mass) * moved[place] - moved[place - 1]
         shares.append(((1 - mass / 2) * moved[-1] - moved[-2]) * layers / moved[-1])
     return numpy.array(shares)
+
+
+def pressure_on(session, table):
+    """Of the plates on a sample, row by row: what closing the gap has left relaxes as a stretched exponential."""
+    start, part, time = session.loads[table.sample]
+    return start * (part + (1 - part) * numpy.exp(-numpy.sqrt((table.start + table.time) / time)))
 
 
 def share_of_bonds(session, table):

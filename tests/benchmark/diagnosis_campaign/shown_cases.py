@@ -7,7 +7,7 @@ import numpy
 
 import images
 from cases import draw_session, effects, scaled
-from days import sheared_day, up_and_down
+from days import long_day, sheared_day, up_and_down
 from flow import Flow
 from images import Images
 from series import Series
@@ -38,6 +38,29 @@ def ageing_up_and_down(generator, material):
     """What looks like Hertz contacts on the way up."""
     session = draw_session(generator, material, tables=up_and_down())
     return scaled(session, material, float(generator.choice(GAINS)), effects(generator, session)["ageing"])
+
+
+def loads(generator, tables):
+    """What closing the gap leaves on each sample, in Pa: 1 to 2 N under plates of 12.5 mm."""
+    drawn = lambda: (within(2e3, 4e3, generator), float(generator.uniform(0.0, 0.4)), within(100, 2000, generator))
+    return {name: drawn() for name in sorted({table.sample for table in tables})}
+
+
+def normal_load(tells_load):
+    """Of samples that were pressed more and less, as large as it is. Under more than four tenths of the pressure that holds the contacts together they
+    would open."""
+    def draw(generator, material):
+        tables = long_day()
+        hidden = Hidden("normal-load" if tells_load else "loading-relaxation", pressure=within(1e4, 2e4, generator))
+        return replace(draw_session(generator, material, hidden, tables=tables), loads=loads(generator, tables), tells_load=tells_load)
+    return draw
+
+
+def cooling_under_load(generator, material):
+    """A load that relaxes and has no part in what the sample does."""
+    tables = long_day()
+    session = replace(draw_session(generator, material, tables=tables), loads=loads(generator, tables), tells_load=True)
+    return scaled(session, material, float(generator.choice(GAINS)), effects(generator, session)["temperature-drift"])
 
 
 def prestress(generator, material):
@@ -100,6 +123,7 @@ def pair(generator):
 
 
 ROWS = {"contact-nonlinearity": hertz, "ageing-up-and-down": ageing_up_and_down, "prestress": prestress, "bond-bending-series": bending_series,
+        "normal-load": normal_load(True), "loading-relaxation": normal_load(False), "temperature-drift-loaded": cooling_under_load,
         "ageing-after-shear": after_shear, "ageing-sheared": ageing_sheared,
         "torque-offset": flow("torque-offset", "torque", 1e-5),
         "torque-offset-plates": flow("torque-offset", "torque", 1e-5, plates=(NARROW, NARROW, WIDE, WIDE), gaps=(1e-3,) * 4),

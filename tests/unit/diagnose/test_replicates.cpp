@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+#include <random>
+
 namespace coagula::diagnose {
 namespace {
 
@@ -86,6 +90,57 @@ TEST(Replicates, LineUpByTheNearestRowThatIsAlike) {
         EXPECT_EQ(at(row), 100.0 + static_cast<double>(row));
     }
     EXPECT_TRUE(std::isnan(at(8)));
+}
+
+/// Two samples whose moduli follow their normal forces, which fall in another course each, with errors of 2 %.
+std::vector<Measurement> pressed_samples(std::uint64_t seed, double force) {
+    constexpr std::size_t rows = 20;
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal;
+    std::vector<Measurement> tables;
+    for (const double time : {100.0, 1000.0}) {
+        Measurement table{.kind = MeasurementKind::time_sweep,
+                          .label = "run",
+                          .sample = std::to_string(tables.size()),
+                          .columns = {},
+                          .left_out = {}};
+        table.columns = {{"time", "s", {}}, {"storage_modulus", "Pa", {}}, {"normal_force", "N", {}}};
+        for (std::size_t row = 0; row < rows; ++row) {
+            const double at = 60.0 * static_cast<double>(row + 1);
+            const double load = force * std::exp(-at / time);
+            const double modulus = 500 * (1 + 0.2 * static_cast<double>(tables.size())) * (1 + 0.1 * load);
+            column(table, "time").values.push_back(at);
+            column(table, "normal_force").values.push_back(load);
+            column(table, "storage_modulus").values.push_back(modulus * (1 + 0.02 * normal(engine)));
+        }
+        tables.push_back(table);
+    }
+    return tables;
+}
+
+TEST(Replicates, OfSamplesUnderOtherLoadsDifferByTheirErrorsAlone) {
+    double with = 0;
+    double without = 0;
+    double hidden = 0;
+    constexpr int seeds = 40;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        std::vector<Measurement> tables = pressed_samples(seed, 3);
+        const NoiseModel known = fit_noise(find_replicates(tables).front());
+        EXPECT_EQ(known.degrees, 18);  // 40 values, 20 levels, 1 sample, 1 force
+        with += std::pow(known.relative.value, 2) / seeds;
+        for (Measurement& table : tables) {
+            drop_column(table, "normal_force");
+        }
+        hidden += std::pow(fit_noise(find_replicates(tables).front()).relative.value, 2) / seeds;
+        // Forces that differ by less than a transducer tells are left alone.
+        const NoiseModel weak = fit_noise(find_replicates(pressed_samples(seed, 0.1)).front());
+        EXPECT_EQ(weak.degrees, 19);
+        without += std::pow(weak.relative.value, 2) / seeds;
+    }
+    // 40 times 18 degrees of freedom: their variance is known to 5 %.
+    EXPECT_NEAR(with / 4e-4, 1, 0.15);
+    EXPECT_NEAR(without / 4e-4, 1, 0.15);
+    EXPECT_GT(hidden / 4e-4, 2);
 }
 
 }  // namespace

@@ -30,11 +30,13 @@ struct Replicates {
     bool floor_of_stress = false;          ///< w is 1/strain
     std::vector<std::string> labels = {};  ///< of the tables
     Eigen::VectorXd levels = {};           ///< of a phase: mean |G*|, one per condition
+    int fitted = 0;                        ///< parameters that were fitted to the values and taken out of them
 };
 
 /// Tables of one kind with the same run order whose axes run in the same direction and share at least three values, to 2 %, and
 /// that were measured at the same frequency and strain as far as these are not the axis; moduli of sweeps and gap series only.
-/// Tables without a partner make a group of their own. The measurements must have passed check_data.
+/// Tables without a partner make a group of their own. Where the tables of a group tell normal forces that differ in course by 0.1
+/// N or more, what follows the force is taken out of their values, by least squares. The measurements must have passed check_data.
 std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurements);
 
 /// A standard deviation with its 95 % profile-likelihood interval; low = high where it was not estimated.

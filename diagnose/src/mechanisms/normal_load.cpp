@@ -1,0 +1,65 @@
+#include "mechanisms.hpp"
+
+#include <numbers>
+
+namespace coagula::diagnose::mechanisms {
+
+namespace {
+
+/// Pressure over that of the contacts, below which networks come apart.
+constexpr double least_pressure = -0.3;
+/// By which the modulus of networks stays behind the cube root of the load, because loads are uneven and some contacts open.
+constexpr double unevenness = 1.5;
+
+/// Of Hertz contacts, which the plates press besides their adhesion: (1 + p)^(1/3) where all loads grow alike and are small.
+std::complex<double> pressed(std::complex<double> modulus, const Observation& row, Values values) {
+    if (!std::isfinite(row.normal_force) || !std::isfinite(row.plate_radius) || is_fluid(row) || is_steady(row)) {
+        return modulus;
+    }
+    const double area = std::numbers::pi * row.plate_radius * row.plate_radius;
+    const double pressure = std::max(row.normal_force / area / values[0], least_pressure);
+    return modulus * (1 + pressure / 3 / (1 + unevenness * pressure));
+}
+
+/// Of a sample that is sheared to and fro.
+bool shows_moduli(const Measurement& table) {
+    const bool moduli = find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr;
+    return moduli && table.kind != MeasurementKind::structure_series && std::isnan(table.fluid_viscosity);
+}
+
+bool shows_load(const Experiment& experiment) {
+    return knows_radius(experiment) && experiment.material.kind != MaterialKind::newtonian && knows_load(experiment);
+}
+
+}  // namespace
+
+bool knows_load(const Experiment& experiment) {
+    std::set<double> forces;
+    for (const Measurement& table : experiment.measurements) {
+        for (std::size_t row = 0; shows_moduli(table) && row < table.rows(); ++row) {
+            const double force = cell(table, "normal_force", row);
+            if (!std::isfinite(force)) {
+                return false;
+            }
+            forces.insert(force);
+        }
+    }
+    return forces.size() > 1;
+}
+
+/// Coagulated spheres of 0.5 um whose contacts hold 0.1 to 20 nN are pressed by their adhesion as by 0.2 to 50 kPa: volume fraction
+/// x coordination x force / (pi d^2) (Rumpf 1970), more where they are smaller. The modulus of a packing goes as the cube root of
+/// the load of its contacts (Digby 1981, with adhesion; Walton 1987); how far networks stay behind that is seen in
+/// tests/benchmark/diagnosis_campaign/pressed.py, at volume fractions of 0.4 and 0.5 and coordinations of 4.3 to 5.4.
+Mechanism normal_load() {
+    return {.name = "normal-load",
+            .term = "the plates press the sample, and its contacts stiffen under their load",
+            .signature =
+                "all moduli follow the normal force that was recorded, up and down, by the same part at every strain and "
+                "frequency",
+            .parameters = {{"contact_pressure", "Pa", 100, 1e6, true}},
+            .effect = ChangesGeometry{pressed},
+            .applies = shows_load};
+}
+
+}  // namespace coagula::diagnose::mechanisms

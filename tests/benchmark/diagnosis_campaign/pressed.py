@@ -1,0 +1,65 @@
+"""A network of Hertz contacts that plates press together, and its shear modulus then: what the normal force of a rheometer does to a gel.
+
+    python3 tests/benchmark/diagnosis_campaign/pressed.py PROGRAM FOLDER
+
+prints the modulus over that without load beside (1 + pressure)^(1/3), for structures that the program makes in the folder. Pressures are in units of
+that at which the contacts bear on average what their adhesion bears at rest."""
+
+import sys
+from pathlib import Path
+
+import numpy
+from scipy.interpolate import CubicSpline
+
+import hertz
+
+PRESSURES = (-0.2, -0.1, -0.05, 0.0, 0.05, 0.1, 0.2, 0.3, 0.4)
+
+
+def linear_modulus(network, normal, shear):
+    """Stress times the volume of a unit of the network's strain, contacts of these stiffnesses."""
+    ends = network.affine
+    along = numpy.einsum("mi,mi->m", ends, network.axis)[:, None] * network.axis
+    affine = normal[:, None] * along + shear[:, None] * (ends - along)
+    moved = -network.tangent(normal, shear).solve(network.assembled(affine))
+    return float(numpy.sum((ends + numpy.einsum("mik,mk->mi", network.moved, moved[network.places])) * affine))
+
+
+def pressed_along(axis, places, bonds, strains):
+    """Pressures and moduli of the two planes that plates across this axis shear, at strains of the gap in units of the overlap at rest."""
+    strain = numpy.zeros((3, 3))
+    strain[axis, axis] = -1.0
+    network = hertz.Network(len(places), bonds, strain)
+    planes = [hertz.Network(len(places), bonds, hertz.sheared(axis, other)) for other in range(3) if other != axis]
+    unit = 2 / 3 * len(bonds[0]) / 3  # of the pressure times the volume: adhesion 2/3, branch vectors 1
+    pressures, moduli = [], []
+    for stress, stretched in network.stresses(strains):
+        stiffness = numpy.sqrt(numpy.maximum(1 - stretched, 1e-6))
+        pressures.append(stress / unit)
+        moduli.append(numpy.mean([linear_modulus(plane, stiffness, hertz.SHEAR * stiffness) for plane in planes]))
+    return numpy.array(pressures), numpy.array(moduli)
+
+
+def growth(places, bonds):
+    """Modulus at PRESSURES over that without load, mean of three directions of the load."""
+    found = []
+    for axis in range(3):
+        (pulled, of_pulled), (pressed, of_pressed) = (
+            pressed_along(axis, places, bonds, sign * 0.02 * 1.25**numpy.arange(-1, steps)) for sign, steps in ((-1, 22), (1, 26)))
+        curve = CubicSpline([*pulled[::-1], *pressed], [*of_pulled[::-1], *of_pressed])
+        if not pulled[-1] <= PRESSURES[0] < PRESSURES[-1] <= pressed[-1]:
+            raise RuntimeError(f"a structure was pressed by {pulled[-1]:.2f} to {pressed[-1]:.2f} only")
+        found.append(curve(PRESSURES) / curve(0.0))
+    return numpy.mean(found, axis=0)
+
+
+if __name__ == "__main__":
+    from material import Material
+    import network
+
+    material = Material(*map(Path, sys.argv[1:]))
+    print("pressure ", *(f"{each:7}" for each in PRESSURES))
+    print("law      ", *(f"{(1 + each)**(1 / 3):7.3f}" for each in PRESSURES))
+    for number in range(4):
+        places, radii, box = material.particles(material.structure(number))
+        print(f"structure", *(f"{each:7.3f}" for each in growth(places, network.bonds_of(places, radii, box))))
