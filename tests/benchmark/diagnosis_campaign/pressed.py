@@ -2,7 +2,7 @@
 
     python3 tests/benchmark/diagnosis_campaign/pressed.py PROGRAM FOLDER
 
-prints the modulus over that without load beside (1 + pressure)^(1/3), for structures that the program makes in the folder. Pressures are in units of
+prints the modulus over that without load beside the law of the diagnosis, for structures that the program makes in the folder. Pressures are in units of
 that at which the contacts bear on average what their adhesion bears at rest."""
 
 import sys
@@ -53,13 +53,26 @@ def growth(places, bonds):
     return numpy.mean(found, axis=0)
 
 
-if __name__ == "__main__":
-    from material import Material
-    import network
+# Particles, volume fraction, voids, coordination and seed.
+SHOWN = (*((400, 0.4, 200, 4.69, 1000 + number) for number in range(4)), (400, 0.5, 200, 4.69, 5), (400, 0.4, 60, 4.69, 5), (400, 0.4, 200, 5.4, 5),
+         (400, 0.4, 200, 4.3, 5), (1000, 0.4, 500, 4.69, 5))
 
-    material = Material(*map(Path, sys.argv[1:]))
-    print("pressure ", *(f"{each:7}" for each in PRESSURES))
-    print("law      ", *(f"{(1 + each)**(1 / 3):7.3f}" for each in PRESSURES))
-    for number in range(4):
-        places, radii, box = material.particles(material.structure(number))
-        print(f"structure", *(f"{each:7.3f}" for each in growth(places, network.bonds_of(places, radii, box))))
+
+def main(program, folder):
+    import network
+    from material import Material
+
+    material = Material(Path(program).resolve(), folder)
+    row = lambda name, values: print(f"{name:40}", *(f"{each:7.3f}" for each in values), flush=True)
+    row("pressure", PRESSURES)
+    row("law", [1 + each / 3 / (1 + 1.5 * each) for each in PRESSURES])
+    for particles, fraction, voids, coordination, seed in SHOWN:
+        path = Path(folder) / "pressed.h5"
+        material.run("generate", "vem", "--particles", particles, "--volume-fraction", fraction, "--voids", voids, "--target-coordination", coordination,
+                     "--seed", seed, "--radius", "0.25um", "-o", path, "--force")
+        places, radii, box = material.particles(path)
+        row(f"N {particles}, phi {fraction}, {voids} voids, C {coordination}", growth(places, network.bonds_of(places, radii, box)))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
