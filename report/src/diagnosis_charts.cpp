@@ -39,7 +39,11 @@ const std::array<Pair, 5> pairs{{
      "third over first harmonic [%]",
      "|G*|",
      0.01},
-    {{"neighbours", ""}, {"neighbours", ""}, "Neighbours in shells of distance", "neighbours in a shell", "one neighbour"},
+    {{"neighbours_plane", "neighbours_axis"},
+     {"near the plane", "along z"},
+     "Neighbours in shells of distance",
+     "neighbours in a shell",
+     "one neighbour"},
     {{"exclusion_probability", ""}, {"pores", ""}, "Pores", "share of the void space farther away", "the void space"},
     {{"viscosity", ""}, {"viscosity", ""}, "Viscosity in steady flow", "viscosity [Pa s]", "the viscosity"},
 }};
@@ -245,7 +249,7 @@ std::string symbol_of(const std::string& observable) {
         return observable == "loss_modulus" ? "G''" : "G'";
     }
     return observable.starts_with("third_harmonic")     ? "the third harmonic"
-           : observable == pairs[2].observables.front() ? "the neighbours"
+           : observable.starts_with("neighbours")       ? "the neighbours"
            : observable == pairs[3].observables.front() ? "the pores"
            : observable == pairs[4].observables.front() ? "the viscosity"
                                                         : "all numbers";

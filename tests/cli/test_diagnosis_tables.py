@@ -86,10 +86,10 @@ class Coordinates(Tables):
     def test_neighbours_of_sharp_centres_fit(self):
         self.centres(0, 0)
         found = self.diagnosis(self.experiment())
-        self.assertEqual((found["verdict"], found["observations"]), ("no-discrepancy", 13))
-        self.assertEqual({row["observable"] for row in found["rows"]}, {"neighbours"})
+        self.assertEqual((found["verdict"], found["observations"]), ("no-discrepancy", 26))
+        self.assertEqual({row["observable"] for row in found["rows"]}, {"neighbours_plane", "neighbours_axis"})
         overlaps, contacts = found["rows"][:2]  # the four empty shells below the contact, and that from 0.95 to 1.05 diameters
-        self.assertTrue(3.5 < contacts["measured"] < 6 and abs(contacts["base"] / contacts["measured"] - 1) < 0.1)
+        self.assertTrue(1.7 < contacts["measured"] < 3 and abs(contacts["base"] / contacts["measured"] - 1) < 0.1)
         self.assertEqual((overlaps["measured"], contacts["row"] - overlaps["row"]), (0, 4))
 
     def test_errors_of_localisation_are_in_the_set(self):
@@ -97,7 +97,8 @@ class Coordinates(Tables):
         found = self.diagnosis(self.experiment())
         self.assertTrue(found["detected"])
         self.assertIn("localisation-error", found["credible_set"])
-        self.assertEqual((found["where"][0]["observable"], found["where"][0]["axis"]), ("neighbours", "distance"))
+        self.assertIn(found["where"][0]["observable"], ("neighbours_plane", "neighbours_axis"))
+        self.assertEqual(found["where"][0]["axis"], "distance")
         sigma = found["causes"][0]["parameters"]["sigma_axis"]
         self.assertTrue(0.7 * sigma["low"] < 1.2e-7 < 1.4 * sigma["high"])
         for row in found["rows"][4:5]:

@@ -43,8 +43,8 @@ std::string value_text(double value, Coordinate coordinate) {
 
 /// An observable in words.
 std::string spoken(const std::string& observable) {
-    if (observable == "neighbours") {
-        return "the number of neighbours";
+    if (observable.starts_with("neighbours")) {
+        return observable.ends_with("axis") ? "the number of neighbours along z" : "the number of neighbours in the plane";
     }
     if (observable == "exclusion_probability") {
         return "the share of the void space in larger pores";

@@ -27,6 +27,8 @@ using Eigen::Index;
 constexpr double relevant = 14;  // logarithms below the best node that count
 constexpr double heavy = 6;      // logarithms below the best node that are not to lie at the edge of the grid
 constexpr double reach = 5;      // standard deviations
+constexpr double smooth = 1.5;   // logarithms from node to node: its square over 24 is what the evidence may err by
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Nodes along an axis for so many axes.
 struct NodesAlong {
@@ -42,37 +44,78 @@ NodesAlong nodes_for(Index axes) {
 }
 
 /// Every node of a grid, as middles of cells 0 .. 1 along each axis.
-std::vector<Eigen::VectorXd> middles(Index axes, int nodes) {
+std::vector<Eigen::VectorXd> middles(const std::vector<int>& along) {
     std::size_t count = 1;
-    for (Index axis = 0; axis < axes; ++axis) {
+    for (const int nodes : along) {
         count *= static_cast<std::size_t>(nodes);
     }
     std::vector<Eigen::VectorXd> all;
     for (std::size_t number = 0; number < count; ++number) {
-        Eigen::VectorXd place(axes);
+        Eigen::VectorXd place(static_cast<Index>(along.size()));
         std::size_t rest = number;
-        for (Index axis = 0; axis < axes; ++axis) {
-            place[axis] = (static_cast<double>(rest % static_cast<std::size_t>(nodes)) + 0.5) / nodes;
-            rest /= static_cast<std::size_t>(nodes);
+        for (std::size_t axis = 0; axis < along.size(); ++axis) {
+            const auto nodes = static_cast<std::size_t>(along[axis]);
+            place[static_cast<Index>(axis)] = (static_cast<double>(rest % nodes) + 0.5) / static_cast<double>(nodes);
+            rest /= nodes;
         }
         all.push_back(std::move(place));
     }
     return all;
 }
 
-/// Largest difference of log weights between neighbours along any axis.
-double roughness(const std::vector<Node>& nodes, Index axes, int along) {
-    double largest = 0;
+/// Largest difference of log weights between neighbours along each axis, one of them less than `depth` below the best node.
+std::vector<double> roughness(const std::vector<Node>& nodes, const std::vector<int>& along, double depth) {
+    const auto lower = [](const Node& a, const Node& b) { return a.log_weight < b.log_weight; };
+    const double least = std::max_element(nodes.begin(), nodes.end(), lower)->log_weight - depth;
+    std::vector<double> largest;
     std::size_t stride = 1;
-    for (Index axis = 0; axis < axes; ++axis, stride *= static_cast<std::size_t>(along)) {
+    for (const int count : along) {
+        largest.push_back(0);
         for (std::size_t k = 0; k + stride < nodes.size(); ++k) {
-            if (k / stride % static_cast<std::size_t>(along) + 1 < static_cast<std::size_t>(along)) {
-                largest = std::max(largest, std::abs(nodes[k + stride].log_weight - nodes[k].log_weight));
+            const double here = nodes[k].log_weight;
+            const double next = nodes[k + stride].log_weight;
+            const bool neighbours = k / stride % static_cast<std::size_t>(count) + 1 < static_cast<std::size_t>(count);
+            if (neighbours && std::max(here, next) > least) {
+                largest.back() = std::max(largest.back(), std::abs(next - here));
             }
         }
+        stride *= static_cast<std::size_t>(count);
     }
     return largest;
 }
+
+/// A cell of a grid that stands askew in the prior.
+class CutCell {
+public:
+    /// @param edges of a cell, one per column.
+    explicit CutCell(const Eigen::MatrixXd& edges) : reach_(0.5 * edges.cwiseAbs().rowwise().sum()) {
+        constexpr int parts = 3;  // along each edge
+        for (const Eigen::VectorXd& part : middles(std::vector<int>(static_cast<std::size_t>(edges.cols()), parts))) {
+            parts_.emplace_back(edges * (part.array() - 0.5).matrix());
+        }
+    }
+
+    /// Where the middle of that part of the cell lies that the prior holds, and how large that is.
+    std::pair<Eigen::VectorXd, double> inside_prior(const Eigen::VectorXd& middle) const {
+        if ((middle - reach_).minCoeff() >= 0 && (middle + reach_).maxCoeff() <= 1) {
+            return {middle, 1};
+        }
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(middle.size());
+        double count = 0;
+        for (const Eigen::VectorXd& part : parts_) {
+            const Eigen::VectorXd place = middle + part;
+            if (place.minCoeff() >= 0 && place.maxCoeff() <= 1) {
+                sum += place;
+                ++count;
+            }
+        }
+        return {count > 0 ? Eigen::VectorXd(sum / count) : middle, count / static_cast<double>(parts_.size())};
+    }
+
+private:
+    Eigen::VectorXd reach_;  ///< of a cell along the axes of the prior, from its middle
+    std::vector<Eigen::VectorXd> parts_;
+};
 
 std::vector<double> log_weights(const PosteriorGrid& grid) {
     std::vector<double> weights;
@@ -115,7 +158,8 @@ bool PosteriorGrid::resolves_axes() const {
         squares += probability[k] * places[k].cwiseAbs2();
     }
     const Eigen::VectorXd variance = squares - mean.cwiseAbs2();
-    return (variance.array() >= (2 * half_widths).array().square()).all();
+    constexpr double enough = 0.65;  // of the square of a cell: three nodes of equal weight have two thirds
+    return (variance.array() >= enough * (2 * half_widths).array().square()).all();
 }
 
 bool PosteriorGrid::is_fine() const {
@@ -160,25 +204,38 @@ double PosteriorGrid::log_stiffness_quantile(double part, double further) const 
 
 ClosingGrid::ClosingGrid(Index axes, EvaluateNode evaluate)
     : evaluate_(std::move(evaluate)), low_(Eigen::ArrayXd::Zero(axes)), high_(Eigen::ArrayXd::Ones(axes)) {
-    constexpr double smooth = 1.5;  // logarithms from node to node: its square over 24 is what the evidence may err by
+    const auto count = static_cast<std::size_t>(axes);
     const NodesAlong nodes = nodes_for(axes);
-    fill(nodes.first);
-    settled_ = roughness(grid_.nodes, axes, nodes.first) < smooth;
+    fill(std::vector<int>(count, nodes.first));
+    const std::vector<double> rough = roughness(grid_.nodes, along_, infinite);
+    settled_ = std::all_of(rough.begin(), rough.end(), [](double one) { return one < smooth; });
     if (!settled_) {
-        fill(nodes.whole);
+        fill(std::vector<int>(count, nodes.whole));
     }
 }
 
-void ClosingGrid::fill(int nodes) {
+void ClosingGrid::fill(const std::vector<int>& along) {
     const Index axes = low_.size();
+    along_ = along;
     grid_ = {};
-    for (const Eigen::VectorXd& cell : middles(axes, nodes)) {
+    for (const Eigen::VectorXd& cell : middles(along)) {
         grid_.places.emplace_back((low_ + (high_ - low_) * cell.array()).matrix());
         grid_.nodes.push_back(evaluate_(grid_.places.back()));
     }
-    const Eigen::ArrayXd width = (high_ - low_) / nodes;
+    const Eigen::ArrayXd width = (high_ - low_) / Eigen::ArrayXi::Map(along.data(), axes).cast<double>();
     grid_.log_cell = width.log().sum();
     grid_.half_widths = (0.5 * width).matrix();
+}
+
+/// Few along axes along which the posterior hardly varies, and the more along the others.
+std::vector<int> ClosingGrid::nodes_of_box() const {
+    const std::vector<double> rough = roughness(grid_.nodes, along_, heavy);
+    const auto narrow = std::count_if(rough.begin(), rough.end(), [](double one) { return one >= smooth; });
+    std::vector<int> along;
+    for (const double one : rough) {
+        along.push_back(one < smooth ? nodes_for(low_.size()).first : nodes_for(narrow).box);
+    }
+    return along;
 }
 
 void ClosingGrid::close_in(int rounds) {
@@ -188,12 +245,15 @@ void ClosingGrid::close_in(int rounds) {
     const double enough = 2.0 * static_cast<double>(low_.size());
     for (int round = 0; round < rounds && !settled_; ++round) {
         const auto [low, high] = box_of_posterior();
-        settled_ = (low >= low_).all() && (high <= high_).all() && ((high - low) > same_size * (high_ - low_)).all();
+        const bool stays = (low >= low_).all() && (high <= high_).all() && ((high - low) > same_size * (high_ - low_)).all();
+        settled_ = stays && (is_box_ || grid_.resolves_axes());
         if (!settled_) {
             const double before = grid_.log_evidence();
+            const std::vector<int> along = nodes_of_box();
             low_ = low;
             high_ = high;
-            fill(nodes_for(low_.size()).box);
+            fill(along);
+            is_box_ = true;
             settled_ = std::abs(grid_.log_evidence() - before) < same_evidence && grid_.effective_nodes() > enough &&
                        grid_.resolves_axes();
         }
@@ -225,22 +285,24 @@ std::pair<Eigen::ArrayXd, Eigen::ArrayXd> ClosingGrid::box_of_posterior() const 
 
 PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& factor, const EvaluateNode& evaluate) {
     const int nodes = nodes_for(mode.size()).mode;
+    const Eigen::MatrixXd edges = 2 * reach / nodes * factor;
     PosteriorGrid grid;
     grid.mode = mode;
     grid.factor = factor;
-    grid.log_cell = static_cast<double>(mode.size()) * std::log(2 * reach / nodes) + factor.diagonal().array().abs().log().sum();
-    grid.half_widths = reach / nodes * factor.rowwise().norm();
-    for (const Eigen::VectorXd& cell : middles(mode.size(), nodes)) {
+    grid.log_cell = edges.diagonal().array().abs().log().sum();
+    grid.half_widths = 0.5 * edges.rowwise().norm();
+    const CutCell cut(edges);
+    for (const Eigen::VectorXd& cell : middles(std::vector<int>(static_cast<std::size_t>(mode.size()), nodes))) {
         const Eigen::VectorXd departure = (2 * reach * (cell.array() - 0.5)).matrix();
-        const Eigen::VectorXd place = mode + factor * departure;
         if (departure.norm() > reach) {
             continue;
         }
-        if (place.minCoeff() >= 0 && place.maxCoeff() <= 1) {
+        const auto [place, share] = cut.inside_prior(mode + factor * departure);
+        grid.clipped = grid.clipped || share < 1;
+        if (share > 0) {
             grid.places.push_back(place);
             grid.nodes.push_back(evaluate(place));
-        } else {
-            grid.clipped = true;
+            grid.nodes.back().log_weight += std::log(share);
         }
     }
     return grid;

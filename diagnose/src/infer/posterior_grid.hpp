@@ -35,7 +35,7 @@ struct PosteriorGrid {
     double effective_nodes() const;
     /// Whether these are enough for its quantiles.
     bool is_fine() const;
-    /// Whether along every axis the posterior is wider than a cell, by their standard deviation.
+    /// Whether along every axis the posterior is about as wide as a cell or wider, by its standard deviation.
     bool resolves_axes() const;
     /// Whether nodes about the mode lie about this place, too.
     bool reaches(const Eigen::VectorXd& place) const;
@@ -59,13 +59,16 @@ public:
     const PosteriorGrid& grid() const { return grid_; }
 
 private:
-    void fill(int nodes);
+    void fill(const std::vector<int>& along);
+    std::vector<int> nodes_of_box() const;
     std::pair<Eigen::ArrayXd, Eigen::ArrayXd> box_of_posterior() const;
 
     EvaluateNode evaluate_;
     Eigen::ArrayXd low_;  ///< corners of the part of the prior that it fills
     Eigen::ArrayXd high_;
+    std::vector<int> along_;  ///< nodes along each axis
     PosteriorGrid grid_;
+    bool is_box_ = false;  ///< no grid over the whole prior any more
     bool settled_ = false;
 };
 

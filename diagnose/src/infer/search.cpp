@@ -32,8 +32,9 @@ bool sees_more(const PosteriorGrid& about, const PosteriorGrid& along) {
         return false;
     }
     const double gain = about.nodes[about.best()].log_weight - along.nodes[along.best()].log_weight;
+    const bool resolved = along.resolves_axes();
     return gain > missed * static_cast<double>(along.half_widths.size()) ||
-           (!along.is_fine() && gain > -1 && about.effective_nodes() > along.effective_nodes());
+           (!(along.is_fine() && resolved) && gain > -1 && (!resolved || about.effective_nodes() > along.effective_nodes()));
 }
 
 /// Whether a grid about the mode holds all of the posterior that one over the whole prior sees.
@@ -158,12 +159,15 @@ PosteriorGrid Inference::posterior(const Hypothesis& hypothesis) const {
         return base;
     }
     const bool is_flat = closing.is_settled();
-    const auto about_mode = [&]() {
-        return axes > 1 && !is_flat ? grid_about_mode(hypothesis, grid.places[grid.best()], evaluate) : std::nullopt;
-    };
     std::optional<PosteriorGrid> about;
+    const auto look_about_mode = [&] {
+        const double highest = grid.nodes[grid.best()].log_weight;
+        if (axes > 1 && !is_flat && (!about || about->nodes[about->best()].log_weight < highest)) {
+            about = grid_about_mode(hypothesis, grid.places[grid.best()], evaluate);
+        }
+    };
     if (!grid.is_fine()) {  // of a narrow posterior the mode is found sooner than the box
-        about = about_mode();
+        look_about_mode();
         if (about && holds(*about, grid)) {
             return *about;
         }
@@ -172,10 +176,10 @@ PosteriorGrid Inference::posterior(const Hypothesis& hypothesis) const {
     constexpr int few_rounds = 3;
     const int more_rounds = axes > 1 ? 2 : 4;
     closing.close_in(few_rounds);
-    about = about_mode();
+    look_about_mode();
     if (!closing.is_settled() && !(about && about->is_fine() && sees_more(*about, grid))) {
         closing.close_in(more_rounds);
-        about = about_mode();
+        look_about_mode();
     }
     return about && sees_more(*about, grid) ? *about : grid;
 }

@@ -34,7 +34,7 @@ std::vector<double> Simulator::mean_over_structures(const std::string& what, std
 
 /// Neighbours in every shell for errors in the plane and along z over the diameter.
 std::vector<double> Simulator::shells(double plane, double axis) {
-    return mean_over_structures("neighbours", shell_count, {plane, axis}, [&](const Packing& structure) {
+    return mean_over_structures("neighbours by direction", shell_count, {plane, axis}, [&](const Packing& structure) {
         return shells_of_structure(structure, 2 * radius_ * plane, 2 * radius_ * axis);
     });
 }
@@ -43,7 +43,7 @@ std::vector<double> Simulator::shells(double plane, double axis) {
 const std::vector<double>& Simulator::neighbour_spread() {
     if (spread_of_neighbours_.empty()) {
         constexpr std::size_t count = shell_count * (1 + 2 * shell_count);
-        spread_of_neighbours_ = mean_over_structures("spread of neighbours", count, {}, spread_of_neighbours);
+        spread_of_neighbours_ = mean_over_structures("spread of neighbours by direction", count, {}, spread_of_neighbours);
     }
     return spread_of_neighbours_;
 }
@@ -71,7 +71,7 @@ const std::vector<double>& Simulator::shell_node(int plane, int axis) {
 /// As of the function.
 const std::vector<double>& Simulator::shells_about_places() {
     if (shells_about_places_.empty()) {
-        shells_about_places_ = mean_over_structures("places", shell_count + 1, {}, shells_about_free_places);
+        shells_about_places_ = mean_over_structures("places by direction", shell_count + 1, {}, shells_about_free_places);
     }
     return shells_about_places_;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -21,11 +22,23 @@ constexpr Index least_particles_of_shells = 4000;  ///< so that the errors that 
 
 constexpr double least_variance = 10;
 constexpr int shell_of_contact = 4;
+constexpr Index axes = 3;
 
-/// The shell of a distance over the diameter; -1 beyond them.
-int shell_at(double distance) {
-    const int shell = static_cast<int>(std::floor((distance - first_shell) / shell_width));
-    return shell >= 0 && shell < shell_count ? shell : -1;
+/// The shell of a neighbour at this place; -1 beyond them.
+int shell_at(const Eigen::Vector3d& branch, double diameter) {
+    const double distance = branch.norm();
+    const int shell = static_cast<int>(std::floor((distance / diameter - first_shell) / shell_width));
+    const int first = 2 * std::abs(branch.z()) < distance ? 0 : shells_of_direction;
+    return shell >= 0 && shell < shells_of_direction ? first + shell : -1;
+}
+
+/// The same structure with another of its axes along z; `turns` = 0 leaves it.
+Packing turned(const Packing& packing, Index turns) {
+    const std::array<Index, 3> rows{turns % 3, (turns + 1) % 3, (turns + 2) % 3};
+    Packing other = packing;
+    other.cell = Cell::periodic(packing.cell.lengths()(rows));
+    other.positions = packing.positions(rows, Eigen::all);
+    return other;
 }
 
 /// Of a periodic structure: the pairs within the reach, and the neighbours of every particle, shells x particles.
@@ -39,7 +52,7 @@ Neighbours neighbours_of(const Packing& packing, double diameter) {
     seen.radii.setConstant(diameter / 2);  // the shells are distances of centres, whatever the sizes
     Neighbours all{find_contacts(seen, shell_reach - 1), Eigen::MatrixXd::Zero(shell_count, packing.size())};
     for (Index pair = 0; pair < all.pairs.size(); ++pair) {
-        if (const int shell = shell_at(all.pairs.branch.col(pair).norm() / diameter); shell >= 0) {
+        if (const int shell = shell_at(all.pairs.branch.col(pair), diameter); shell >= 0) {
             all.counts(shell, all.pairs.ends(0, pair)) += 1;
             all.counts(shell, all.pairs.ends(1, pair)) += 1;
         }
@@ -77,7 +90,7 @@ NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diame
         }
         ++shells.centres;
         for (Index other = 0; other < positions.cols(); ++other) {
-            const int shell = other == centre ? -1 : shell_at((positions.col(other) - positions.col(centre)).norm() / diameter);
+            const int shell = other == centre ? -1 : shell_at(positions.col(other) - positions.col(centre), diameter);
             if (shell >= 0) {
                 neighbours[shell] += 1;
                 mutual[shell] += is_centre(other) ? 1 : 0;
@@ -96,7 +109,8 @@ NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diame
 std::vector<ShellGroup> groups_of_shells(const std::vector<double>& variances) {
     std::vector<ShellGroup> groups;
     for (int shell = 0; shell < shell_count; ++shell) {
-        const bool begins = groups.empty() || shell == shell_of_contact || groups.back().variance >= least_variance;
+        const int place = shell % shells_of_direction;
+        const bool begins = place == 0 || place == shell_of_contact || groups.back().variance >= least_variance;
         if (begins) {
             groups.push_back({shell, 0, 0});
         }
@@ -113,28 +127,32 @@ double error_of_count(double variance) {
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis) {
     const double diameter = 2 * mean_radius(packing);
     const bool sharp = sigma_plane == 0 && sigma_axis == 0;
-    const Index draws = sharp ? 1 : 1 + least_particles_of_shells / packing.size();
-    Packing seen = packing;
+    const Index draws = axes * (sharp ? 1 : 1 + least_particles_of_shells / packing.size() / axes);
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(shell_count);
     for (Index draw = 0; draw < draws; ++draw) {
-        seen.positions = with_errors(packing.positions, sigma_plane, sigma_axis, seed_of_shells, static_cast<std::uint64_t>(draw));
+        Packing seen = turned(packing, draw);
+        seen.positions = with_errors(seen.positions, sigma_plane, sigma_axis, seed_of_shells, static_cast<std::uint64_t>(draw));
         mean += neighbours_of(seen, diameter).counts.rowwise().mean() / static_cast<double>(draws);
     }
     return {mean.begin(), mean.end()};
 }
 
 std::vector<double> spread_of_neighbours(const Packing& packing) {
-    const auto [pairs, counts] = neighbours_of(packing, 2 * mean_radius(packing));
-    const Eigen::VectorXd mean = counts.rowwise().mean();
-    const Eigen::MatrixXd own = counts.colwise() - mean;
-    Eigen::MatrixXd others = Eigen::MatrixXd::Zero(own.rows(), own.cols());
-    for (Index pair = 0; pair < pairs.size(); ++pair) {
-        others.col(pairs.ends(0, pair)) += own.col(pairs.ends(1, pair));
-        others.col(pairs.ends(1, pair)) += own.col(pairs.ends(0, pair));
-    }
     const auto particles = static_cast<double>(packing.size());
-    Eigen::MatrixXd spread(shell_count, 1 + 2 * shell_count);
-    spread << mean, own * own.transpose() / particles, own * others.transpose() / particles;
+    Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(shell_count, 1 + 2 * shell_count);
+    for (Index axis = 0; axis < axes; ++axis) {
+        const auto [pairs, counts] = neighbours_of(turned(packing, axis), 2 * mean_radius(packing));
+        const Eigen::VectorXd mean = counts.rowwise().mean();
+        const Eigen::MatrixXd own = counts.colwise() - mean;
+        Eigen::MatrixXd others = Eigen::MatrixXd::Zero(own.rows(), own.cols());
+        for (Index pair = 0; pair < pairs.size(); ++pair) {
+            others.col(pairs.ends(0, pair)) += own.col(pairs.ends(1, pair));
+            others.col(pairs.ends(1, pair)) += own.col(pairs.ends(0, pair));
+        }
+        spread.col(0) += mean / axes;
+        spread.middleCols<shell_count>(1) += own * own.transpose() / (axes * particles);
+        spread.rightCols<shell_count>() += own * others.transpose() / (axes * particles);
+    }
     return {spread.reshaped().begin(), spread.reshaped().end()};
 }
 
@@ -162,9 +180,8 @@ std::vector<double> shells_about_free_places(const Packing& packing) {
         for (Index particle = 0; particle < packing.size() && !taken; ++particle) {
             Eigen::Array3d branch = packing.positions.col(particle).array() - place;
             branch -= box * (branch / box).round();
-            const double distance = branch.matrix().norm() / diameter;
-            taken = distance < nearest;
-            if (const int shell = shell_at(distance); shell >= 0) {
+            taken = branch.matrix().norm() < nearest * diameter;
+            if (const int shell = shell_at(branch, diameter); shell >= 0) {
                 shells.push_back(shell);
             }
         }
@@ -175,16 +192,17 @@ std::vector<double> shells_about_free_places(const Packing& packing) {
             }
         }
     }
-    for (double& value : mean) {
-        value /= std::max(1, free);
+    for (std::size_t shell = 0; shell < shells_of_direction; ++shell) {
+        const double both = mean[shell] + mean[shells_of_direction + shell];
+        mean[shell] = mean[shells_of_direction + shell] = 0.5 * both / std::max(1, free);
     }
     mean.push_back(static_cast<double>(packing.size()) * std::pow(diameter, 3) / box.prod());
     return mean;
 }
 
 double shell_volume(std::size_t shell) {
-    const double inner = first_shell + shell_width * static_cast<double>(shell);
-    return 4 * std::numbers::pi / 3 * (std::pow(inner + shell_width, 3) - std::pow(inner, 3));
+    const double inner = inner_end(shell);
+    return 2 * std::numbers::pi / 3 * (std::pow(inner + shell_width, 3) - std::pow(inner, 3));
 }
 
 }  // namespace coagula::diagnose

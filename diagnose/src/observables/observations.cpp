@@ -180,7 +180,7 @@ std::vector<Observation> neighbours_in(const std::vector<Eigen::Matrix3Xd>& imag
                                                   0.0);
                        }),
                        .standard_error = error_of_count(group.variance) / centres,
-                       .distance = first_shell + shell_width * (group.first + 0.5 * group.count),
+                       .distance = inner_end(static_cast<std::size_t>(group.first)) + 0.5 * shell_width * group.count,
                        .shells = static_cast<std::size_t>(group.count),
                        .centres = centres,
                        .mutual = mean([](const NeighbourShells& one) { return one.mutual; })});
@@ -298,7 +298,7 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
 
 const char* observable_of(const Observation& observation) {
     if (std::isfinite(observation.distance)) {
-        return "neighbours";
+        return is_along_axis(observation.row) ? "neighbours_axis" : "neighbours_plane";
     }
     if (is_pore(observation)) {
         return "exclusion_probability";

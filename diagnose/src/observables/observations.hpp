@@ -50,7 +50,8 @@ struct Observation {
     double heterogeneity = unset;
     double coordination = unset;
     double volume_fraction = unset;
-    // Of coordinates: the value is the mean number of neighbours in consecutive shells, the first of which is the row ...
+    // Of coordinates: the value is the mean number of neighbours in consecutive shells of a direction, the first of which is the
+    // row ...
     double distance = unset;  ///< middle of the shells over the diameter
     std::size_t shells = 1;
     // ... or what differs between images of the same particles; rows after those of the shells.
@@ -61,8 +62,8 @@ struct Observation {
     double pore_radius = unset;  ///< [m]
 };
 
-/// "storage_modulus", "loss_modulus", "viscosity", "third_harmonic_storage", "third_harmonic_loss", "neighbours",
-/// "exclusion_probability", "localisation_plane", "localisation_axis" or "unmatched_share".
+/// "storage_modulus", "loss_modulus", "viscosity", "third_harmonic_storage", "third_harmonic_loss", "neighbours_plane",
+/// "neighbours_axis", "exclusion_probability", "localisation_plane", "localisation_axis" or "unmatched_share".
 const char* observable_of(const Observation& observation);
 
 /// Of steady flow: a viscosity.

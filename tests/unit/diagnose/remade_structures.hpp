@@ -3,6 +3,7 @@
 
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
+#include "observables/neighbour_shells.hpp"
 
 #include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/generators/size_distribution.hpp>
@@ -54,6 +55,11 @@ inline PoreCurve sampled_pores_of(const Packing& packing) {
 
 inline PoreCurve measured_pores(const Packing& packing) {
     return is_monodisperse(packing) ? pores_of(packing) : sampled_pores_of(packing);
+}
+
+/// Neighbours in a shell of the plane and in that along z together.
+inline double neighbours_in(Simulator& simulator, const Settings& settings, std::size_t shell) {
+    return simulator.neighbours(settings, shell) + simulator.neighbours(settings, shell + shells_of_direction);
 }
 
 /// The pore curve of a structure as a table, 25 radii to 1.25 particle radii.

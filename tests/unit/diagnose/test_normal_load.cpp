@@ -33,8 +33,8 @@ Complex pressed_by(Complex modulus, double force, double of_plate = plate, doubl
 }
 
 /// tests/benchmark/diagnosis_campaign/pressed.py: structures of Hertz contacts with adhesion, in equilibrium between plates, at
-/// pressures over that of their adhesion: mean of four of 400 particles at a volume fraction of 0.4, one of coordination 5.4, one of
-/// volume fraction 0.5 and one of 1000 particles.
+/// pressures over that of their adhesion: mean of four of 400 particles at a volume fraction of 0.4, one of coordination 5.4, one
+/// of volume fraction 0.5 and one of 1000 particles.
 TEST(NormalLoad, IsWhatNetworksOfHertzContactsShow) {
     constexpr std::array<std::array<double, 5>, 7> networks{{{-0.1, 0.958, 0.970, 0.971, 0.961},
                                                              {-0.05, 0.983, 0.986, 0.986, 0.981},

@@ -64,6 +64,28 @@ TEST(PosteriorGrid, HasFewNodesWhereThePosteriorHardlyDiffersFromThePrior) {
     EXPECT_GT(steep.grid().nodes.size(), 100U);
 }
 
+/// One axis that is known to a hundredth of its prior beside three that are not known at all, or to a third.
+TEST(PosteriorGrid, ClosesInOnANarrowAxisBesideFlatOnes) {
+    for (const double middle : {0.3, 0.5, 0.86}) {
+        std::size_t evaluated = 0;
+        ClosingGrid closing(4, [&](const Eigen::VectorXd& place) {
+            ++evaluated;
+            const double wide = (place[3] - 0.5) / 0.33;
+            const double narrow = (place[1] - middle) / 0.01;
+            return Node{.log_weight = -0.5 * (narrow * narrow + wide * wide)};
+        });
+        closing.close_in(5);
+        const PosteriorGrid& grid = closing.grid();
+        EXPECT_TRUE(closing.is_settled()) << middle;
+        const double along_wide = 0.33 * std::sqrt(2 * std::numbers::pi) * std::erf(0.5 / 0.33 / std::numbers::sqrt2);
+        EXPECT_NEAR(grid.log_evidence(), std::log(0.01 * std::sqrt(2 * std::numbers::pi) * along_wide), 0.1) << middle;
+        EXPECT_NEAR(grid.quantile(1, 0.05), middle - 1.645 * 0.01, 0.004) << middle;
+        EXPECT_NEAR(grid.quantile(1, 0.95), middle + 1.645 * 0.01, 0.004) << middle;
+        EXPECT_NEAR(grid.quantile(0, 0.95), 0.95, 0.01) << middle;
+        EXPECT_LT(evaluated, 4000U) << middle;
+    }
+}
+
 TEST(PosteriorGrid, LeavesOutWhatThePriorDoesNotAllow) {
     const Eigen::Matrix2d covariance = 1e-4 * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d corner(0.0, 0.5);  // half of it lies below 0

@@ -50,9 +50,9 @@ TEST(Polydispersity, NodesAreTheStructuresThemselves) {
         counted +=
             0.5 * neighbours_between(structure_with_sizes(recipe_particles, seed, SizeKind::lognormal, deviation), 0.95, 1.05);
     }
-    EXPECT_NEAR(recipe().simulator.neighbours(with_sizes(deviation), contact_shell), counted, 1e-12);
-    EXPECT_EQ(recipe().simulator.neighbours(with_sizes(0), contact_shell),
-              recipe().simulator.neighbours(Settings{}, contact_shell));
+    EXPECT_NEAR(neighbours_in(recipe().simulator, with_sizes(deviation), contact_shell), counted, 1e-12);
+    EXPECT_EQ(neighbours_in(recipe().simulator, with_sizes(0), contact_shell),
+              neighbours_in(recipe().simulator, Settings{}, contact_shell));
 }
 
 /// Between the nodes as close to structures of that deviation as these are to each other.
@@ -60,9 +60,9 @@ TEST(Polydispersity, BetweenTheNodesStructuresAreMet) {
     for (const double deviation : {0.06, 0.13, 0.28}) {
         Simulator& exact = recipe().simulator.remade({.size_deviation = deviation});
         for (std::size_t shell = 2; shell < 10; ++shell) {
-            const double counted = exact.neighbours(Settings{}, shell);
+            const double counted = neighbours_in(exact, Settings{}, shell);
             const double scatter = std::sqrt(2 * std::max(counted, 1.0) / (2 * recipe_particles));
-            EXPECT_NEAR(recipe().simulator.neighbours(with_sizes(deviation), shell), counted, 2.5 * scatter)
+            EXPECT_NEAR(neighbours_in(recipe().simulator, with_sizes(deviation), shell), counted, 2.5 * scatter)
                 << deviation << ", shell " << shell;
         }
         // Moduli of two structures of 300 particles scatter by a tenth about their mean.

@@ -53,8 +53,8 @@ TEST(StructureChanges, BetweenTheNodesStructuresAreMet) {
         double all_counted = 0;
         double all_predicted = 0;
         for (std::size_t shell = 2; shell < 16; ++shell) {
-            const double counted = exact.neighbours(Settings{}, shell);
-            const double predicted = recipe().simulator.neighbours(settings, shell);
+            const double counted = neighbours_in(exact, Settings{}, shell);
+            const double predicted = neighbours_in(recipe().simulator, settings, shell);
             EXPECT_NEAR(predicted, counted, scatter_of_difference(counted)) << name << ", shell " << shell;
             all_counted += counted;
             all_predicted += predicted;
@@ -68,8 +68,8 @@ TEST(StructureChanges, ContactsFollowTheCoordination) {
     Settings connected;
     connected.coordination = 5.1;
     constexpr std::size_t contact_shell = 4;  // 0.95 to 1.05 diameters
-    const double touching = recipe().simulator.neighbours(Settings{}, contact_shell);
-    EXPECT_NEAR(recipe().simulator.neighbours(connected, contact_shell) - touching, 5.1 - 4.69, 0.25);
+    const double touching = neighbours_in(recipe().simulator, Settings{}, contact_shell);
+    EXPECT_NEAR(neighbours_in(recipe().simulator, connected, contact_shell) - touching, 5.1 - 4.69, 0.25);
     EXPECT_GT(recipe().simulator.linear_modulus(connected), 1.2 * recipe().simulator.linear_modulus(Settings{}));
 }
 
