@@ -27,6 +27,7 @@ struct Pair {
     double unit = 1;
 
     bool of_moduli() const { return label.empty(); }
+    bool of_neighbours() const { return observables.front() == "neighbours_plane"; }
     /// Moduli and viscosities of samples differ by factors.
     bool scales() const { return of_moduli() || observables.front() == "viscosity"; }
 };
@@ -63,12 +64,14 @@ double factor_of(const Shown& shown, const std::vector<diagnose::SampleEffect>& 
 
 Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& diagnosis, const Pair& pair) {
     const diagnose::Column* column = diagnose::axis_of(table);
-    Shown shown{.pair = pair, .x = axis_named(column == nullptr ? "" : column->name)};
+    Shown shown{.pair = pair, .x = axis_named(pair.of_neighbours() ? "distance" : column == nullptr ? "" : column->name)};
     for (std::size_t k = 0; k < diagnosis.rows.size(); ++k) {
         const PredictedRow& row = diagnosis.rows[k];
         const bool belongs = std::find(pair.observables.begin(), pair.observables.end(), row.observable) != pair.observables.end();
         if (row.measurement == number && belongs) {
-            const double place = column == nullptr ? static_cast<double>(row.row + 1) : column->values[row.row];
+            const double place = pair.of_neighbours() ? row.distance
+                                 : column == nullptr  ? static_cast<double>(row.row + 1)
+                                                      : column->values[row.row];
             shown.x.include(place);
             shown.rows.push_back(k);
             shown.places.push_back(place / shown.x.unit);

@@ -133,7 +133,8 @@ std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
         html += image_table(found, k, extended);
         html += table_charts(charts, table, k, found, extended);
         html += paragraph(
-            "Circles: elastic part or the quantity itself; triangles: viscous part; open: held out for the gain; bars: one "
+            "Circles: elastic part or the quantity itself; triangles: viscous part, or neighbours along z; open: held out for the "
+            "gain; bars: one "
             "standard "
             "deviation. " +
                 (effect == found.base_effects.end() || effect->effect == 0

@@ -54,14 +54,18 @@ Json effects_json(const std::vector<diagnose::SampleEffect>& effects) {
 }
 
 Json row_json(const diagnose::PredictedRow& row) {
-    return {{"measurement", row.measurement + 1},
-            {"row", row.row + 1},
-            {"observable", row.observable},
-            {"measured", row.measured},
-            {"standard_deviation", row.standard_deviation},
-            {"base", row.base},
-            {"extended", row.extended},
-            {"held_out", row.held_out}};
+    Json json{{"measurement", row.measurement + 1},
+              {"row", row.row + 1},
+              {"observable", row.observable},
+              {"measured", row.measured},
+              {"standard_deviation", row.standard_deviation},
+              {"base", row.base},
+              {"extended", row.extended},
+              {"held_out", row.held_out}};
+    if (std::isfinite(row.distance)) {
+        json["distance"] = row.distance;
+    }
+    return json;
 }
 
 std::string describe(const Cause& cause) {

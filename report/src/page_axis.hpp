@@ -32,7 +32,7 @@ struct PageAxis {
     Json json() const { return {{"label", label}, {"logarithmic", logarithmic()}}; }
 };
 
-/// The axis of a table by the name of its column; empty: the table has none.
+/// The axis of a table by the name of its column.
 inline PageAxis axis_named(const std::string& name) {
     static const std::map<std::string, std::pair<std::string, double>> known{
         {"strain", {"strain amplitude γ₀ [%]", 0.01}},
@@ -43,10 +43,10 @@ inline PageAxis axis_named(const std::string& name) {
         {"heterogeneity", {"degree of heterogeneity a", 1.0}},
         {"coordination", {"coordination number C", 1.0}},
         {"volume_fraction", {"volume fraction φ", 1.0}},
+        {"distance", {"distance [diameters]", 1.0}},
         {"pore_radius", {"distance from the nearest particle surface [µm]", 1e-6}}};
     const auto found = known.find(name);
-    return found == known.end() ? PageAxis{.label = name.empty() ? "shell of neighbours" : "row"}
-                                : PageAxis{.label = found->second.first, .unit = found->second.second};
+    return found == known.end() ? PageAxis{.label = "row"} : PageAxis{.label = found->second.first, .unit = found->second.second};
 }
 
 /// The unit that a modulus is shown in.

@@ -95,7 +95,7 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
         const auto i = static_cast<Index>(k);
         diagnosis.rows.push_back({observation.measurement, observation.row, observable_of(observation), observation.value,
                                   deviation[i], by_base.values[i], by_extended.values[i], in_any(folds, k), base_residual[i],
-                                  extended_residual[i]});
+                                  extended_residual[i], observation.distance});
     }
 }
 

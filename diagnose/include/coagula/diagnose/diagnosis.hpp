@@ -140,6 +140,7 @@ struct PredictedRow {
     double base_residual =
         0;  ///< measured less predicted, sample effects taken out, over the standard deviation (and decorrelated)
     double extended_residual = 0;
+    double distance = unset;  ///< of the middle of the shells, over the diameter, where these are neighbours
 };
 
 /// What a cause other than the best predicts, to be held against the data.
