@@ -134,9 +134,7 @@ std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
         html += table_charts(charts, table, k, found, extended);
         html += paragraph(
             "Circles: elastic part or the quantity itself; triangles: viscous part, or neighbours along z; open: held out for the "
-            "gain; bars: one "
-            "standard "
-            "deviation. " +
+            "gain; bars: one standard deviation. " +
                 (effect == found.base_effects.end() || effect->effect == 0
                      ? std::string{}
                      : "Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +

@@ -120,7 +120,8 @@ TEST(Evidence, OfAPairIsThatOfTheCauseWhereItsPartnerDoesLittle) {
     constexpr int places = 40;
     std::vector<double> logarithms;
     for (int place = 0; place < places * places; ++place) {
-        const Eigen::Vector2d at(place % places + 0.5, place / places + 0.5);
+        const int row = place / places;
+        const Eigen::Vector2d at(place % places + 0.5, row + 0.5);
         logarithms.push_back(log_integral_over_stiffness(forward, errors, model_at(losses, at / places, 1)));
     }
     const double integral = log_mean(logarithms) - log_prior_of_stiffness;

@@ -19,7 +19,7 @@
 namespace coagula::diagnose {
 namespace {
 
-constexpr int sites_along = 8;
+constexpr std::uint64_t sites_along = 8;
 constexpr double spacing = 3.5;  // diameters: the next site is beyond the reach of the shells
 constexpr double triangles = 0.1;
 constexpr double in_triangles = 3 * triangles / (1 + 2 * triangles);  // share of the particles
@@ -39,7 +39,7 @@ Packing singles_and_triangles(std::uint64_t seed) {
         }
     }
     const auto count = static_cast<Index>(positions.size());
-    Packing packing{.cell = Cell::periodic(Eigen::Vector3d::Constant(spacing * sites_along)),
+    Packing packing{.cell = Cell::periodic(Eigen::Vector3d::Constant(spacing * static_cast<double>(sites_along))),
                     .positions = Eigen::Matrix3Xd(3, count),
                     .radii = Eigen::VectorXd::Constant(count, 0.5)};
     for (Index particle = 0; particle < count; ++particle) {
@@ -59,7 +59,7 @@ double variance_in_contact(const Eigen::MatrixXd& errors) {
 }
 
 double share_in_triangles(const Packing& packing) {
-    const double sites = sites_along * sites_along * sites_along;
+    constexpr auto sites = static_cast<double>(sites_along * sites_along * sites_along);
     const auto particles = static_cast<double>(packing.size());
     return 1.5 * (particles - sites) / particles;
 }
