@@ -42,7 +42,8 @@ std::vector<double> Simulator::shells(double plane, double axis) {
 /// As of the function.
 const std::vector<double>& Simulator::neighbour_spread() {
     if (spread_of_neighbours_.empty()) {
-        constexpr auto count = static_cast<std::size_t>(shell_count * (1 + 2 * shell_count));
+        constexpr std::size_t shells = shell_count;
+        constexpr std::size_t count = shells * (1 + 2 * shells);
         spread_of_neighbours_ = mean_over_structures("spread of neighbours by direction", count, {}, spread_of_neighbours);
     }
     return spread_of_neighbours_;

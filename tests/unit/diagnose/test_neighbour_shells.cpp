@@ -29,9 +29,10 @@ constexpr Index contact_along_axis = shells_of_direction + contact;
 Packing singles_and_triangles(std::uint64_t seed) {
     std::vector<Eigen::Vector3d> positions;
     for (std::uint64_t site = 0; site < sites_along * sites_along * sites_along; ++site) {
+        const std::uint64_t row = site / sites_along;
+        const std::uint64_t layer = row / sites_along;
         const Eigen::Vector3d place = spacing * Eigen::Vector3d(static_cast<double>(site % sites_along),
-                                                                static_cast<double>(site / sites_along % sites_along),
-                                                                static_cast<double>(site / (sites_along * sites_along)));
+                                                                static_cast<double>(row % sites_along), static_cast<double>(layer));
         positions.push_back(place);
         if (random_uniform(seed, RandomPurpose::diagnosis, 0, site)[0] < triangles) {
             positions.emplace_back(place + Eigen::Vector3d(1, -1, 0).normalized());
