@@ -10,8 +10,10 @@ set(coagula_slow_tests
   "ContactLosses[.](A|Low).*"
   "ContactNonlinearity[.].*"
   "Diagnosis[.](NamesTheStrengthOfTheBonds|FollowsTheScaleOfTheModuli)"
+  "Evidence[.]OfAPair.*"
   "HiddenEffects[.](ASampleThatLiesApart|ErrorsOf|FalseParticles|LookAlikes|ShearStiffness|TwoEffects).*"
   "MissingContacts[.](A|Curve|Follow).*"
+  "NormalLoad[.]IsNamed.*"
   "PlateStrainField[.].*"
   "PoroelasticBackflow[.]Is.*"
   "Polydispersity[.].*"
@@ -73,6 +75,7 @@ set(coagula_slow_tests
   "cli[.]materials[.]RealExports[.](wormlike_micelles|yielding_and_recovery).*"
   "cli[.]option_sweep"
   "mechanics_validation[.].*"
+  "python[.]package[.]Stubs[.]mypy.*"
   "examples[.].*"
   "manual[.].*"
 )
