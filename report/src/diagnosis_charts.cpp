@@ -17,7 +17,7 @@ using diagnose::Diagnosis;
 using diagnose::Measurement;
 using diagnose::PredictedRow;
 
-/// Observables that share a figure: an elastic and a viscous one, or one alone.
+/// Observables that share a figure: an elastic and a viscous one, those near the plane and along z, or one alone.
 struct Pair {
     std::array<std::string, 2> observables;
     std::array<std::string, 2> symbols;

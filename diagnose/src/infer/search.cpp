@@ -32,9 +32,11 @@ bool sees_more(const PosteriorGrid& about, const PosteriorGrid& along) {
         return false;
     }
     const double gain = about.nodes[about.best()].log_weight - along.nodes[along.best()].log_weight;
-    const bool resolved = along.resolves_axes();
-    return gain > missed * static_cast<double>(along.half_widths.size()) ||
-           (!(along.is_fine() && resolved) && gain > -1 && (!resolved || about.effective_nodes() > along.effective_nodes()));
+    if (gain > missed * static_cast<double>(along.half_widths.size())) {
+        return true;
+    }
+    const bool has_more = !along.is_fine() && about.effective_nodes() > along.effective_nodes();
+    return gain > -1 && (!along.resolves_axes() || has_more);
 }
 
 /// Whether a grid about the mode holds all of the posterior that one over the whole prior sees.

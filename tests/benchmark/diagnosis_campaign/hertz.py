@@ -4,6 +4,8 @@ import numpy
 import scipy.sparse
 import scipy.sparse.linalg
 
+import network
+
 POISSON = 0.2
 SHEAR = 2 * (1 - POISSON) / (2 - POISSON)  # of a contact over its normal stiffness (Mindlin 1949)
 EXACT = 1e-3                               # of the forces that are left over
@@ -24,7 +26,7 @@ class Network:
         one = numpy.broadcast_to(numpy.eye(3), (number, 3, 3))
         self.moved = numpy.concatenate([-one, turn, one, turn], axis=2)
         self.places = numpy.concatenate([6 * first[:, None] + numpy.arange(6), 6 * second[:, None] + numpy.arange(6)], axis=1)
-        self.branch, self.affine = branch, branch @ strain
+        self.affine = branch @ strain
         self.size = 6 * count
         self.rows, self.columns = numpy.repeat(self.places, 12, axis=1).ravel(), numpy.tile(self.places, 12).ravel()
         self.across = one - numpy.einsum("mi,mj->mij", self.axis, self.axis)
@@ -75,22 +77,12 @@ class Network:
             yield float(numpy.sum(total * self.affine)), stretched
 
 
-def sheared(a, b):
-    """Strain in a plane."""
-    strain = numpy.zeros((3, 3))
-    strain[a, b] = strain[b, a] = 0.5
-    return strain
-
-
-PLANES = (sheared(0, 1), sheared(0, 2), sheared(1, 2))
-
-
 def secants(places, bonds, box, loads, plane):
     """Stress over strain at strains of so many times the overlap at rest, over that of small strains; mean of both directions. The overlap is in radii."""
-    network = Network(len(places), bonds, PLANES[plane])
+    sheared = Network(len(places), bonds, network.PLANES[plane])
     loads = numpy.concatenate([[1e-3], loads])
     # Overlaps count in radii, branch vectors in diameters.
-    up, down = ([stress for stress, _ in network.stresses(sign * 2 * loads)] for sign in (1, -1))
+    up, down = ([stress for stress, _ in sheared.stresses(sign * 2 * loads)] for sign in (1, -1))
     stresses = (numpy.array(up) - numpy.array(down)) / 2
     secant = stresses / loads
     return (secant[1:] / secant[0]).tolist()

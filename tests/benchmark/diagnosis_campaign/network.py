@@ -19,6 +19,16 @@ def cross(vector):
     return numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
 
 
+def sheared(a, b):
+    """Strain in a plane."""
+    strain = numpy.zeros((3, 3))
+    strain[a, b] = strain[b, a] = 0.5
+    return strain
+
+
+PLANES = (sheared(0, 1), sheared(0, 2), sheared(1, 2))
+
+
 def shear_modulus(count, bonds, box, normal, shear, tension=0.0):
     """Mean over the three planes [Pa]. A contact in the middle of two equal spheres has springs `normal` and `shear` [N/m]; particles turn. A bond
     that pulls at rest resists with that tension over its length [N/m] when its ends move sideways."""
@@ -27,9 +37,6 @@ def shear_modulus(count, bonds, box, normal, shear, tension=0.0):
     blocks, rows, columns = [], [], []
     forces = numpy.zeros((6 * count, 3))
     energy = numpy.zeros(3)
-    planes = [numpy.zeros((3, 3)) for _ in range(3)]
-    for plane, (a, b) in zip(planes, ((0, 1), (0, 2), (1, 2))):
-        plane[a, b] = plane[b, a] = 0.5
     for i, j, arm in zip(first, second, branch):
         axis = arm / numpy.linalg.norm(arm)
         local = shear * numpy.eye(3) + (normal - shear) * numpy.outer(axis, axis)
@@ -42,7 +49,7 @@ def shear_modulus(count, bonds, box, normal, shear, tension=0.0):
         blocks.append(moved.T @ local @ moved + centres.T @ sideways @ centres)
         rows.append(numpy.repeat(places, 12))
         columns.append(numpy.tile(places, 12))
-        affine = numpy.array([plane @ arm for plane in planes]).T
+        affine = numpy.array([plane @ arm for plane in PLANES]).T
         forces[places] += moved.T @ local @ affine + centres.T @ sideways @ affine
         energy += numpy.einsum("ik,ij,jk->k", affine, local + sideways, affine)
     stiffness = scipy.sparse.csc_matrix((numpy.ravel(blocks), (numpy.ravel(rows), numpy.ravel(columns))), shape=(6 * count, 6 * count))

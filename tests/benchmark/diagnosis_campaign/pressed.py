@@ -12,28 +12,29 @@ import numpy
 from scipy.interpolate import CubicSpline
 
 import hertz
+import network
 
 PRESSURES = (-0.2, -0.1, -0.05, 0.0, 0.05, 0.1, 0.2, 0.3, 0.4)
 
 
-def linear_modulus(network, normal, shear):
-    """Stress times the volume of a unit of the network's strain, contacts of these stiffnesses."""
-    ends = network.affine
-    along = numpy.einsum("mi,mi->m", ends, network.axis)[:, None] * network.axis
+def linear_modulus(contacts, normal, shear):
+    """Stress times the volume of a unit of their strain, for contacts of these stiffnesses."""
+    ends = contacts.affine
+    along = numpy.einsum("mi,mi->m", ends, contacts.axis)[:, None] * contacts.axis
     affine = normal[:, None] * along + shear[:, None] * (ends - along)
-    moved = -network.tangent(normal, shear).solve(network.assembled(affine))
-    return float(numpy.sum((ends + numpy.einsum("mik,mk->mi", network.moved, moved[network.places])) * affine))
+    moved = -contacts.tangent(normal, shear).solve(contacts.assembled(affine))
+    return float(numpy.sum((ends + numpy.einsum("mik,mk->mi", contacts.moved, moved[contacts.places])) * affine))
 
 
 def pressed_along(axis, places, bonds, strains):
     """Pressures and moduli of the two planes that plates across this axis shear, at strains of the gap in units of the overlap at rest."""
     strain = numpy.zeros((3, 3))
     strain[axis, axis] = -1.0
-    network = hertz.Network(len(places), bonds, strain)
-    planes = [hertz.Network(len(places), bonds, hertz.sheared(axis, other)) for other in range(3) if other != axis]
+    squeezed = hertz.Network(len(places), bonds, strain)
+    planes = [hertz.Network(len(places), bonds, network.sheared(axis, other)) for other in range(3) if other != axis]
     unit = 2 / 3 * len(bonds[0]) / 3  # of the pressure times the volume: adhesion 2/3, branch vectors 1
     pressures, moduli = [], []
-    for stress, stretched in network.stresses(strains):
+    for stress, stretched in squeezed.stresses(strains):
         stiffness = numpy.sqrt(numpy.maximum(1 - stretched, 1e-6))
         pressures.append(stress / unit)
         moduli.append(numpy.mean([linear_modulus(plane, stiffness, hertz.SHEAR * stiffness) for plane in planes]))
@@ -59,7 +60,6 @@ SHOWN = (*((400, 0.4, 200, 4.69, 1000 + number) for number in range(4)), (400, 0
 
 
 def main(program, folder):
-    import network
     from material import Material
 
     material = Material(Path(program).resolve(), folder)

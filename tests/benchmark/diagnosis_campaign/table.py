@@ -20,7 +20,8 @@ ON_THEIR_DAYS = ("ageing-power", "ageing-saturating", "temperature-drift", "evap
                 "volume-fraction-gradient", "bearing-damping", "phase-offset", "sample-inertia")
 # Rows of shown_cases.py with a cause of the catalogue, whose parameters are compared, too.
 SHOWN = ("contact-nonlinearity", "ageing-up-and-down", "normal-load", "loading-relaxation", "temperature-drift-loaded", "prestress",
-         "bond-bending-series", "ageing-after-shear", "ageing-sheared", "torque-offset", "torque-offset-plates", "shear-thinning", "localisation-error", "polydispersity", "surface-potential")
+         "bond-bending-series", "ageing-after-shear", "ageing-sheared", "torque-offset", "torque-offset-plates",
+         "shear-thinning", "localisation-error", "polydispersity", "surface-potential")
 COMPARED = (*SHOWN, "activated-rupture", "bond-strength-rates")
 CRITICAL_STRAIN = 1e-4  # of all bonds that break
 RATES_STRAIN = 4e-4     # largest of the sweeps at two frequencies
@@ -52,7 +53,8 @@ def of_rates(truth, hidden):
 def true_values(truth, hidden):
     """Of the parameters of the true cause, in their order; none where they are not compared."""
     fields = {"ageing": "ageing", "tool-compliance": "compliance", "tool-inertia": "inertia", "solvent-drag": "viscosity", "wall-slip": "slip",
-              "gap-error": "gap_error", "contact-nonlinearity": "hertz", "normal-load": "pressure", "polydispersity": "sizes", "surface-potential": "potential"}
+              "gap-error": "gap_error", "contact-nonlinearity": "hertz", "normal-load": "pressure", "polydispersity": "sizes",
+              "surface-potential": "potential"}
     several = {"contact-loss": "loss", "ageing-after-shear": "power", "localisation-error": "images"}
     if truth in fields:
         return [hidden[fields[truth]]]

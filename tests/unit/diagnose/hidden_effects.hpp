@@ -173,4 +173,11 @@ inline void add_false_centres(Measurement& table, double share, double diameter,
     }
 }
 
+/// By the structures of simulator().
+inline Diagnosis diagnosis_with(int bootstrap, const Experiment& experiment) {
+    DiagnosisOptions options;
+    options.bootstrap = bootstrap;
+    return diagnose(experiment, simulator(), options);
+}
+
 }  // namespace coagula::diagnose

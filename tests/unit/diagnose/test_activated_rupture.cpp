@@ -110,9 +110,7 @@ Diagnosis diagnosis_of(double first_strain, double second_strain) {
     const auto slow = explicit_sweep(strains, first_strain, {77, 78}, {{2, 0}, {1, 2}});
     const auto fast = explicit_sweep(strains, second_strain, {77, 78}, {{2, 0}, {1, 2}});
     const Experiment measured = under_cone({sweep(0.1, strains, slow, 0.05, 3), sweep(10, strains, fast, 0.05, 4)});
-    DiagnosisOptions options;
-    options.bootstrap = 399;
-    return diagnose(measured, simulator(), options);
+    return diagnosis_with(399, measured);
 }
 
 TEST(ActivatedRupture, IsNamedFromSweepsAtTwoFrequencies) {

@@ -112,9 +112,7 @@ Diagnosis diagnosis_of(const std::vector<Measurement>& tables) {
     experiment.sample.particle_radius = 0.25e-6;
     experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
     experiment.measurements = tables;
-    DiagnosisOptions options;
-    options.bootstrap = 399;
-    return diagnose(experiment, simulator(), options);
+    return diagnosis_with(399, experiment);
 }
 
 const Packing& hidden() {

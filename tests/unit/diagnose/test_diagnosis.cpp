@@ -231,9 +231,7 @@ Diagnosis of_opening_contacts(const std::vector<double>& down) {
         {table(MeasurementKind::amplitude_sweep, strains, std::vector<double>(strains.size(), 1.0), moduli, 5, 0.03, 0.01)});
     measured.instrument.geometry = Geometry::cone_plate;
     measured.instrument.cone_angle = 0.03;
-    DiagnosisOptions options;
-    options.bootstrap = 399;
-    return diagnose(measured, simulator(), options);
+    return diagnosis_with(399, measured);
 }
 
 TEST(Diagnosis, LeavesOpenWhetherContactsCloseAgain) {

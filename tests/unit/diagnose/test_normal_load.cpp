@@ -89,14 +89,8 @@ Experiment pressed_gel(Load load, std::uint64_t seed) {
     return made;
 }
 
-Diagnosis found_in(const Experiment& experiment) {
-    DiagnosisOptions options;
-    options.bootstrap = 199;
-    return diagnose(experiment, simulator(), options);
-}
-
 TEST(NormalLoad, IsNamedWithItsPressureWhereModuliFollowTheForce) {
-    const Diagnosis found = found_in(pressed_gel(Load::stiffens, 3));
+    const Diagnosis found = diagnosis_with(199, pressed_gel(Load::stiffens, 3));
     EXPECT_EQ(found.verdict, Verdict::named);
     EXPECT_EQ(found.credible_set, std::vector<std::string>{"normal-load"});
     EXPECT_LT(found.causes.front().parameters[1].low, contact_pressure);
@@ -104,7 +98,7 @@ TEST(NormalLoad, IsNamedWithItsPressureWhereModuliFollowTheForce) {
 }
 
 TEST(NormalLoad, IsNotWhatFallsInATimeOfItsOwn) {
-    const Diagnosis found = found_in(pressed_gel(Load::is_recorded, 3));
+    const Diagnosis found = diagnosis_with(199, pressed_gel(Load::is_recorded, 3));
     ASSERT_TRUE(found.detected);
     EXPECT_FALSE(in_set(found, "normal-load"));
     EXPECT_FALSE(in_set(found, "loading-relaxation"));
@@ -113,7 +107,7 @@ TEST(NormalLoad, IsNotWhatFallsInATimeOfItsOwn) {
 
 /// Nobody can tell without the normal force.
 TEST(LoadingRelaxation, IsTiedWithTheTemperatureWhereTheForceWasNotRecorded) {
-    const Diagnosis found = found_in(pressed_gel(Load::is_hidden, 3));
+    const Diagnosis found = diagnosis_with(199, pressed_gel(Load::is_hidden, 3));
     EXPECT_EQ(found.verdict, Verdict::tied);
     EXPECT_TRUE(in_set(found, "loading-relaxation"));
     EXPECT_TRUE(in_set(found, "temperature-drift"));

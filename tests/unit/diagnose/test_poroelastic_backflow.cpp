@@ -84,14 +84,8 @@ Experiment samples_at(const std::vector<double>& gaps, bool squeezed, std::uint6
     return made;
 }
 
-Diagnosis diagnosis_of(const Experiment& experiment) {
-    DiagnosisOptions options;
-    options.bootstrap = 199;
-    return diagnose(experiment, simulator(), options);
-}
-
 TEST(PoroelasticBackflow, IsNamedBetweenTwoGaps) {
-    const Diagnosis found = diagnosis_of(samples_at({1e-3, 3e-3}, true, 4));
+    const Diagnosis found = diagnosis_with(199, samples_at({1e-3, 3e-3}, true, 4));
     ASSERT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::named);
     EXPECT_EQ(found.credible_set, std::vector<std::string>{"poroelastic-backflow"});
@@ -100,7 +94,7 @@ TEST(PoroelasticBackflow, IsNamedBetweenTwoGaps) {
 }
 
 TEST(PoroelasticBackflow, IsTiedWithWhatSetsAtOneGap) {
-    const Diagnosis found = diagnosis_of(samples_at({1e-3, 1e-3}, true, 4));
+    const Diagnosis found = diagnosis_with(199, samples_at({1e-3, 1e-3}, true, 4));
     EXPECT_EQ(found.verdict, Verdict::tied);
     EXPECT_TRUE(in_set(found, "poroelastic-backflow"));
     EXPECT_TRUE(in_set(found, "ageing-saturating"));
@@ -110,7 +104,7 @@ TEST(PoroelasticBackflow, IsTiedWithWhatSetsAtOneGap) {
 }
 
 TEST(PoroelasticBackflow, IsNotWhatSetsInOneTimeAtTwoGaps) {
-    const Diagnosis found = diagnosis_of(samples_at({1e-3, 3e-3}, false, 4));
+    const Diagnosis found = diagnosis_with(199, samples_at({1e-3, 3e-3}, false, 4));
     ASSERT_TRUE(found.detected);
     EXPECT_FALSE(in_set(found, "poroelastic-backflow"));
     EXPECT_TRUE(in_set(found, "ageing-saturating"));

@@ -306,9 +306,7 @@ Diagnosis diagnosis_of(const Measurement& table) {
     experiment.sample.particle_radius = 0.25e-6;
     experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
     experiment.measurements = {table};
-    DiagnosisOptions options;
-    options.bootstrap = 399;
-    return diagnose(experiment, simulator(), options);
+    return diagnosis_with(399, experiment);
 }
 
 TEST(SolventDrag, IsNamedInASweepOfFrequencies) {
