@@ -23,14 +23,15 @@ from ._coagula import Bonds, InputError, Packing
 from ._calls import (calibrate, characterize, compare_heterogeneity, diagnose, find_contacts, fit_degree_of_heterogeneity,
                      fit_power_law, generate_brownian, generate_vem, shear)
 from ._files import ExistingFileError, MissingFileError, Structure, parse_quantity, read, write
+from ._over_files import Figure, Table, plot, report, table
 from ._results import Result
 from ._version import version as __version__
 
-__all__ = ["Bonds", "ExistingFileError", "InputError", "MissingFileError", "Packing", "Result", "Structure", "calibrate",
-           "characterize", "compare_heterogeneity", "diagnose", "find_contacts", "fit_degree_of_heterogeneity", "fit_power_law",
-           "generate_brownian", "generate_vem", "parse_quantity", "read", "shear", "write"]
+__all__ = ["Bonds", "ExistingFileError", "Figure", "InputError", "MissingFileError", "Packing", "Result", "Structure", "Table",
+           "calibrate", "characterize", "compare_heterogeneity", "diagnose", "find_contacts", "fit_degree_of_heterogeneity",
+           "fit_power_law", "generate_brownian", "generate_vem", "parse_quantity", "plot", "read", "report", "shear", "table", "write"]
 
 InputError.__doc__ = "Input that cannot be used, in one sentence: the object, the value and the rule."
-for _public in (Bonds, InputError, Packing, Result, Structure, MissingFileError, ExistingFileError):
+for _public in (Bonds, Figure, InputError, Packing, Result, Structure, Table, MissingFileError, ExistingFileError):
     _public.__module__ = "coagula"
 del _public

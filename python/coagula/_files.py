@@ -22,7 +22,8 @@ class ExistingFileError(_FileError, FileExistsError):
     """A file is there already, and overwrite=True was not given."""
 
 
-def _with_kind(error, path, kind, number):
+def with_kind(error, path, kind, number):
+    """The same sentence as an error of another kind, with the number and the name that an OSError has."""
     better = kind(str(error))
     better.errno, better.filename = number, path
     return better
@@ -87,7 +88,7 @@ def read(path, **options):
         return _structure(*_coagula.read_file(name))
     except _coagula.InputError as error:
         if not os.path.lexists(name):
-            raise _with_kind(error, name, MissingFileError, errno.ENOENT) from None
+            raise with_kind(error, name, MissingFileError, errno.ENOENT) from None
         raise
 
 
@@ -126,7 +127,7 @@ def write(path: "str | PathLike[str]", packing: "Packing | Generated | Structure
             _coagula.write_file(name, packing, bonds, stages, call_text("write", [repr(name), "packing"], {}), overwrite)
     except _coagula.InputError as error:
         if os.path.lexists(name) and not overwrite:
-            raise _with_kind(error, name, ExistingFileError, errno.EEXIST) from None
+            raise with_kind(error, name, ExistingFileError, errno.EEXIST) from None
         raise
 
 

@@ -2,23 +2,14 @@
 
 import difflib
 import inspect
-import keyword
 import numbers
 import os
 
-from . import _coagula
-
-_VERBS = _coagula.verbs()
+from ._spelling import VERBS, argument, in_python
 
 # What each call has besides the options of the verb.
 PROGRESS = "Called as progress(stage, fraction, remark) now and then, at most 20 times a second; what it raises stops the call."
 THREADS = "Number of threads; all cores when None."
-
-
-def _argument(option):
-    """The name in Python: underscores, and one behind it where it is a word of the language (from_)."""
-    name = option["name"].replace("-", "_")
-    return name + "_" if keyword.iskeyword(name) else name
 
 
 def _word(value):
@@ -38,7 +29,7 @@ def _word(value):
 
 def words(verb, given, threads=None):
     """The words for the options given; None and False leave an option out."""
-    known = {_argument(option): option for option in _VERBS[verb]["options"]}
+    known = {argument(option["name"]): option for option in VERBS[verb]["options"]}
     result = []
     for name, value in given.items():
         if name not in known:
@@ -95,7 +86,7 @@ def _about(option):
         facts.append("unit " + option["unit"])
     if option["range"]:
         facts.append("range " + option["range"])
-    return option["meaning"] + (f" [{'; '.join(facts)}]" if facts else "")
+    return in_python(option["meaning"]) + (f" [{'; '.join(facts)}]" if facts else "")
 
 
 def documented(verb, first=(), replaced=(), extra=(), returns="", common=True):
@@ -105,14 +96,14 @@ def documented(verb, first=(), replaced=(), extra=(), returns="", common=True):
     means that the argument is required. replaced: names of options that the function has in `extra` in another form, or has not.
     """
     def decorate(function):
-        table = _VERBS[verb]
-        options = [option for option in table["options"] if _argument(option) not in replaced]
+        table = VERBS[verb]
+        options = [option for option in table["options"] if argument(option["name"]) not in replaced]
         parameters, lines = [], []
         for name, kind, default, meaning in first:
             parameters.append(inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default, annotation=kind))
             lines += [f"{name} : {kind}", f"    {meaning}"]
         for option in options:
-            name = _argument(option)
+            name = argument(option["name"])
             default = inspect.Parameter.empty if option["required"] else _default(option)
             parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation(option)))
             shown = "" if option["required"] else f", default {default!r}"

@@ -5,6 +5,8 @@ import keyword
 
 import numpy as np
 
+from ._spelling import in_python
+
 
 def _short(value):
     if isinstance(value, np.ndarray):
@@ -140,7 +142,7 @@ class Stage(Result):
     @property
     def notes(self):
         """Sentences that one should know about the result."""
-        return [] if self._stage is None else self._stage.notes
+        return [] if self._stage is None else [in_python(note) for note in self._stage.notes]
 
 
 class Generated(Stage):
@@ -209,7 +211,7 @@ def from_entries(entries, name, base=Result):
     return _build(tree, name, base)
 
 
-def from_json(values, name):
+def from_json(values, name, base=Result):
     """A result of a JSON object: objects are groups, lists of numbers are arrays, null is None."""
     def convert(value, key):
         if isinstance(value, dict):
@@ -222,7 +224,7 @@ def from_json(values, name):
 
     made = {key: convert(value, key) for key, value in values.items()}
     documented = tuple((key, "group" if isinstance(value, Result) else "value") for key, value in made.items())
-    return _class_of(name, Result, documented)(made)
+    return _class_of(name, base, documented)(made)
 
 
 def from_stage(stage, name):

@@ -10,15 +10,27 @@ namespace coagula::python {
 
 namespace {
 
+/// Sentences of the program as Python spells them; the package sets the function.
+py::handle spelling = py::none().release();
+
+void raise(const py::handle& kind, const char* sentence) {
+    if (spelling.is_none()) {
+        PyErr_SetString(kind.ptr(), sentence);
+    } else {
+        PyErr_SetObject(kind.ptr(), py::reinterpret_borrow<py::object>(spelling)(sentence).ptr());
+    }
+}
+
 void define_exceptions(py::module_& module) {
     static py::handle input_error = py::exception<InputError>(module, "InputError", PyExc_ValueError).release();
+    module.def("spell_errors_by", [](const py::object& function) { spelling = py::object(function).release(); });
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             std::rethrow_exception(thrown);
         } catch (const InputError& error) {
-            PyErr_SetString(input_error.ptr(), error.what());
+            raise(input_error, error.what());
         } catch (const std::invalid_argument& error) {
-            PyErr_SetString(input_error.ptr(), error.what());
+            raise(input_error, error.what());
         } catch (const Cancelled& error) {
             PyErr_SetString(PyExc_KeyboardInterrupt, error.what());
         } catch (const std::filesystem::filesystem_error& error) {

@@ -40,6 +40,7 @@ Verb in_memory(Verb verb, const std::set<std::string>& without) {
 /// What `characterize --compare` does; nothing else goes with it.
 Verb comparison() {
     Verb verb = in_memory(tools::characterize_verb(), {"compare", "only", "position-noise", "noise-replicas", "samples"});
+    verb.name = "compare heterogeneity";
     verb.summary = "which of two structures is more heterogeneous, by three measures";
     verb.notes.clear();
     return verb;
@@ -56,6 +57,8 @@ const std::map<std::string, Verb>& verbs() {
         {"fit_power_law", in_memory(tools::fit_power_law_verb(), {"a", "modulus", "standard-error", "modulus-unit"})},
         {"diagnose", tools::diagnose_verb()},
         {"import", tools::import_verb()},
+        {"plot", tools::plot_verb()},
+        {"report", tools::report_verb()},
     };
     return all;
 }
@@ -218,6 +221,19 @@ py::dict fit_degree_of_heterogeneity(const Eigen::VectorXd& radius, const Eigen:
                     py::arg("b_stderr") = fit.b_stderr, py::arg("rms_residual") = fit.rms_residual);
 }
 
+using Write = tools::Printed (*)(const Arguments&);
+
+/// Runs a verb that reads result files and writes a file for people. @return the JSON object that the verb prints.
+std::string write_of_files(const std::string& verb, const Words& words, Write write) {
+    const Arguments arguments = arguments_of(verb, words);
+    return run(py::none(), std::nullopt, [&](const Progress&) { return write(arguments); }).json.dump();
+}
+
+/// The table of `coagula info --csv`.
+std::vector<Words> table(const Words& paths) {
+    return run(py::none(), std::nullopt, [&](const Progress&) { return tools::table_of_files(paths); });
+}
+
 void add_stage(const std::string& path, const Stage& stage) {
     const tools::Findings& found = stage.findings;
     tools::Results all = found.results;
@@ -297,6 +313,11 @@ void define_stages(py::module_& module) {
     module.def("calibrate", &calibrate, "words"_a, "names"_a, "packings"_a, "progress"_a);
     module.def("fit_power_law", &fit_power_law, "words"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a);
     module.def("diagnose", &diagnose, "words"_a, "folder"_a, "progress"_a);
+    module.def(
+        "plot", [](const Words& words) { return write_of_files("plot", words, tools::plot_files); }, "words"_a);
+    module.def(
+        "report", [](const Words& words) { return write_of_files("report", words, tools::report_files); }, "words"_a);
+    module.def("table", &table, "paths"_a);
     module.def("fit_degree_of_heterogeneity", &fit_degree_of_heterogeneity, "radius"_a, "exclusion_probability"_a, "r0"_a);
     module.def("import_structure", &import_structure, "words"_a);
     module.def("write_file", &write_file, "path"_a, "packing"_a, "bonds"_a, "stages"_a, "call"_a, "overwrite"_a);

@@ -1,6 +1,7 @@
 """Errors are Python exceptions with the sentence of the program."""
 
 import unittest
+from pathlib import Path
 
 import coagula
 from support import VEM, ModuleTest, options
@@ -15,8 +16,36 @@ class Sentences(ModuleTest):
             self.assertEqual(done.returncode, 2)
             with self.assertRaises(coagula.InputError) as raised:
                 coagula.generate_vem(**given)
-            self.assertEqual(f"coagula: {raised.exception}\n", done.stderr)
+            said = done.stderr.replace("coagula generate vem needs", "generate_vem() needs")
+            said = said.replace("'coagula generate vem --help'", "help(coagula.generate_vem)")
+            for name in given:
+                said = said.replace("--" + name.replace("_", "-"), name)
+            self.assertEqual(f"coagula: {raised.exception}\n", said)
+            self.assertNotIn("--", str(raised.exception))
             self.assertIsInstance(raised.exception, ValueError)
+
+    def test_arguments_are_named_as_python_names_them(self):
+        made = self.made(particles=100, voids=50)
+        for call, says in (
+                (lambda: coagula.shear(made, normal_stiffness="1s"), "^normal_stiffness: .*see help\\(coagula.shear\\)"),
+                (lambda: coagula.shear(made, amplitudes=[1e-3], ramp=0.01, method="quasistatic"), "^amplitudes and ramp exclude"),
+                (lambda: coagula.shear(made, method="dem", frequency=[1, 2]), "^method='dem' runs at one frequency"),
+                (lambda: coagula.shear(made, orientation="xx"), "^orientation: 'xx' "),
+                (lambda: coagula.calibrate([made], from_=100, to="10N/m"), "^from_ is 100 N/m and to 10 N/m"),
+                (lambda: coagula.characterize(made, only="--samples"), "^only: '--samples' is not one of"),
+                (lambda: coagula.generate_brownian(particles=30), "^generate_brownian\\(\\) needs [a-z_]+"),
+                (lambda: coagula.compare_heterogeneity(made, made, radii="x"), "see help\\(coagula.compare_heterogeneity\\)"),
+                (lambda: coagula.characterize(made, threads=0), "^threads: '0' is out of range")):
+            with self.assertRaisesRegex(coagula.InputError, says):
+                call()
+        Path("centres.csv").write_text("x,y,z\n1,1,1\n3,1,1\n")
+        with self.assertRaisesRegex(coagula.InputError, "give length_unit|give radius"):
+            coagula.read("centres.csv")
+        coagula.write("a.h5", made)
+        with self.assertRaisesRegex(coagula.ExistingFileError, "a.h5 exists already; give overwrite=True"):
+            coagula.write("a.h5", made)
+        for name in coagula.__all__:
+            self.assertNotRegex(getattr(coagula, name).__doc__, r"(?<!')--[a-z]", name)
 
     def test_model(self):
         made = self.made(particles=100, voids=50)

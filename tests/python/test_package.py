@@ -47,10 +47,11 @@ class Stubs(ModuleTest):
 
     def test_every_option_of_the_program(self):
         for function, verb in ((coagula.generate_vem, "generate vem"), (coagula.generate_brownian, "generate brownian"),
-                               (coagula.characterize, "characterize"), (coagula.shear, "shear")):
+                               (coagula.characterize, "characterize"), (coagula.shear, "shear"), (coagula.plot, "plot"),
+                               (coagula.report, "report")):
             text = self.run_program(*verb.split(), "--help").stdout
             names = {name.replace("-", "_") for name in re.findall(r"^ +(?:-\w, )?--([\w-]+)", text, re.MULTILINE)}
-            elsewhere = {"json", "quiet", "help", "output", "force", "potential_curve", "picture", "compare"}
+            elsewhere = {"json", "quiet", "help", *(["threads"] if verb in ("plot", "report") else []), "output", "force", "potential_curve", "picture", "compare"}
             self.assertEqual(names - elsewhere - set(inspect.signature(function).parameters), set())
 
     @unittest.skipUnless(shutil.which("mypy", path="/usr/bin"), "mypy is not installed")
@@ -61,10 +62,15 @@ class Stubs(ModuleTest):
                                             "response = coagula.shear(made)\nmodulus: float = response.storage_modulus.mean\n"
                                             "a: float = coagula.characterize(made).doh.a\nvoids: int = made.voids\n"
                                             "swept = coagula.shear(made, method='linear', frequency=[1.0, '10Hz'])\n"
-                                            "print(swept.storage_modulus.mean[0])\n")
+                                            "print(swept.storage_modulus.mean[0])\n"
+                                            "table = coagula.table(['a.h5', 'b.h5'])\n"
+                                            "print(table.columns()['file'][0], table.volume_fraction.mean(), table.unit('radius_mean'))\n"
+                                            "picture: str | None = coagula.plot('a.h5', figure='pore-curve').svg\n"
+                                            "coagula.report(['a.h5'], 'page.html', overwrite=True)\n")
         lines = ["import coagula", "made = coagula.generate_vem(volume_fraction=0.4, radius='1um')", "coagula.shear(made, method='linar')",
                  "coagula.generate_vem(volume_fracton=0.4)", "coagula.characterize(0.4)", "name: str = made.packing.mean_radius",
-                 "made.packing.positon", "modulus: str = coagula.shear(made).storage_modulus.mean"]
+                 "made.packing.positon", "coagula.plot('a.h5', figure='poer-curve')", "coagula.report('a.h5')",
+                 "coagula.table('a.h5').columns()['file'] + coagula.table(3)", "modulus: str = coagula.shear(made).storage_modulus.mean"]
         (self.folder / "wrong.py").write_text("\n".join(lines) + "\n")
         done = subprocess.run(["/usr/bin/mypy", "--strict", "--cache-dir", "cache", "use.py", "wrong.py"], capture_output=True, text=True,
                               env={**os.environ, "MYPYPATH": str(STUBS.parents[1])})

@@ -38,7 +38,7 @@ class Progress(ModuleTest):
     def test_threads(self):
         one, two = (self.made(particles=100, voids=50, threads=threads).packing.positions for threads in (1, 2))
         np.testing.assert_array_equal(one, two)
-        with self.assertRaisesRegex(coagula.InputError, "--threads: '0' is out of range"):
+        with self.assertRaisesRegex(coagula.InputError, "threads: '0' is out of range"):
             self.made(threads=0)
 
 

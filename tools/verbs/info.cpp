@@ -3,6 +3,7 @@
 #include "cli/verbs.hpp"
 #include "info_rows.hpp"
 #include "recorded_options.hpp"
+#include "stages.hpp"
 
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>
@@ -129,23 +130,14 @@ Table contents_table(const io::Contents& contents) {
     return table;
 }
 
-void print_rows(const std::vector<std::string>& paths) {
-    InfoRows rows;
-    for (const std::string& path : paths) {
-        const io::Contents contents = io::read_contents(path);
-        rows.add(path, contents.structure, contents.results);
-    }
-    std::cout << io::csv_text(rows.with_header());
-    flush_output();
-}
-
 void run_info(const Arguments& arguments) {
     const std::vector<std::string>& paths = arguments.inputs();
     if (arguments.flag("csv")) {
         if (arguments.flag("json") || arguments.flag("quiet")) {
-            throw InputError("--csv goes without --json and --quiet");
+            throw InputError("--csv excludes --json and --quiet");
         }
-        print_rows(paths);
+        std::cout << io::csv_text(table_of_files(paths));
+        flush_output();
         return;
     }
     Json files = Json::array();
@@ -164,6 +156,15 @@ void run_info(const Arguments& arguments) {
 }
 
 }  // namespace
+
+std::vector<std::vector<std::string>> table_of_files(const std::vector<std::string>& paths) {
+    InfoRows rows;
+    for (const std::string& path : paths) {
+        const io::Contents contents = io::read_contents(path);
+        rows.add(path, contents.structure, contents.results);
+    }
+    return rows.with_header();
+}
 
 Verb info_verb() {
     return {.name = "info",

@@ -3,6 +3,7 @@
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
 #include "over_structures.hpp"
+#include "stages.hpp"
 
 #include <coagula/io/atomic_file.hpp>
 #include <coagula/io/table.hpp>
@@ -138,7 +139,7 @@ void append_series(Table& table, const Drawing& drawing) {
     }
 }
 
-void plot_figure(const Arguments& arguments) {
+Printed plot_figure(const Arguments& arguments) {
     const std::string& path = arguments.text("output");
     const bool force = arguments.flag("force");
     const PictureFormat format = report::picture_format(path, "--output");
@@ -169,7 +170,7 @@ void plot_figure(const Arguments& arguments) {
         table.emplace_back("data written to", arguments.text("data"));
     }
     table.emplace_back("written to", path);
-    report(arguments, json, table);
+    return {std::move(json), std::move(table)};
 }
 
 /// What stands below the figures, and what is missing.
@@ -186,7 +187,7 @@ std::string captions_text(const std::vector<report::PaperFigure>& figures, const
     return text;
 }
 
-void plot_paper(const Arguments& arguments) {
+Printed plot_paper(const Arguments& arguments) {
     for (const char* name : {"figure", "data", "log", "published"}) {
         if (arguments.has(name)) {
             throw InputError(std::string("--paper and --") + name +
@@ -235,21 +236,25 @@ void plot_paper(const Arguments& arguments) {
     folder.write("captions.md", captions_text(figures, ending));
     folder.publish();
     table.emplace_back("written to", arguments.text("output"));
-    report(arguments, json, table);
+    return {std::move(json), std::move(table)};
 }
 
 void run_plot(const Arguments& arguments) {
+    const Printed printed = plot_files(arguments);
+    report(arguments, printed.json, printed.table);
+}
+
+}  // namespace
+
+Printed plot_files(const Arguments& arguments) {
     if (arguments.flag("paper")) {
-        plot_paper(arguments);
-        return;
+        return plot_paper(arguments);
     }
     if (!arguments.has("figure")) {
         throw InputError("coagula plot needs --figure NAME, or --paper for those of the paper (see 'coagula plot --help')");
     }
-    plot_figure(arguments);
+    return plot_figure(arguments);
 }
-
-}  // namespace
 
 Verb plot_verb() {
     std::vector<std::string> names;
@@ -261,27 +266,29 @@ Verb plot_verb() {
         notes.push_back(line + figure.meaning);
     }
     notes.insert(notes.begin(), "Figures (docs/figures.md shows them):");
-    notes.insert(notes.end(), {"Several files stand in one figure. Of a folder all .h5 and .csv files are taken.",
+    notes.insert(notes.end(), {"Several files are drawn in one figure. A folder stands for all .h5 and .csv files in it.",
                                "--paper draws figures 1 - 6 of Schenker et al. 2012 into the folder that --output names."});
-    return {.name = "plot",
-            .summary = "a figure of result files for a paper, as SVG, PNG or PDF",
-            .input = "FILE ...",
-            .options = {choice("figure", names, "what is drawn, see below", ""),
-                        flag("paper", "draw the figures of the paper with the published points beside"),
-                        required(output("picture, its format by the ending .svg, .png or .pdf; a folder with --paper")),
-                        text("labels", "LIST",
-                             "names of the files in the legend, such as 'slow,fast'; files of one name share a series"),
-                        flag("published", "with the published points beside, where there are some"),
-                        choice("log", {"none", "x", "y", "xy"}, "axes that are logarithmic; by the figure when not given", ""),
-                        quantity("width", "m", "of the picture; 85mm or, for two charts, 170mm when not given", "", picture_length),
-                        quantity("height", "m", "of the picture; in proportion when not given", "", picture_length),
-                        count("resolution", "of a PNG in dots per inch", "300", within(50, 1200)),
-                        text("data", "FILE", "write what is drawn as CSV"),
-                        choice("format", {"svg", "png", "pdf"}, "with --paper: of the pictures", "svg"),
-                        flag("force", "replace existing output files")},
-            .run = run_plot,
-            .notes = notes,
-            .many_inputs = true};
+    return {
+        .name = "plot",
+        .summary = "a figure of result files for a paper, as SVG, PNG or PDF",
+        .input = "FILE ...",
+        .options = {choice("figure", names, "name of the figure, see below", ""),
+                    flag("paper", "draw the figures of Schenker et al. 2012 with their published points"),
+                    required(output("picture, its format by the ending .svg, .png or .pdf; a folder with --paper")),
+                    text("labels", "LIST",
+                         "names of the files in the legend, such as 'slow,fast'; files with the same name form one series"),
+                    flag("published", "add the published points, where there are some"),
+                    choice("log", {"none", "x", "y", "xy"}, "logarithmic axes; those of the figure when not given", ""),
+                    quantity("width", "m", "width of the picture; 85mm, or 170mm for two charts, when not given", "",
+                             picture_length),
+                    quantity("height", "m", "height of the picture; in proportion to the width when not given", "", picture_length),
+                    count("resolution", "resolution of a PNG in dots per inch", "300", within(50, 1200)),
+                    text("data", "FILE", "write the plotted numbers to this file as CSV"),
+                    choice("format", {"svg", "png", "pdf"}, "with --paper: format of the pictures", "svg"),
+                    flag("force", "replace existing output files")},
+        .run = run_plot,
+        .notes = notes,
+        .many_inputs = true};
 }
 
 }  // namespace coagula::tools

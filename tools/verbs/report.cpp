@@ -3,6 +3,7 @@
 #include "cli/output_file.hpp"
 #include "cli/provenance.hpp"
 #include "cli/verbs.hpp"
+#include "stages.hpp"
 
 #include <coagula/characterize/largest_pores.hpp>
 #include <coagula/common/contact_network.hpp>
@@ -47,6 +48,13 @@ void tell_apart(std::vector<report::PageStructure>& pages, const std::vector<std
 }
 
 void run_report(const Arguments& arguments) {
+    const Printed printed = report_files(arguments);
+    report(arguments, printed.json, printed.table);
+}
+
+}  // namespace
+
+Printed report_files(const Arguments& arguments) {
     const std::string output = arguments.text("output");
     check_output(output, arguments.flag("force"));
     std::vector<report::PageStructure> pages;
@@ -57,11 +65,9 @@ void run_report(const Arguments& arguments) {
     const std::string html = report::structure_page(pages, version_text());
     io::write_file(output, html, arguments.flag("force"));
     const double megabytes = std::round(static_cast<double>(html.size()) / 1e5) / 10;
-    report(arguments, Json{{"output", output}, {"structures", pages.size()}, {"bytes", html.size()}},
-           {{"structures", std::to_string(pages.size())}, {"size", with_unit(megabytes, "MB")}, {"written to", output}});
+    return {{{"output", output}, {"structures", pages.size()}, {"bytes", html.size()}},
+            {{"structures", std::to_string(pages.size())}, {"size", with_unit(megabytes, "MB")}, {"written to", output}}};
 }
-
-}  // namespace
 
 Verb report_verb() {
     return {.name = "report",

@@ -1,4 +1,4 @@
-// What the verbs compute, apart from the files that they read and write: for the verbs themselves and for the Python module.
+// The computations of the verbs without their files, for the verbs themselves and for the Python module.
 #pragma once
 
 #include "cli/arguments.hpp"
@@ -57,6 +57,19 @@ io::Structure import_structure(const Arguments& arguments);
 
 /// Writes a structure for other programs, in the format that the ending of the name says. Throws InputError for others.
 void export_structure(const std::string& path, const io::Structure& structure, bool overwrite);
+
+/// Output of `coagula plot` and `coagula report` about the file that they wrote.
+struct Printed {
+    Json json;
+    Table table;
+};
+/// Draws the figure, or those of the paper, into the file or folder that the options name.
+Printed plot_files(const Arguments& arguments);
+/// Writes the page of the structures.
+Printed report_files(const Arguments& arguments);
+
+/// The table of `coagula info --csv`: the headings with their units, and one row for each file.
+std::vector<std::vector<std::string>> table_of_files(const std::vector<std::string>& paths);
 
 /// The object of diagnosis.json. @param folder where everything goes that `coagula diagnose` writes; empty: nothing is written.
 Json diagnose_experiment(const Arguments& arguments, const std::string& folder, const Progress& progress);
