@@ -17,20 +17,21 @@ bool sweeps_strain_at_two_rates(const Experiment& experiment) {
 /// Science 200 (1978) 618; Evans and Ritchie, Biophysical Journal 72 (1997) 1541). Over a decade it grows by 2.3 kT over the part
 /// of the barrier that is left to heat at 1 Hz: 5 to 80 kT.
 Mechanism activated_rupture() {
-    return {
-        .name = "activated-rupture",
-        .term = "heat helps bonds to break: the force that they bear grows with the logarithm of the frequency",
-        .signature =
-            "the yield of bonds of finite strength, at a strain that grows with the logarithm of the frequency; at one frequency "
-            "it is 'bond-strength', from which a sweep of strains at a second one separates it",
-        .parameters = {{"activated_critical_strain", "1", 3e-6, 3e-2, true, strength_step},
-                       {"strength_per_decade", "1", 0.03, 0.5, true}},
-        .effect = ChangesSimulation{[](Settings& settings, Values values) {
-            settings.critical_strain = std::min(settings.critical_strain, values[0]);
-            settings.strength_per_decade = values[1];
-        }},
-        .applies = sweeps_strain_at_two_rates,
-        .in_contact = true};
+    return {.name = "activated-rupture",
+            .term =
+                "thermal energy helps bonds to break, so that the force they bear grows with the logarithm of the "
+                "frequency",
+            .signature =
+                "The bonds yield, at a strain that grows with the logarithm of the frequency. At one frequency this "
+                "looks like 'bond-strength'; a strain sweep at a second frequency separates the two.",
+            .parameters = {{"activated_critical_strain", "1", 3e-6, 3e-2, true, strength_step},
+                           {"strength_per_decade", "1", 0.03, 0.5, true}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) {
+                settings.critical_strain = std::min(settings.critical_strain, values[0]);
+                settings.strength_per_decade = values[1];
+            }},
+            .applies = sweeps_strain_at_two_rates,
+            .in_contact = true};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -13,7 +13,9 @@ constexpr double start = 1;  ///< age of the sample when the first run begins [s
 Mechanism ageing() {
     return {.name = "ageing",
             .term = "the contacts grow stiffer with the age of the sample",
-            .signature = "follows the order of the runs and the time, not the strain",
+            .signature =
+                "The moduli grow with the logarithm of the sample's age. They follow the time and the order of the "
+                "runs, not the strain.",
             .parameters = {{"per_decade", "1", 0.02, 0.3, true}},
             .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample&) -> std::complex<double> {
                 return std::isfinite(row.age) ? 1 + values[0] * std::log10(1 + row.age / start) : 1;

@@ -6,8 +6,10 @@ namespace coagula::diagnose::mechanisms {
 /// 1797, has them linear in time), far beyond the logarithm of a gel that is old.
 Mechanism ageing_after_shear() {
     return {.name = "ageing-after-shear",
-            .term = "the structure that the shear before the run destroyed builds up again: the stiffness grows as a power of time",
-            .signature = "follows the time since the shear, not the strain, over orders of magnitude",
+            .term =
+                "shear before the run destroyed structure, which builds up again: the stiffness grows as a power of "
+                "the time since then",
+            .signature = "The moduli follow the time since the shear, not the strain, over orders of magnitude.",
             .parameters = {{"build_up_exponent", "1", 0.1, 3, true}, {"build_up_time", "s", 1, 1000, true}},
             .effect = ScalesMaterial{power_of_age},
             .applies = is_sheared_before};

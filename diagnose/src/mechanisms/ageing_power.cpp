@@ -15,8 +15,8 @@ Mechanism ageing_power() {
     return {.name = "ageing-power",
             .term = "the sample sets: its stiffness grows as a power of its age",
             .signature =
-                "follows the order of the runs and the time, not the strain, over more than a factor of two; slower and "
-                "slower as 'ageing-saturating' has it or on and on, which the latest times tell",
+                "The moduli grow by more than a factor of two with the age of the sample, whatever the strain, and go "
+                "on growing. 'ageing-saturating' slows down and stops; only the latest times separate the two.",
             .parameters = {{"power_of_age", "1", 0.3, 3, true}, {"power_time", "s", 1, 1e4, true}},
             .effect = ScalesMaterial{power_of_age},
             .applies = builds_up_unsheared};

@@ -15,8 +15,8 @@ std::complex<double> saturating(const Observation& row, Values values, const Sim
 /// first row; and a sweep down in frequency, of rows of equal duration, would show the inertia of the tool as the same exponential.
 Mechanism ageing_saturating() {
     return {.name = "ageing-saturating",
-            .term = "the sample sets: its stiffness grows towards an end, exponentially in its age",
-            .signature = "follows the order of the runs and the time, not the strain, and comes to rest",
+            .term = "the sample sets: its stiffness approaches a final value exponentially in its age",
+            .signature = "The moduli grow with the age of the sample, whatever the strain, and reach a final value.",
             .parameters = {{"growth", "1", 0.3, 1000, true}, {"setting_time", "s", 60, 1e5, true}},
             .effect = ScalesMaterial{saturating},
             .applies = takes_time};

@@ -5,10 +5,10 @@ namespace coagula::diagnose::mechanisms {
 /// From what an air bearing has to a worn one; T = (K G* + i b w) theta (Ewoldt, Johnston and Caretta 2015).
 Mechanism bearing_damping() {
     return {.name = "bearing-damping",
-            .term = "the bearing of the tool brakes it",
+            .term = "friction in the instrument's bearing damps the tool in proportion to its speed",
             .signature =
-                "adds to the loss modulus in proportion to the frequency and leaves the storage modulus, also in an oil; "
-                "less under a larger plate",
+                "The loss modulus gains a part that is proportional to the frequency, in an oil too. The storage "
+                "modulus does not change. The effect is smaller under a larger plate.",
             .parameters = {{"damping", "N.m.s", 1e-9, 1e-4, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 const double frequency = is_steady(row) ? 1 : row.angular_frequency;

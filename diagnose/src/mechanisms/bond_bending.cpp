@@ -5,7 +5,7 @@ namespace coagula::diagnose::mechanisms {
 Mechanism bond_bending() {
     return {.name = "bond-bending",
             .term = "bonds resist bending and twisting",
-            .signature = "raises the moduli, most where the coordination is low",
+            .signature = "The moduli are higher, most where the coordination is low.",
             .parameters = {{"bending_over_normal", "1", 1e-6, 0.1, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.bending_ratio = values[0]; }},
             .applies = has_moduli,

@@ -6,7 +6,8 @@ Mechanism bond_strength() {
     return {.name = "bond-strength",
             .term = "bonds break at a finite force",
             .signature =
-                "the storage modulus falls and the loss modulus rises past a yield strain; it does not come back on the way down",
+                "Beyond a yield strain the storage modulus falls and the loss modulus rises. On the way down in "
+                "strain the moduli do not recover.",
             .parameters = {{"critical_strain", "1", 3e-6, 3e-2, true, strength_step}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) {
                 settings.critical_strain = std::min(settings.critical_strain, values[0]);

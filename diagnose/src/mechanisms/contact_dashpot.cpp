@@ -6,12 +6,15 @@ namespace coagula::diagnose::mechanisms {
 /// squeezed in the contact.
 Mechanism contact_dashpot() {
     return {.name = "contact-dashpot",
-            .term = "a film in the contacts resists their motion in proportion to its speed: a dashpot beside their springs",
+            .term =
+                "a film in the contacts resists their motion in proportion to its speed: a dashpot acts beside their "
+                "springs",
             .signature =
-                "a loss modulus that is the storage modulus times the frequency and one time, at all frequencies and ages, and a "
-                "storage modulus that does not change; 'solvent-drag' raises the storage modulus with the frequency, "
-                "'bearing-damping' does not follow the stiffness of the sample and falls with the plate's radius, and "
-                "'contact-relaxation' bends where the frequency passes one over its time",
+                "The loss modulus is the storage modulus times the frequency and one time constant, at every "
+                "frequency and age, and the storage modulus does not change. Three causes look similar: 'solvent- "
+                "drag' raises the storage modulus with the frequency; 'bearing-damping' does not follow the stiffness "
+                "of the sample and falls with the plate's radius; 'contact-relaxation' levels off above one over its "
+                "relaxation time.",
             .parameters = {{"dashpot_time", "s", 1e-6, 1, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.dashpot_time = values[0]; }},
             .applies = knows_frequency,

@@ -4,8 +4,8 @@ namespace coagula::diagnose::mechanisms {
 
 Mechanism contact_loss() {
     return {.name = "contact-loss",
-            .term = "the contacts lose energy: a springpot beside their springs",
-            .signature = "a loss modulus that is flat or a weak power of frequency, from the lowest strain on",
+            .term = "the contacts lose energy at all frequencies: a springpot acts beside their springs",
+            .signature = "The loss modulus is flat or a weak power of the frequency, from the lowest strain on.",
             .parameters = {{"springpot_over_spring", "1", 0.03, 10, true}, {"exponent", "1", 0.01, 0.3, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) {
                 settings.springpot_ratio = values[0];

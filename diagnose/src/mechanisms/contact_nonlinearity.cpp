@@ -6,8 +6,8 @@ Mechanism contact_nonlinearity() {
     return {.name = "contact-nonlinearity",
             .term = "the contacts follow Hertz's law instead of linear springs",
             .signature =
-                "the storage modulus rises as the square root of the strain where that exceeds the strain of the load at rest, "
-                "the same on the way down as up, whatever the age",
+                "The storage modulus rises as the square root of the strain once this exceeds the strain of the load "
+                "at rest. It is the same on the way down in strain as on the way up, whatever the age.",
             .parameters = {{"preload_overlap", "1", 1e-7, 3e-2, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.contact_preload = values[0]; }},
             .applies = sweeps_amplitude,

@@ -6,11 +6,11 @@ namespace coagula::diagnose::mechanisms {
 /// that lets go and takes hold again within one time.
 Mechanism contact_relaxation() {
     return {.name = "contact-relaxation",
-            .term = "a part of every contact relaxes: a spring in series with a dashpot beside their springs",
+            .term = "a part of every contact force relaxes: a spring in series with a dashpot acts beside the springs",
             .signature =
-                "the storage modulus rises by a step around one frequency, and the loss modulus has its maximum there; well below, "
-                "it looks like 'contact-dashpot' and 'solvent-drag', over a decade or less like 'contact-loss', from which higher "
-                "and lower frequencies separate it",
+                "The storage modulus rises by a step around one frequency, where the loss modulus has its maximum. "
+                "Far below that frequency this looks like 'contact-dashpot' and 'solvent-drag', and over a decade or "
+                "less like 'contact-loss'; higher and lower frequencies separate them.",
             .parameters = {{"relaxing_over_spring", "1", 3e-3, 10, true}, {"contact_relaxation_time", "s", 1e-3, 1e3, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) {
                 settings.relaxing_ratio = values[0];

@@ -14,10 +14,12 @@ bool can_be_aimed_at(const Experiment& experiment) {
 /// No sample comes with its coordination: the recipe has one by convention.
 Mechanism coordination() {
     return {.name = "coordination",
-            .term = "particles have another number of contacts than the recipe aims at; the structures are made with it",
+            .term =
+                "particles have another number of contacts than the recipe aims at; the simulated structures are "
+                "generated with that number",
             .signature =
-                "the peak of the contacts follows the coordination, the pores hardly do; all moduli higher or lower by one "
-                "factor",
+                "The contact peak of the pair correlation follows the coordination, while the pores hardly change. "
+                "All moduli are higher or lower by one factor.",
             .parameters = {{"coordination", "1", 4.3, 5.1, false}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.coordination = values[0]; }},
             .applies = can_be_aimed_at};

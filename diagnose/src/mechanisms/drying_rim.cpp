@@ -23,10 +23,10 @@ bool has_open_rim(const Experiment& experiment) {
 /// From films that a water-based sample shows within an hour (0.01 N/m) to crusts of a slurry.
 Mechanism drying_rim() {
     return {.name = "drying-rim",
-            .term = "a skin dries at the rim and shears with the sample",
+            .term = "a skin dries at the rim and is sheared with the sample",
             .signature =
-                "the storage modulus grows by the same amount in time at all frequencies, strains and gaps, more under a smaller "
-                "plate, and the loss modulus does not; gone under a solvent trap",
+                "The storage modulus grows with time by the same amount at all frequencies, strains and gaps, and by "
+                "more under a smaller plate. The loss modulus does not change. A solvent trap prevents it.",
             .parameters = {{"skin_growth", "N/(m.s)", 1e-7, 1, true}},
             .effect = ChangesGeometry{with_skin},
             .applies = has_open_rim};

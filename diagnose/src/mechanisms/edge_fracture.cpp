@@ -32,10 +32,11 @@ bool strains_far(const Experiment& experiment) {
 /// crack ends at the radius that is strained so far.
 Mechanism edge_fracture() {
     return {.name = "edge-fracture",
-            .term = "beyond a strain the sample is driven out of the gap and cracks open at its rim",
+            .term = "beyond a critical strain the sample is driven out of the gap and cracks at its rim",
             .signature =
-                "torque is lost beyond a strain and does not come back on the way down; the strain is lower at a wider gap, by "
-                "the root of it, where the yield of bonds is not",
+                "Beyond a critical strain the torque falls, and it does not recover on the way down. The critical "
+                "strain falls as one over the square root of the gap; that of yielding bonds does not depend on the "
+                "gap.",
             .parameters = {{"fracture_strain", "1", 0.05, 20, true}, {"penetration", "1", 0.3, 6, true}},
             .effect = ChangesGeometry{fractured},
             .applies = strains_far};

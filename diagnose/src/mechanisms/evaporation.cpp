@@ -27,10 +27,10 @@ bool dries(const Experiment& experiment) {
 /// G' of colloidal gels grows as the volume fraction to a power of 2 to 6 (Buscall and others 1988).
 Mechanism evaporation() {
     return {.name = "evaporation",
-            .term = "solvent evaporates from the rim, and the volume fraction of the whole sample grows",
+            .term = "solvent evaporates at the rim, so that the volume fraction of the whole sample grows",
             .signature =
-                "all moduli grow with the time since the filling, faster and faster, more under a smaller plate, whatever the "
-                "gap; gone under a solvent trap",
+                "All moduli grow faster and faster with the time since the filling, more under a smaller plate, at "
+                "every gap alike. A solvent trap prevents it.",
             .parameters = {{"solvent_loss", "1/s", 1e-7, 1e-4, true}, {"modulus_exponent", "1", 2, 6, false}},
             .effect = ScalesMaterial{concentrated},
             .applies = dries};

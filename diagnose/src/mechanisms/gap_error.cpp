@@ -12,8 +12,10 @@ constexpr double narrowest = 0.1;  ///< gap over the stated one: plates do not m
 /// (Kramer, Davies and Stokes 2008; rheometers' manuals).
 Mechanism gap_error() {
     return {.name = "gap-error",
-            .term = "the gap is another than stated",
-            .signature = "all moduli lower by one factor where the gap is larger, more at small gaps, also in a Newtonian oil",
+            .term = "the true gap differs from the stated one",
+            .signature =
+                "All moduli are lower by one factor where the true gap is larger, most at small gaps. A Newtonian oil "
+                "shows it too.",
             .parameters = {{"gap_error", "m", -5e-5, 2e-4, false}},
             .effect = ChangesGeometry{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return std::isfinite(row.gap) ? modulus * row.gap / std::max(row.gap + values[0], narrowest * row.gap) : modulus;

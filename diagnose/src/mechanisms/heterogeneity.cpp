@@ -14,13 +14,16 @@ bool can_have_other_voids(const Experiment& experiment) {
 
 /// The fewer voids push the particles together, the more heterogeneous is what void expansion makes (Schenker et al. 2012).
 Mechanism heterogeneity() {
-    return {
-        .name = "heterogeneity",
-        .term = "the sample is more or less heterogeneous than the recipe's structures; these are made with other numbers of voids",
-        .signature = "fewer voids per particle give larger pores and more neighbours within two diameters at equal coordination",
-        .parameters = {{"voids_per_particle", "1", 0.125, 1, true}},
-        .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.voids = values[0]; }},
-        .applies = can_have_other_voids};
+    return {.name = "heterogeneity",
+            .term =
+                "the sample is more or less heterogeneous than the recipe's structures; simulated structures are "
+                "generated with another number of voids",
+            .signature =
+                "With fewer voids per particle the pores are larger and more neighbours lie within two diameters, at "
+                "equal coordination.",
+            .parameters = {{"voids_per_particle", "1", 0.125, 1, true}},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.voids = values[0]; }},
+            .applies = can_have_other_voids};
 }
 
 }  // namespace coagula::diagnose::mechanisms

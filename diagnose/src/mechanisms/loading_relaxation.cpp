@@ -20,10 +20,10 @@ bool rests_after_filling(const Experiment& experiment) {
 /// root at most, by tens of per cent (Digby 1981, see normal_load.cpp).
 Mechanism loading_relaxation() {
     return {.name = "loading-relaxation",
-            .term = "closing the gap left the contacts under a load that stiffens them and relaxes with time",
+            .term = "closing the gap left the contacts under a load, which stiffens them and relaxes with time",
             .signature =
-                "all moduli of the sample, but not of an oil, fall with the time since the filling and come to rest; a normal "
-                "force that is recorded falls, too",
+                "All moduli of the sample fall with the time since the filling and level off; those of an oil do not. "
+                "A recorded normal force falls too.",
             .parameters = {{"excess", "1", 0.01, 1, true}, {"relaxation_time", "s", 10, 1e4, true}},
             .effect = ScalesMaterial{relaxed},
             .applies = rests_after_filling};

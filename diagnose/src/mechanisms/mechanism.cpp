@@ -116,7 +116,7 @@ void require_causes(const std::vector<std::string>& names) {
     }
     for (const std::string& name : names) {
         if (find_mechanism(name) == nullptr) {
-            throw InputError("'" + name + "' is no cause of the catalogue" + did_you_mean(name, known));
+            throw InputError("'" + name + "' is not a cause of the catalogue" + did_you_mean(name, known));
         }
     }
 }

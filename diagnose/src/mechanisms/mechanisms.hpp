@@ -1,4 +1,4 @@
-// What the mechanisms, one file each, share: what an experiment must say for them.
+// Conditions on an experiment that the mechanisms, one file each, share.
 #pragma once
 
 #include <coagula/diagnose/mechanism.hpp>
@@ -18,7 +18,7 @@
 
 namespace coagula::diagnose::mechanisms {
 
-/// Of the places of critical strains in their priors: 1 % of the strain, less than structures can tell.
+/// Step of critical strains along their priors, 0 .. 1: 1 % of the strain, less than structures can resolve.
 constexpr double strength_step = 1.0 / 920;
 
 constexpr double usual_gap = 1e-3;  ///< where none is known [m]
@@ -45,7 +45,7 @@ inline bool knows_gap(const Experiment& experiment) {
            any_measurement(experiment, [](const Measurement& table) { return find_column(table, "gap") != nullptr; });
 }
 
-/// How far the walls are apart is known: between plates, or under a cone of known angle and radius.
+/// Whether the distance of the walls is known: between plates, or under a cone of known angle and radius.
 inline bool knows_walls(const Experiment& experiment) {
     return knows_gap(experiment) || (experiment.instrument.geometry == Geometry::cone_plate && knows_tool(experiment));
 }

@@ -21,8 +21,9 @@ Mechanism missing_contacts() {
         .name = "missing-contacts",
         .term = "some contacts of the simulated structures are absent in the sample, at random",
         .signature =
-            "all moduli lower by one factor, most where the coordination is low, until nothing bears a load; of one structure "
-            "softer particles or a lower volume fraction look the same, and several coordinations separate them",
+            "All moduli are lower by one factor, most where the coordination is low, until the network bears no "
+            "load. In a single structure, softer particles or a lower volume fraction look the same; samples of "
+            "several coordinations separate them.",
         .parameters = {{"missing_share", "1", 0, 0.3, false}},
         .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) -> std::complex<double> {
             return sample.exact ? sample.simulator.exact_thinned_response(sample.settings, values[0], row.structures)

@@ -53,10 +53,10 @@ bool knows_load(const Experiment& experiment) {
 /// tests/benchmark/diagnosis_campaign/pressed.py, at volume fractions of 0.4 and 0.5 and coordinations of 4.3 to 5.4.
 Mechanism normal_load() {
     return {.name = "normal-load",
-            .term = "the plates press the sample, and its contacts stiffen under their load",
+            .term = "the plates press on the sample, and the load stiffens its contacts",
             .signature =
-                "all moduli follow the normal force that was recorded, up and down, by the same part at every strain and "
-                "frequency",
+                "All moduli follow the recorded normal force up and down, by the same factor at every strain and "
+                "frequency.",
             .parameters = {{"contact_pressure", "Pa", 100, 1e6, true}},
             .effect = ChangesGeometry{pressed},
             .applies = shows_load};

@@ -20,8 +20,8 @@ Mechanism numerical() {
         .name = "numerical",
         .term = "the simulated structures are too small: the modulus drifts with their number of particles",
         .signature =
-            "what is measured departs from the simulation the more the fewer particles the structure has; gone after "
-            "refinement",
+            "The smaller the simulated structures are, the more the measured moduli deviate from theirs. With "
+            "larger structures the deviation vanishes.",
         .parameters = {{"drift_at_thousand_particles", "1", -0.3, 1, false}},
         .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) -> std::complex<double> {
             return 1 + values[0] * std::cbrt(1000 / sample.simulator.particles(row.structures));

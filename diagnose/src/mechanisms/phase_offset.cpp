@@ -6,7 +6,9 @@ namespace coagula::diagnose::mechanisms {
 Mechanism phase_offset() {
     return {.name = "phase-offset",
             .term = "the instrument reads the phase with an offset",
-            .signature = "G'' of a stiff solid is a fixed share of G', of either sign, at all frequencies, strains and times",
+            .signature =
+                "G'' of a stiff solid is a fixed fraction of G', positive or negative, at all frequencies, strains "
+                "and times.",
             .parameters = {{"phase", "rad", -0.02, 0.02, false}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return is_steady(row) ? modulus : modulus * std::polar(1.0, values[0]);

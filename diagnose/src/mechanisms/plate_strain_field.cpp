@@ -18,8 +18,10 @@ bool sweeps_between_plates(const Experiment& experiment) {
 
 Mechanism plate_strain_field() {
     return {.name = "plate-strain-field",
-            .term = "bonds break at a finite force, first at the rim of the plates, where the strain is largest",
-            .signature = "the yield of bonds of finite strength, spread over a wider range of strain",
+            .term =
+                "bonds break at a finite force, and they do so first at the rim of the plates, where the strain is "
+                "largest",
+            .signature = "The bonds yield, as under 'bond-strength', but over a wider range of strain.",
             .parameters = {{"rim_critical_strain", "1", 3e-6, 3e-2, true, strength_step}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.rim_critical_strain = values[0]; }},
             .applies = sweeps_between_plates,

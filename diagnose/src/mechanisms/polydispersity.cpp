@@ -5,8 +5,10 @@ namespace coagula::diagnose::mechanisms {
 /// Only structures of a recipe can be made again with sizes.
 Mechanism polydispersity() {
     return {.name = "polydispersity",
-            .term = "particles have a lognormal distribution of sizes; the structures are made with it",
-            .signature = "the peak of the contacts is lower and wider, the pores change; coordination is kept",
+            .term = "the particles have a lognormal distribution of sizes; the simulated structures are generated with it",
+            .signature =
+                "The contact peak of the pair correlation is lower and wider, and the pores change. The coordination "
+                "does not.",
             .parameters = {{"relative_size_deviation", "1", 0.02, 0.4, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.size_deviation = values[0]; }},
             .applies = sees_recipe};

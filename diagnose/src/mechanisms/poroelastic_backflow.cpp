@@ -34,11 +34,12 @@ Mechanism poroelastic_backflow() {
     return {
         .name = "poroelastic-backflow",
         .term =
-            "the filling squeezes the network and its solvent alike; the solvent leaves through the pores, and the network "
-            "becomes denser",
+            "the filling compresses the network and its solvent together; the solvent then leaves through the "
+            "pores, and the network becomes denser",
         .signature =
-            "all moduli grow with the time since the filling and come to rest, by the same part at every gap and sooner at "
-            "a narrow one: in a time that goes as the square of the gap over the modulus, whatever the plate's radius",
+            "All moduli grow with the time since the filling and level off, by the same factor at every gap. The "
+            "time that this takes is proportional to the square of the gap over the modulus, whatever the plate's "
+            "radius.",
         .parameters = {{"drained_growth", "1", 0.02, 0.5, true}, {"permeability_over_viscosity", "m2/(Pa s)", 1e-16, 1e-10, true}},
         .effect = ChangesGeometry{drained},
         .applies = drains};

@@ -6,8 +6,8 @@ namespace coagula::diagnose::mechanisms {
 /// state.
 Mechanism prestress() {
     return {.name = "prestress",
-            .term = "all contacts pull at rest: their force resists sideways motion",
-            .signature = "raises the moduli, most where the network is loose, at all strains and frequencies alike",
+            .term = "all contacts are under tension at rest, and this force resists sideways motion",
+            .signature = "The moduli are higher, most where the coordination is low, at all strains and frequencies alike.",
             .parameters = {{"tension_over_stiffness", "1", 1e-4, 1e-2, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.tension = values[0]; }},
             .applies = has_moduli,

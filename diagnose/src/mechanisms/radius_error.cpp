@@ -20,10 +20,10 @@ bool shows_radius(const Experiment& experiment) {
 /// A sample trimmed too little or too much, by up to a millimetre.
 Mechanism radius_error() {
     return {.name = "radius-error",
-            .term = "the sample reaches farther out than the rim of the plates, or less far",
+            .term = "the sample reaches beyond the rim of the plates, or ends before it",
             .signature =
-                "all moduli higher or lower by one factor, also in an oil, whatever the gap, more under a smaller plate; it "
-                "differs from filling to filling",
+                "All moduli are higher or lower by one factor, at every gap alike and more under a smaller plate. An "
+                "oil shows it too. The factor differs from filling to filling.",
             .parameters = {{"radius_error", "m", -1e-3, 1e-3, false}},
             .effect = ChangesGeometry{filled},
             .applies = shows_radius};

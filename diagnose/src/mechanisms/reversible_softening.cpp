@@ -22,15 +22,16 @@ bool strains_differ(const Experiment& experiment) {
 }  // namespace
 
 Mechanism reversible_softening() {
-    return {
-        .name = "reversible-softening",
-        .term = "contacts open under strain and close again at once",
-        .signature = "the storage modulus falls and the loss modulus has a maximum beyond a strain, the same on the way down as up",
-        .parameters = {{"softening_strain", "1", 1e-5, 10, true},
-                       {"softening_exponent", "1", 0.3, 2, false},
-                       {"loss_at_half", "1", 0.003, 1, true}},
-        .effect = ScalesMaterial{softened},
-        .applies = strains_differ};
+    return {.name = "reversible-softening",
+            .term = "contacts open under strain and close again at once",
+            .signature =
+                "Beyond a strain the storage modulus falls and the loss modulus has a maximum. Both are the same on "
+                "the way down in strain as on the way up.",
+            .parameters = {{"softening_strain", "1", 1e-5, 10, true},
+                           {"softening_exponent", "1", 0.3, 2, false},
+                           {"loss_at_half", "1", 0.003, 1, true}},
+            .effect = ScalesMaterial{softened},
+            .applies = strains_differ};
 }
 
 }  // namespace coagula::diagnose::mechanisms

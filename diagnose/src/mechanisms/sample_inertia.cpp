@@ -42,8 +42,10 @@ bool shows_waves(const Experiment& experiment) {
 
 Mechanism sample_inertia() {
     return {.name = "sample-inertia",
-            .term = "the sample is so soft and the gap so wide that shear waves pass through it",
-            .signature = "shifts the storage modulus by the square of frequency and gap, whatever the plate",
+            .term = "shear waves pass through the sample, because it is soft and the gap is wide",
+            .signature =
+                "The storage modulus changes in proportion to the square of the frequency and to the square of the "
+                "gap, under every plate alike.",
             .parameters = {{"density", "kg/m3", 500, 8000, true}},
             .effect = ChangesGeometry{with_waves},
             .applies = shows_waves};

@@ -16,8 +16,12 @@ bool settles_in_time(const Experiment& experiment) {
 
 Mechanism sedimentation() {
     return {.name = "sedimentation",
-            .term = "the sample settles while it is measured, towards a volume fraction that grows downwards between the plates",
-            .signature = "all moduli fall with the time since the filling and come to rest, by the square of the gap",
+            .term =
+                "the sample settles while it is measured, until its volume fraction grows downwards between the "
+                "plates",
+            .signature =
+                "All moduli fall with the time since the filling and level off. The fall is proportional to the "
+                "square of the gap.",
             .parameters = {{"settled_difference", "1", 0, 0.05, false}, {"sedimentation_time", "s", 300, 1e5, true}},
             .effect = ScalesMaterial{settling},
             .applies = settles_in_time};

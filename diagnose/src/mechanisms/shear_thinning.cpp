@@ -15,8 +15,10 @@ std::complex<double> thinning(const Observation& row, Values values, const Simul
 /// rates, a power of the rate at low ones. At an exponent of 1 it were a stress that stays, as `torque_offset` leaves it.
 Mechanism shear_thinning() {
     return {.name = "shear-thinning",
-            .term = "the sample is no Newtonian fluid: its viscosity falls with the shear rate",
-            .signature = "the viscosity rises towards low shear rates, slower than as one over the rate, under all plates alike",
+            .term = "the sample is not a Newtonian fluid: its viscosity falls with the shear rate",
+            .signature =
+                "The viscosity rises towards low shear rates, more slowly than one over the rate, under all plates "
+                "alike.",
             .parameters = {{"excess_at_1_per_s", "1", 1e-3, 10, true}, {"thinning_exponent", "1", 0.1, 0.9, false}},
             .effect = ScalesMaterial{thinning},
             .applies = flows_as_an_oil,

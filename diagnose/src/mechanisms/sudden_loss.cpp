@@ -33,13 +33,13 @@ bool is_told_from_yielding(const Experiment& experiment) {
 
 }  // namespace
 
-/// Slip along a crack, a bubble that leaves, a plate that was touched.
+/// A crack along which the sample slips, a bubble that escapes and a plate that was touched all have this effect.
 Mechanism sudden_loss() {
     return {.name = "sudden-loss",
-            .term = "within a run a sample loses a part of its hold on the plates at once",
+            .term = "during a run a sample suddenly loses part of its grip on the plates, or part of its material",
             .signature =
-                "all moduli of one sample are lower by one factor from one row on, whatever varies; its other runs, if they "
-                "come later, and no other sample",
+                "From one row on, all moduli of one sample are lower by one factor, whatever is varied. Its later "
+                "runs show the same factor; other samples do not.",
             .parameters = {{"place_of_loss", "1", 0, 1, false}, {"remaining_share", "1", 0.05, 0.99, false}},
             .effect = ChangesGeometry{lost},
             .applies = is_told_from_yielding};

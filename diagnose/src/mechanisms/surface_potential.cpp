@@ -20,10 +20,12 @@ bool coagulates(const Experiment& experiment) {
 /// Only structures that coagulate by a recipe can coagulate again.
 Mechanism surface_potential() {
     return {.name = "surface-potential",
-            .term = "the particles coagulated at another surface potential, with a higher or lower barrier between them",
+            .term =
+                "the particles coagulated at another surface potential, with a higher or lower energy barrier between "
+                "them",
             .signature =
-                "above a barrier of some kT structures are more heterogeneous at equal coordination: larger pores, more "
-                "neighbours within two diameters",
+                "Behind a barrier of some kT, structures of equal coordination are more heterogeneous: their pores "
+                "are larger, and more neighbours lie within two diameters.",
             .parameters = {{"surface_potential", "V", 0, highest_potential, false}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.coagulation_potential = values[0]; }},
             .applies = coagulates};

@@ -14,9 +14,10 @@ std::complex<double> drifting(const Observation& row, Values values, const Simul
 /// The viscosity of water falls by 2 % a kelvin, that of oils by up to 10 %; plates need minutes to reach their temperature.
 Mechanism temperature_drift() {
     return {.name = "temperature-drift",
-            .term = "the sample was filled at another temperature than that of the plates, which it takes on with time",
+            .term = "the sample was filled at another temperature than that of the plates and takes on theirs with time",
             .signature =
-                "all moduli, also of an oil, start off by one factor, up or down, which decays with the time since the filling",
+                "All moduli begin higher or lower by one factor, which decays with the time since the filling. An oil "
+                "shows it too.",
             .parameters = {{"start_difference", "1", -0.3, 0.3, false}, {"settling_time", "s", 60, 3000, true}},
             .effect = ScalesMaterial{drifting},
             .applies = takes_time,

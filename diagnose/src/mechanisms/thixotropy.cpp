@@ -50,16 +50,16 @@ bool shears_in_time(const Experiment& experiment) {
 /// 58 (1959) 470; Mewis and Wagner, Advances in Colloid and Interface Science 147 (2009) 214). The modulus is that of the network
 /// with this share of its bonds.
 Mechanism thixotropy() {
-    return {
-        .name = "thixotropy",
-        .term = "shear breaks bonds at a rate of its own, and at rest they form again",
-        .signature =
-            "the moduli fall with the strain that was sheared through so far, faster and farther at a higher rate, and come back "
-            "with the time at rest; on the way up alone 'bond-strength' and 'reversible-softening' look alike, of which one "
-            "does not come back and the other does at once: rest and repeat",
-        .parameters = {{"breakdown_per_strain", "1", 1e-4, 1e5, true}, {"rebuilding_time", "s", 10, 1e5, true}},
-        .effect = ScalesMaterial{left_by_shear},
-        .applies = shears_in_time};
+    return {.name = "thixotropy",
+            .term = "shear breaks bonds at a rate of its own, and they form again at rest",
+            .signature =
+                "The moduli fall with the accumulated strain, faster and farther at a higher shear rate, and recover "
+                "with the time at rest. A single sweep upwards looks the same under 'bond-strength', which never "
+                "recovers, and 'reversible-softening', which recovers at once; a rest and a second sweep separate the "
+                "three.",
+            .parameters = {{"breakdown_per_strain", "1", 1e-4, 1e5, true}, {"rebuilding_time", "s", 10, 1e5, true}},
+            .effect = ScalesMaterial{left_by_shear},
+            .applies = shears_in_time};
 }
 
 }  // namespace coagula::diagnose::mechanisms

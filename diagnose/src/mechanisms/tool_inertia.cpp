@@ -4,8 +4,10 @@ namespace coagula::diagnose::mechanisms {
 
 Mechanism tool_inertia() {
     return {.name = "tool-inertia",
-            .term = "the inertia of the tool is larger than the instrument corrects",
-            .signature = "shifts the storage modulus by the square of the frequency and never the loss modulus",
+            .term = "the inertia of the tool is larger than the instrument corrects for",
+            .signature =
+                "The storage modulus changes in proportion to the square of the frequency. The loss modulus never "
+                "changes.",
             .parameters = {{"inertia", "kg.m2", 1e-9, 1e-3, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 const double frequency = row.angular_frequency;

@@ -22,14 +22,14 @@ std::complex<double> with_offset(std::complex<double> modulus, const Observation
 /// From nanonewton metres, which a mapped bearing leaves, to more than a micronewton metre of friction or of a rim that the sample
 /// wets unevenly (Johnston and Ewoldt 2013). It does not oscillate, and so drops out of moduli.
 Mechanism torque_offset() {
-    return {
-        .name = "torque-offset",
-        .term = "a torque that does not come from the sample stays however slowly the tool turns",
-        .signature =
-            "the viscosity rises, or falls through zero, towards low shear rates, as one over the rate, most under small plates",
-        .parameters = {{"stress_offset", "Pa", -0.1, 0.1, false, 0, least_offset}},
-        .effect = ChangesTool{with_offset},
-        .applies = flows_as_an_oil};
+    return {.name = "torque-offset",
+            .term = "a constant torque that does not come from the sample remains, however slowly the tool turns",
+            .signature =
+                "Towards low shear rates the viscosity rises, or falls through zero, as one over the rate, most under "
+                "small plates.",
+            .parameters = {{"stress_offset", "Pa", -0.1, 0.1, false, 0, least_offset}},
+            .effect = ChangesTool{with_offset},
+            .applies = flows_as_an_oil};
 }
 
 }  // namespace coagula::diagnose::mechanisms

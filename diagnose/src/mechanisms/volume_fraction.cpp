@@ -20,10 +20,12 @@ bool can_be_diluted(const Experiment& experiment) {
 /// A sample that lost solvent when it was filled, or particles when it was weighed.
 Mechanism volume_fraction() {
     return {.name = "volume-fraction",
-            .term = "the volume fraction of the sample is another than stated; the structures are made with it",
+            .term =
+                "the volume fraction of the sample differs from the stated one; the simulated structures are "
+                "generated with that of the sample",
             .signature =
-                "neighbours at all distances and the pores follow the volume fraction, the contacts do not; all moduli higher "
-                "or lower by one factor",
+                "The pores and the number of neighbours at all distances follow the volume fraction, while the "
+                "contacts do not. All moduli are higher or lower by one factor.",
             .parameters = {{"volume_fraction_over_stated", "1", 0.85, 1.15, false}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.volume_fraction_change = values[0] - 1; }},
             .applies = can_be_diluted};

@@ -29,11 +29,11 @@ std::complex<double> settled_layers(const Observation& row, double difference, c
 Mechanism volume_fraction_gradient() {
     return {.name = "volume-fraction-gradient",
             .term =
-                "the sample has settled: its volume fraction grows downwards between the plates, and soft and stiff layers are in "
-                "series",
+                "the sample has settled: its volume fraction grows downwards between the plates, so that soft and "
+                "stiff layers are in series",
             .signature =
-                "all moduli lower by one factor, by the square of the gap: most at wide gaps, where slip and an error of the "
-                "gap lower them least",
+                "All moduli are lower by a factor that grows with the square of the gap. It is largest at wide gaps, "
+                "where slip and an error of the gap matter least.",
             .parameters = {{"volume_fraction_difference", "1", 0, 0.05, false}},
             .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) {
                 return settled_layers(row, values[0], sample);

@@ -39,7 +39,7 @@ Complex slipping(Complex modulus, const Observation& row, Values values) {
 Mechanism wall_slip() {
     return {.name = "wall-slip",
             .term = "the sample slips at the plates",
-            .signature = "the apparent modulus is the lower the stiffer the sample and the smaller the gap",
+            .signature = "The apparent modulus is lower, the more so the stiffer the sample and the smaller the gap.",
             .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true}},
             .effect = ChangesGeometry{slipping},
             .applies = [](const Experiment& experiment) { return knows_walls(experiment) && shows_geometry(experiment); }};
