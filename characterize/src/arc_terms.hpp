@@ -19,7 +19,7 @@ constexpr int arc_block = 8;
 /// sum[k] = sum over the sides of weight times arc_term(a, b, rho) at rho = start + k step, for `blocks` times arc_block radii.
 void sum_arc_terms(const ArcSides& sides, double start, double step, int blocks, double* sum);
 
-/// Of the six orthoschemes around an edge: those of side k with the heights c[0] and c[1] have the places 2 k and 2 k + 1.
+/// The six orthoschemes around an edge: those of side k with the heights c[0] and c[1] have the places 2 k and 2 k + 1.
 struct OrthoschemeAngles {
     std::array<double, 8> d2{};   ///< sqrt(a^2 + b^2 + c^2)
     std::array<double, 8> phi{};  ///< atan(c / b)

@@ -22,7 +22,7 @@ struct NullSpace {
 NullSpace find_null_space(const SparseMap& matrix, const std::vector<bool>& guess, const RigidityOptions& options,
                           const Progress& progress);
 
-/// That of a matrix without rows.
+/// Null space of a matrix without rows.
 NullSpace whole_space(Index unknowns, const RigidityOptions& options);
 
 /// Moves the unknowns that are not pinned so that |A x| becomes least, for several x as columns, with iterative refinement.

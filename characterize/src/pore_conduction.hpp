@@ -16,7 +16,7 @@ struct FaceConductances {
     std::array<Eigen::ArrayXf, 3> of_face;
 };
 
-/// Of voxels with open faces, for a liquid of unit conductivity.
+/// Conductances of voxels with open faces, for a liquid of unit conductivity.
 FaceConductances face_conductances(const VoxelGrid& grid, const OpenFaces& faces);
 
 class ConductionSolver {

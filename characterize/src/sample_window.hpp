@@ -1,4 +1,4 @@
-// What part of space a packing samples: all of a periodic cell, or the convex hull of the centres of an open packing. Internal.
+// The part of space that a packing samples: all of a periodic cell, or the convex hull of the centres of an open packing. Internal.
 #pragma once
 
 #include <coagula/common/packing.hpp>

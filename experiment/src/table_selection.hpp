@@ -1,4 +1,4 @@
-// Which rows and columns of a measured table are meant, and on which clock it was measured.
+// Selection of rows and columns of a measured table, and its clock.
 #pragma once
 
 #include "toml_keys.hpp"

@@ -1,4 +1,4 @@
-// What a [[measurement]] says about the run: sample, order and times, plates, what is between them.
+// Statements of a [[measurement]] about the run: sample, order and times, plates, what is between them.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>

@@ -1,4 +1,4 @@
-// What the report of a diagnosis says about the data themselves, as HTML.
+// The section of a diagnosis report about the data themselves, as HTML.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>

@@ -1,4 +1,4 @@
-// What the report of a diagnosis says about a table beside its pictures.
+// Texts of a diagnosis report about a table, beside its figures.
 #pragma once
 
 #include <coagula/diagnose/diagnosis.hpp>
@@ -10,7 +10,7 @@ namespace coagula::report {
 /// Kind, sample and what was special about it: "amplitude-sweep · sample A · under a cone of 1°".
 std::string conditions_of(const diagnose::Measurement& table);
 
-/// What images of the same particles differ by, measured and by both models, as HTML; empty where the table has one image.
+/// Differences between images of the same particles, measured and by both models, as HTML; empty where the table has one image.
 /// @param cause name of the best cause; empty: there is none, and the base model stands alone.
 std::string image_table(const diagnose::Diagnosis& diagnosis, std::size_t number, const std::string& cause);
 

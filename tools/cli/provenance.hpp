@@ -1,4 +1,4 @@
-// What a stage writes into the history of a file.
+// The entry of a stage in the history of a file.
 #pragma once
 
 #include "arguments.hpp"

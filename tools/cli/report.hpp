@@ -1,4 +1,4 @@
-// What a verb prints: one JSON object, or a short table. Both are made from the data sets that go into the file.
+// Output of a verb: one JSON object, or a short table. Both are made from the data sets that go into the file.
 #pragma once
 
 #include "arguments.hpp"

@@ -22,7 +22,7 @@ Verb plot_verb();
 Verb completion_verb();
 Verb man_verb();
 
-/// In the order in which help texts list them.
+/// All verbs, in the order in which help texts list them.
 std::vector<Verb> all_verbs();
 
 }  // namespace coagula::tools

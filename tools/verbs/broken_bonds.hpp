@@ -1,4 +1,4 @@
-// What the methods that break bonds say about why.
+// Causes of breakage, for the methods that break bonds.
 #pragma once
 
 #include "cli/report.hpp"
@@ -10,7 +10,7 @@
 
 namespace coagula::tools {
 
-/// How many bonds broke, how many by each cause, and the cause of each.
+/// Number of broken bonds, number by each cause, and the cause of each.
 /// @param path of the group they go into, with the slash at its end.
 void append_causes(Results& results, const std::string& path, const std::vector<BreakageCause>& causes);
 

@@ -1,4 +1,4 @@
-// What a Brownian run leaves in the file and prints.
+// Results of a Brownian run, for the file and for the table.
 #pragma once
 
 #include "cli/report.hpp"

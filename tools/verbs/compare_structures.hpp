@@ -1,4 +1,4 @@
-// What `coagula characterize a.h5 b.h5 --compare` prints.
+// The output of `coagula characterize a.h5 b.h5 --compare`.
 #pragma once
 
 #include "cli/report.hpp"

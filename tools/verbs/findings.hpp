@@ -1,4 +1,4 @@
-// What a verb finds.
+// Results of a verb.
 #pragma once
 
 #include "cli/report.hpp"
@@ -10,7 +10,7 @@
 
 namespace coagula::tools {
 
-/// For the file, for programs and for people.
+/// Results of a verb for the file, for programs and for people.
 struct Findings {
     std::string group;  ///< in the file
     Results results;

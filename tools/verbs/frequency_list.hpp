@@ -14,7 +14,7 @@ std::vector<double> parse_frequency_list(const std::string& text);
 /// "0.1Hz:1kHz:20": from the first to the second in so many logarithmic steps, ends included.
 std::vector<double> parse_frequency_sweep(const std::string& text);
 
-/// What the user asked for [Hz]; empty when neither option was given.
+/// Frequencies asked for [Hz]; empty when neither option was given.
 std::vector<double> frequencies_of(const Arguments& arguments);
 
 }  // namespace coagula::tools

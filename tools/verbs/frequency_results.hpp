@@ -1,4 +1,4 @@
-// What `coagula shear --frequency` finds as data sets and a table.
+// Results of `coagula shear --frequency` as data sets and a table.
 #pragma once
 
 #include "cli/report.hpp"

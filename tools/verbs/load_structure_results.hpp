@@ -1,4 +1,4 @@
-// What carries the load, as data sets, particle fields and lines of the table of `coagula shear`.
+// The load-bearing structure, as data sets, particle fields and lines of the table of `coagula shear`.
 #pragma once
 
 #include "cli/report.hpp"

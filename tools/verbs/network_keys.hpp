@@ -1,4 +1,4 @@
-// What every method of `coagula shear` says about the bonded network itself.
+// Data sets about the bonded network itself, which every method of `coagula shear` writes.
 #pragma once
 
 #include "cli/report.hpp"

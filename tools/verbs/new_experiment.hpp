@@ -10,7 +10,7 @@
 
 namespace coagula::tools {
 
-/// What a table of an export is.
+/// Kind of a table of an export.
 struct RecognisedTable {
     std::optional<diagnose::MeasurementKind> kind;  ///< none: nothing that a diagnosis could use
     std::string reason;                             ///< why, such as "angular_frequency goes from 0.1 to 100 rad/s"

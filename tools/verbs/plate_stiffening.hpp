@@ -1,4 +1,4 @@
-// What the plates of the rheometer did to its moduli.
+// Effect of the plates of the rheometer on its moduli.
 #pragma once
 
 #include "findings.hpp"

@@ -13,7 +13,7 @@
 
 namespace coagula::tools {
 
-/// What only this method needs.
+/// Options of this method alone.
 std::vector<Option> quasistatic_options();
 
 Findings quasistatic_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,

@@ -1,4 +1,4 @@
-// What `coagula shear --method dem` finds as data sets and a table.
+// Results of `coagula shear --method dem` as data sets and a table.
 #pragma once
 
 #include "cli/report.hpp"

@@ -14,13 +14,13 @@
 
 namespace coagula::tools {
 
-/// What only this method needs.
+/// Options of this method alone.
 std::vector<Option> rheometer_options();
 
 /// What must be the same for a run to go on from its checkpoint: everything but where results go.
 std::string run_signature(const Arguments& arguments, const Packing& packing, const ContactModel& model);
 
-/// What the options say. @param frequencies at most one; empty: 1 Hz.
+/// Settings of the run from its options. @param frequencies at most one; empty: 1 Hz.
 mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,
                                                  const std::vector<double>& frequencies);
 

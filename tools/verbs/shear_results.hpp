@@ -1,4 +1,4 @@
-// What `coagula shear --method linear` finds as data sets, particle fields and a table.
+// Results of `coagula shear --method linear` as data sets, particle fields and a table.
 #pragma once
 
 #include "cli/report.hpp"
@@ -16,7 +16,7 @@ Results datasets_of(const mechanics::LinearResponse& response, double bond_toler
 /// Displacements and rotations of the three shears.
 std::vector<io::ParticleField> fields_of(const mechanics::LinearResponse& response);
 
-/// What the relaxation before the shear did, below the group of the method.
+/// Results of the relaxation before the shear, below the group of the method.
 void append_relaxation(const std::string& method_group, Results& results, std::vector<io::ParticleField>& fields,
                        const mechanics::RelaxedNetwork& rest);
 

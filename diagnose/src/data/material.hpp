@@ -1,4 +1,4 @@
-// What stands for the sample, checked against the rest of the experiment.
+// Check of the base model of the sample against the rest of the experiment.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>

@@ -1,4 +1,4 @@
-// How fast each sample was sheared, and when.
+// Shear history of each sample: how fast and when.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>
@@ -23,7 +23,7 @@ class StrainHistory {
 public:
     explicit StrainHistory(const Experiment& experiment);
 
-    /// Of the sample of a table; none where nothing says in which order it was measured.
+    /// History of the sample of a table; none where the order of its runs is unknown.
     const std::vector<ShearedSpan>& of(std::size_t table) const { return samples_.at(names_.at(table)); }
 
 private:

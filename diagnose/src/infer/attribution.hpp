@@ -32,14 +32,14 @@ struct Compared {
     double log_total(const Priors& priors) const;
 };
 
-/// What was compared.
+/// The models compared.
 struct Comparison {
     std::vector<Compared> all;  ///< the base model first
     std::size_t winner = 0;     ///< the most probable of all but the base model
     double p_value = 1;         ///< of the test, applied to the winner
 };
 
-/// How much is tried: in brief without remainders and with one pair.
+/// Extent of the search: in brief without remainders and with one pair.
 enum class Effort { whole, brief };
 
 /// Fits single causes; where the best does not pass the test with ease, it is paired with those causes towards which the data still

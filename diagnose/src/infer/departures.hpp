@@ -17,7 +17,7 @@ struct Departures {
 };
 Departures departures_of(const Inference& inference, const Fit& fit);
 
-/// What departures from the fitted base model, its most probable effects and errors taken out, show of the correlation of rows.
+/// Correlation of rows, from the deviations from the fitted base model without its most probable effects and errors.
 RowCorrelations correlations_by_base(const Forward& forward, const DataSet& data);
 
 /// Orthonormal columns that span those given.

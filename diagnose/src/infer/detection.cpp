@@ -289,8 +289,7 @@ Eigen::MatrixXd drawn_residuals(const Inference& inference, const Departures& de
     return drawn;
 }
 
-/// As many standard deviations as a normal number would lie above its mean with the same probability: by counting; of the largest
-/// tenth by an exponential tail of the same mean, which tells those apart that are larger than all others.
+/// z-score by rank. The largest tenth follows an exponential tail of the same mean, so that values beyond all others differ.
 Eigen::ArrayXd standardised(const Eigen::ArrayXd& values) {
     std::vector<double> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());

@@ -1,4 +1,4 @@
-// What a diagnosis gains on data that it has not seen.
+// Gain of a diagnosis on data held out.
 #pragma once
 
 #include "attribution.hpp"
@@ -9,7 +9,7 @@
 
 namespace coagula::diagnose {
 
-/// Which observations are held out together: in turn each sample all of whose tables were measured in the same way on another, too;
+/// Groups of observations held out together: in turn each sample all of whose tables were measured in the same way on another, too;
 /// else in turn the tables that were measured alike; else the rows at the end of the axis of every table, once. No fold leaves
 /// fewer than four numbers.
 std::vector<std::vector<bool>> choose_folds(const Experiment& experiment, const std::vector<Observation>& observations,

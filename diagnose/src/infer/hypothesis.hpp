@@ -17,7 +17,7 @@
 
 namespace coagula::diagnose {
 
-/// Of a prior, 0 .. 1, from which fits by straight lines stay away.
+/// Distance from the ends of a prior, 0 .. 1, that fits by straight lines keep.
 inline constexpr double prior_edge = 1e-3;
 
 /// A parameter's posterior.
@@ -39,7 +39,7 @@ struct Fit {
     double log_evidence = 0;            ///< of the data, all parameters integrated over their priors
     Eigen::MatrixXd draws;              ///< normal stiffness and parameters x equally probable draws from the posterior
 
-    /// Of all parameters, in their order.
+    /// Values of all parameters, in their order.
     std::vector<double> values() const;
     /// Some models of the posterior, evenly spread over its draws.
     std::vector<Model> drawn(Index count) const;

@@ -1,4 +1,4 @@
-// Where the base model fails, in words.
+// Sentences that say where the base model fails.
 #pragma once
 
 #include "detection.hpp"

@@ -1,4 +1,4 @@
-// Which further measurement would tell tied causes apart.
+// Search for the measurement that would separate tied causes.
 #pragma once
 
 #include "hypothesis.hpp"

@@ -1,4 +1,4 @@
-// What a model leaves over: a smooth departure on top of it (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425).
+// Remainder of a model: a smooth deviation on top of it (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425).
 #pragma once
 
 #include "hypothesis.hpp"

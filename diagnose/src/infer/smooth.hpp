@@ -16,7 +16,7 @@ namespace coagula::diagnose {
 inline constexpr std::array smooth_amplitudes{0.03, 0.15, 0.75};
 inline constexpr std::array smooth_lengths{0.2, 0.7};
 
-/// What a departure is of.
+/// Observable of a deviation.
 enum class Departing { storage, loss, both };
 
 /// A smooth departure of unit size: of which moduli, and along which coordinates, as the sum of a part along each or along all

@@ -11,7 +11,7 @@ namespace coagula::diagnose {
 
 using Eigen::Index;
 
-/// What numbers belong to, made once for all effects on them.
+/// Samples and groups of the numbers, made once for all effects on them.
 struct Belonging {
     /// @param in_sample sample of each number, -1: of none. @param in_group group of each number, below `groups`.
     Belonging(std::vector<Index> in_sample, Index sample_count, const std::vector<std::size_t>& in_group, std::size_t groups);
@@ -26,30 +26,31 @@ struct Belonging {
 /// however large the numbers are. Products of the directions are made once, for all deviations and variances.
 class NormalEffects {
 public:
-    /// @param level of each number by the effect of its sample.
+    /// @param level derivative of each number with respect to the effect of its sample.
     NormalEffects(std::shared_ptr<const Belonging> belonging, const Eigen::VectorXd& numbers, const Eigen::VectorXd& level,
                   const Eigen::MatrixXd& others);
-    /// Effects of no sample, numbers of one group.
+    /// Without effects of samples; all numbers form one group.
     NormalEffects(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& others);
 
-    /// Others of both, with the same directions of the others. @param level as there.
+    /// Replaces numbers and level. The directions of the other effects stay the same. @param level as in the constructor.
     void replace(const Eigen::VectorXd& numbers, const Eigen::VectorXd& level);
 
-    /// @param effect deviation of the effects of the samples. @param scales of the others. @param variances of the groups.
+    /// @param effect standard deviation of the effects of the samples. @param scales standard deviations of the other effects.
+    /// @param variances variances of the groups.
     void solve(double effect, const Eigen::VectorXd& scales, const std::vector<double>& variances);
 
-    /// Of the samples, then the others, over their deviations.
+    /// Most probable effects over their standard deviations: those of the samples first, then the others.
     const Eigen::VectorXd& most_probable() const { return effects_; }
     Eigen::MatrixXd covariance() const;
-    /// Sum of the squares of what is left, over the variances, and of the squares of the effects.
+    /// Sum of the squared residuals over their variances and of the squared effects.
     double misfit() const { return misfit_; }
-    /// Of the covariance of the numbers over that of n.
+    /// Logarithm of the determinant of the covariance of the numbers over that of n.
     double log_determinant() const { return log_determinant_; }
     /// Sum of the squares of n in each group, over what the numbers leave open about e.
     std::vector<double> expected_squares() const;
 
 private:
-    /// Of the directions of the numbers of a group with each other and with the numbers.
+    /// Products of the directions of a group with each other and with its numbers.
     struct Products {
         Eigen::VectorXd own;      ///< of each sample's direction with itself
         Eigen::MatrixXd between;  ///< samples x others

@@ -1,4 +1,4 @@
-// What a model says of every number that was measured.
+// Prediction of a model for every measured number.
 #pragma once
 
 #include "model_errors.hpp"
@@ -15,7 +15,7 @@ struct Prediction {
     Eigen::VectorXd level_slope;
     ModelErrors errors = {};
 
-    /// Of the material alone, which all scales with its level.
+    /// Prediction for the material alone, which scales with its level.
     Prediction(Eigen::VectorXd all) : values(std::move(all)), level_slope(values) {}  // NOLINT(google-explicit-constructor)
     Prediction(Eigen::VectorXd all, Eigen::VectorXd slope, ModelErrors model_errors)
         : values(std::move(all)), level_slope(std::move(slope)), errors(std::move(model_errors)) {
@@ -24,7 +24,7 @@ struct Prediction {
         }
     }
 
-    /// With these errors, along straight lines.
+    /// Prediction with these errors, along straight lines.
     Eigen::VectorXd with(const Eigen::VectorXd& some) const {
         return errors.about.size() == 0 ? values : Eigen::VectorXd(values + errors.changes * (some - errors.about));
     }

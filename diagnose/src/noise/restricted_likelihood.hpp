@@ -21,7 +21,7 @@ struct ReplicatedValues {
 /// Standard deviations: floor (values over floor weight), relative part, sample effect.
 using Deviations = std::array<double, 3>;
 
-/// What the likelihood is made of at given deviations.
+/// Terms of the likelihood at given deviations.
 struct RestrictedFit {
     double minus_log_likelihood = 0;  ///< up to a constant
     Eigen::VectorXd levels;           ///< generalised least squares, one per condition

@@ -1,4 +1,4 @@
-// What the rows themselves show of the correlation of neighbouring errors, beside what is known of it beforehand.
+// Correlation of neighbouring errors, from the rows themselves and from prior knowledge.
 #pragma once
 
 #include "data_set.hpp"
@@ -14,7 +14,7 @@ struct RowCorrelation {
     double deviation;  ///< standard error
 };
 
-/// Of torque and of phase.
+/// Correlations of torque and of phase.
 using RowCorrelations = std::array<RowCorrelation, 2>;
 
 /// By departures of the data from a fitted model, torque and phase apart, freed from all that a cubic in the place of the row can

@@ -39,7 +39,7 @@ std::vector<double> Simulator::shells(double plane, double axis) {
     });
 }
 
-/// As of the function.
+/// Scatter of the neighbour counts by direction, averaged over the structures.
 const std::vector<double>& Simulator::neighbour_spread() {
     if (spread_of_neighbours_.empty()) {
         constexpr std::size_t shells = shell_count;
@@ -69,7 +69,7 @@ const std::vector<double>& Simulator::shell_node(int plane, int axis) {
     return node;
 }
 
-/// As of the function.
+/// Neighbour counts about free points by direction, averaged over the structures.
 const std::vector<double>& Simulator::shells_about_places() {
     if (shells_about_places_.empty()) {
         shells_about_places_ = mean_over_structures("places by direction", shell_count + 1, {}, shells_about_free_places);
@@ -77,8 +77,7 @@ const std::vector<double>& Simulator::shells_about_places() {
     return shells_about_places_;
 }
 
-/// Standard deviations as they are seen over the true ones, and the share of centres that are not found again although they are in
-/// both images.
+/// Apparent over true standard deviations, and the share of the centres that are in both images but are not matched.
 std::vector<double> Simulator::matched_images(double plane, double axis) {
     return mean_over_structures("images", 3, {plane, axis}, [&](const Packing& structure) -> std::vector<double> {
         const auto seen = images_of_structure(structure, 2 * radius_ * plane, 2 * radius_ * axis).values;

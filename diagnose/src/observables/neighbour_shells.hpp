@@ -23,7 +23,7 @@ constexpr bool is_along_axis(std::size_t shell) {
     return shell >= shells_of_direction;
 }
 
-/// Where a shell begins.
+/// Inner radius of a shell.
 constexpr double inner_end(std::size_t shell) {
     return first_shell + shell_width * static_cast<double>(shell % shells_of_direction);
 }

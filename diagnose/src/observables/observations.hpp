@@ -1,4 +1,4 @@
-// What was measured, number by number.
+// The measured numbers, one by one.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>
@@ -25,7 +25,7 @@ struct Observation {
     bool of_phase = false;   ///< the error is that of the phase, or of a loss modulus alone; else of the torque
     double turned = 0;       ///< from the axis of G' to that of its error, towards G'' [rad]
     double other_error = 0;  ///< of the other part of G*, as turned [Pa]
-    // Where and when; NaN where the table does not say.
+    // Conditions of the row; NaN where the table does not state them.
     double strain = unset;              ///< amplitude
     double largest_strain = unset;      ///< that the sample has seen up to this row
     double angular_frequency = unset;   ///< [rad/s]
@@ -45,7 +45,7 @@ struct Observation {
     bool solvent_trap = false;
     int run = 0;                     ///< its place among those on the sample (run_clock.hpp)
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]
-    // Of a structure series.
+    // Members for a structure series.
     std::size_t structures = 0;  ///< group that stands for the row; 0: all structures
     double heterogeneity = unset;
     double coordination = unset;
@@ -66,12 +66,12 @@ struct Observation {
 /// "neighbours_axis", "exclusion_probability", "localisation_plane", "localisation_axis" or "unmatched_share".
 const char* observable_of(const Observation& observation);
 
-/// Of steady flow: a viscosity.
+/// Whether the observation is a viscosity of steady flow.
 inline bool is_steady(const Observation& observation) {
     return std::isfinite(observation.shear_rate);
 }
 
-/// Of a Newtonian fluid in place of the sample.
+/// Whether a Newtonian fluid is in place of the sample.
 inline bool is_fluid(const Observation& observation) {
     return std::isfinite(observation.fluid_viscosity);
 }

@@ -1,4 +1,4 @@
-// How pore curves scatter as a whole from structure to structure, read off one structure.
+// Scatter of whole pore curves from structure to structure, estimated from one structure.
 #pragma once
 
 #include <coagula/common/packing.hpp>

@@ -12,7 +12,7 @@
 
 namespace coagula::diagnose {
 
-/// What differs between two images.
+/// A quantity that differs between two images.
 enum class ImageDifference { plane, axis, unmatched };
 
 struct RepeatedImages {

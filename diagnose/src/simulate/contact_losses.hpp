@@ -1,4 +1,4 @@
-// What acts beside the springs of every contact and takes time.
+// Time-dependent elements beside the springs of every contact.
 #pragma once
 
 #include <coagula/diagnose/settings.hpp>

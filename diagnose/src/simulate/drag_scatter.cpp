@@ -14,14 +14,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 // tests/benchmark/drag_scatter.py measures what the next constants state.
-constexpr double particles_of_scatter = 400;  ///< in a structure of which the next hold
-constexpr double least_scatter = 0.02;        ///< of the logarithm, where all particles are dragged along
-constexpr double slow_scatter = 0.1;          ///< added to that at a reduced drag of 1e-3, and more where it is less
-constexpr double largest_scatter = 1.5;       ///< added at most, where the slowest motions still follow
-constexpr double decades = 2.2;               ///< over which errors are alike
-/// As much as the stated scale weighs: other coordinations scatter by up to 1.5 times that.
+constexpr double particles_of_scatter = 400;  ///< number of particles of a structure with the scatter below
+constexpr double least_scatter = 0.02;        ///< standard deviation of the logarithm where all particles are dragged along
+constexpr double slow_scatter = 0.1;          ///< added to it at a reduced drag of 1e-3; it grows towards weaker drag
+constexpr double largest_scatter = 1.5;       ///< upper limit of what is added, where even the slowest motions follow
+constexpr double decades = 2.2;               ///< decades of drag over which errors are correlated
+/// Weight of the stated scale in degrees of freedom. It is small, because other coordinations scatter by up to 1.5 times as much.
 constexpr double stated_degrees = 6;
-constexpr double least_share = 1e-2;  ///< of the largest eigenvalue, which an error must have to count
+constexpr double least_share = 1e-2;  ///< errors with a smaller share of the largest eigenvalue are dropped
 
 /// Standard deviation of the logarithm of the mean reduced viscosity of structures with so many particles together.
 ArrayXd stated_scatter(const ArrayXd& drags, double particles) {
@@ -30,8 +30,8 @@ ArrayXd stated_scatter(const ArrayXd& drags, double particles) {
     return (one.square().expm1() * (particles_of_scatter / particles)).log1p().sqrt();
 }
 
-/// Matern's of order 3/2: 0.94, 0.81 and 0.53 over half a decade, one and two. A smoother one would have shapes of the curve known
-/// that are not.
+/// Matern correlation of order 3/2: 0.94, 0.81 and 0.53 over a half, one and two decades. A smoother correlation would claim to
+/// know the shape of the curve better than it is known.
 MatrixXd correlation(const ArrayXd& drags) {
     const ArrayXd places = drags.log10() / decades;
     const Index count = places.size();

@@ -1,4 +1,4 @@
-// How far the drag of a solvent in a large sample can be from that in a few structures.
+// Difference between the solvent drag in a large sample and in a few structures.
 #pragma once
 
 #include <Eigen/Core>

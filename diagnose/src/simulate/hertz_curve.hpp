@@ -1,4 +1,4 @@
-// How Hertz contacts that are pressed in at rest resist a growing strain.
+// Resistance of Hertz contacts with a load at rest to a growing strain.
 #pragma once
 
 #include <coagula/common/contact_network.hpp>

@@ -1,11 +1,11 @@
-// How far the stiffening of Hertz contacts in a large sample can be from that in a few structures.
+// Difference between the stiffening of Hertz contacts in a large sample and in a few structures.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace coagula::diagnose {
 
-/// Of the logarithm of the secant modulus at the nodes of hertz_axis over that of small strains.
+/// Scatter of the logarithm of the secant modulus at the nodes of hertz_axis over that of small strains.
 struct HertzScatter {
     Eigen::MatrixXd errors;  ///< nodes x independent standard errors of the mean over the structures
     double degrees;          ///< of freedom from which their common scale is known

@@ -1,4 +1,4 @@
-// How a large sample yields, from a few simulated structures.
+// Yield curve of a large sample, from a few simulated structures.
 #pragma once
 
 #include <Eigen/Core>

@@ -14,11 +14,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double small_step = 1e-5;  ///< relative, of a modulus
+constexpr double small_step = 1e-5;  ///< relative step of a modulus
 
 }  // namespace
 
-/// Of the errors that structures leave, the fewest.
+/// Smallest degrees of freedom of any structure error.
 double Forward::degrees_of_errors(const Settings& settings, bool any) const {
     double degrees = smooth_ ? SmoothMaterial::degrees : std::numeric_limits<double>::infinity();
     if (any && settings.felt_viscosity > 0) {

@@ -1,4 +1,4 @@
-// Networks of which contacts are missing at random.
+// Contact networks from which contacts are removed at random.
 #pragma once
 
 #include <coagula/common/contact_network.hpp>
@@ -7,9 +7,9 @@
 
 namespace coagula::diagnose {
 
-/// The network without this share of its contacts, those that come first in a random order: what misses fewer holds all that misses
-/// more.
-/// @param share 0 .. 1. @param order number of the random order.
+/// Removes this share of the contacts, those that come first in a random order. A network with a smaller share removed contains
+/// every network with a larger one.
+/// @param share share of the contacts to remove, 0 .. 1. @param order number of the random order.
 ContactNetwork thinned(const ContactNetwork& contacts, double share, std::uint64_t order);
 
 }  // namespace coagula::diagnose

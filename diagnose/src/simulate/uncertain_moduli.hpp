@@ -16,13 +16,13 @@ struct UncertainModuli {
     Eigen::VectorXcd excess;      ///< logarithm of the factor on that part that is expected
     Eigen::MatrixXcd logarithms;  ///< numbers x errors of the drag
 
-    /// Of which nothing is open.
+    /// Moduli without errors.
     explicit UncertainModuli(const Eigen::VectorXcd& known = {});
     UncertainModuli(Eigen::VectorXcd expected, Eigen::MatrixXcd added);
 
     Eigen::Index errors() const { return changes.cols() + logarithms.cols(); }
 
-    /// With these errors.
+    /// Moduli with these errors.
     Eigen::VectorXcd with(const Eigen::VectorXd& errors) const;
     /// The same, and the slope by each error.
     Eigen::MatrixXcd tangents(const Eigen::VectorXd& errors) const;

@@ -25,7 +25,7 @@ struct ComparedMeasure {
     std::optional<std::size_t> more_heterogeneous() const;
 };
 
-/// What the measures say together.
+/// Joint result of the measures.
 enum class Agreement {
     all,       ///< every measure names the same structure
     some,      ///< some name the same structure, the others do not tell

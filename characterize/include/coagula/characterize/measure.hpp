@@ -24,7 +24,7 @@ struct MeasureOption {
     double high = std::numeric_limits<double>::infinity();  ///< both ends are allowed
 };
 
-/// What a measure found, for files and for people. Names are below /characterization, such as "pore_size/mean".
+/// Results of a measure, for files and for people. Names are below /characterization, such as "pore_size/mean".
 class MeasureResult {
 public:
     /// @param standard_error of the value over structures of the same kind, as block_errors estimates it; stored under

@@ -1,4 +1,4 @@
-// What measures are given: the packing, the values of the options, and what several measures share, computed once.
+// Input of the measures: the packing, the values of the options, and what several measures share, computed once.
 #pragma once
 
 #include <coagula/characterize/blocks.hpp>

@@ -1,4 +1,4 @@
-// How far errors of the coordinates move what is measured.
+// Effect of errors of the coordinates on the measures.
 #pragma once
 
 #include <coagula/characterize/measure.hpp>

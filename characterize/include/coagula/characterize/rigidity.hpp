@@ -15,7 +15,7 @@
 
 namespace coagula::characterize {
 
-/// What a contact constrains.
+/// Relative motions that a contact constrains.
 enum class Bonds {
     normal_and_shear,  ///< the three relative displacements at the contact point; particles turn, no moment passes through a
                        ///< contact

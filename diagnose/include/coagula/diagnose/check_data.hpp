@@ -24,7 +24,7 @@ struct DataCheckOptions {
     bool liquid = false;
 };
 
-/// What a relation between columns of a table says.
+/// Check of a relation between columns of a table.
 struct RelationResult {
     std::string name;  ///< "|G*| x strain = stress"
     std::size_t rows;  ///< where all its cells are readable

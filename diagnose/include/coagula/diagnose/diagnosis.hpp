@@ -89,7 +89,7 @@ struct Failure {
     std::string sentence;
 };
 
-/// What a model leaves over.
+/// Deviation that remains beside a model.
 struct Remainder {
     bool detected = false;  ///< p_value is not above the level of the test
     double p_value = 1;     ///< of the test, applied to that model
@@ -105,7 +105,7 @@ struct HeldOutPrediction {
     double flexible = 0;
 };
 
-/// What the diagnosis gains on data that it has not seen: whole samples (or sweeps, or the ends of tables) are held out in turn,
+/// Gain of the diagnosis on data held out: whole samples (or sweeps, or the ends of tables) are held out in turn,
 /// the cause is chosen and fitted on the rest. NaN where no rows were held out.
 struct Gain {
     std::size_t held_out = 0;  ///< numbers
@@ -143,7 +143,7 @@ struct PredictedRow {
     double distance = unset;  ///< of the middle of the shells, over the diameter, where these are neighbours
 };
 
-/// What a cause other than the best predicts, to be held against the data.
+/// Prediction of a cause other than the best, to compare with the data.
 struct OtherPrediction {
     std::string cause;
     std::vector<double> values;         ///< of each of Diagnosis::rows, without the effect of the sample
@@ -174,7 +174,7 @@ struct Diagnosis {
     std::vector<OtherPrediction> others;         ///< of the next most probable causes, at most four
 };
 
-/// What `diagnose` refuses before it simulates: throws InputError when there are fewer than five usable numbers, too little to say
+/// Checks made before anything is simulated: throws InputError when there are fewer than five usable numbers, too little to say
 /// anything, or too many, when no cause can show, or when rows of a structure series have no structures.
 void check(const Experiment& experiment, const DiagnosisOptions& options);
 

@@ -13,7 +13,7 @@
 
 namespace coagula::diagnose {
 
-/// What was measured against what.
+/// Kind of a measurement: the quantity and its axis.
 enum class MeasurementKind {
     frequency_sweep,   ///< moduli against angular frequency at one strain amplitude
     amplitude_sweep,   ///< moduli against strain amplitude at one frequency
@@ -48,7 +48,7 @@ std::span<const Quantity> all_quantities();
 /// Null when there is none of this name.
 const Quantity* find_quantity(std::string_view name);
 
-/// What a table of this kind must have.
+/// Requirements on a table of this kind.
 struct TableRule {
     std::vector<std::string_view> axes;      ///< the axis is the first of these that the table has; empty: none
     std::vector<std::string_view> required;  ///< besides the axis
@@ -57,7 +57,7 @@ struct TableRule {
 };
 TableRule rule_of(MeasurementKind kind);
 
-/// What is known of the errors of a column besides their size.
+/// Knowledge about the errors of a column besides their size.
 struct ErrorLaw {
     double correlation = 0;                                    ///< of neighbouring rows, 0 .. 1
     double correlation_error = 0;                              ///< its standard error
@@ -110,7 +110,7 @@ const Column* find_column(const Measurement& measurement, std::string_view name)
 /// The column that is the axis of its kind; null when there is none.
 const Column* axis_of(const Measurement& measurement);
 
-/// What the particles and the solvent are; unset (NaN) where nobody said.
+/// Particles and solvent; unset (NaN) where not stated.
 struct Sample {
     std::string name;
     double particle_radius = unset;         ///< m
@@ -123,7 +123,7 @@ struct Sample {
     bool sheared_before = false;            ///< every run follows a shear that destroyed the structure
 };
 
-/// What stands for the sample.
+/// Base model of the sample.
 enum class MaterialKind {
     network,    ///< simulated structures of bonded particles
     newtonian,  ///< G* = i w eta
@@ -161,7 +161,7 @@ struct Instrument {
     double tool_compliance = unset;     ///< rad/(N.m)
 };
 
-/// How to make structures of the sample where none are given as files.
+/// Recipe for structures of the sample where none are given as files.
 struct StructureRecipe {
     std::string generator;  ///< "vem" or "brownian"
     int particles = 0;

@@ -41,7 +41,7 @@ struct MechanismParameter {
 /// Values of the parameters of a mechanism, in their order.
 using Values = std::span<const double>;
 
-/// What is known where the material is asked for: the experiment, the structures and how they are simulated.
+/// Knowledge of a material: the experiment, the structures and how they are simulated.
 struct SimulatedSample {
     const Experiment& experiment;
     Simulator& simulator;

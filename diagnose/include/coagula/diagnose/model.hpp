@@ -36,7 +36,7 @@ struct Model {
     /// @param values of all parameters of the hypothesis, in their order.
     Model(const Hypothesis& hypothesis, Values values, double normal_stiffness = Settings{}.normal_stiffness);
 
-    /// What the simulation runs.
+    /// Settings of the simulation.
     Settings simulated() const;
 
     /// Calls f(effect, values) for each acting mechanism that changes this link, in the order of the catalogue.

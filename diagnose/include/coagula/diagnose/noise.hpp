@@ -52,7 +52,7 @@ struct SampleEffect {
 };
 
 struct NoiseOptions {
-    /// What is assumed where there are no replicates to tell.
+    /// Values assumed where there are no replicates.
     double stated_relative = 0.05;
     double stated_sample = 0.1;
     double stated_floor = 0;            ///< unit of the observable; of the stress where the strain is known
@@ -91,7 +91,7 @@ struct NoiseModel {
     std::string statement;  ///< one sentence: where the numbers come from
 };
 
-/// What the floor is in.
+/// Unit of the floor.
 inline std::string floor_unit(const NoiseModel& noise) {
     return noise.floor_of_stress ? "Pa" : noise.unit;
 }
@@ -110,9 +110,9 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options =
 /// errors, of torque or phase, from the largest number of degrees of freedom.
 std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const NoiseOptions& options = {});
 
-/// What the models of torque, or of phase, say together about errors besides their size. Correlation of neighbours: what replicates
-/// show, freed from the bias that estimated sample effects make, where all from 0 to 0.9 are equally probable beforehand. Tail: the
-/// kurtosis, drawn towards that of normal errors.
+/// Joint statement of the models of torque, or of phase, about errors besides their size. Correlation of neighbours: what
+/// replicates show, freed from the bias that estimated sample effects make, where all from 0 to 0.9 are equally probable
+/// beforehand. Tail: the kurtosis, drawn towards that of normal errors.
 struct ErrorShape {
     ErrorLaw law;
     double factor = 1;  ///< on the model's deviation: drawn towards the other tables', and freed from what correlated rows lose to

@@ -22,7 +22,7 @@ struct Outlier {
 ///   more were measured alike, by more than eight robust standard deviations and a fifth;
 /// - every table of a sample whose level lies beside that of two or more others by more than six times their scatter, or the tenth
 ///   by which samples may differ.
-/// What two samples differ by is told of none of them.
+/// A difference between two samples is attributed to neither of them.
 std::vector<Outlier> leave_out_outliers(std::vector<Measurement>& tables);
 
 }  // namespace coagula::diagnose

@@ -31,7 +31,7 @@ struct Share {
 };
 Share share_of(int count, int of);
 
-/// How often the base model was found to fail at one strength of a cause.
+/// Rate at which the base model was found to fail at one strength of a cause.
 struct PowerPoint {
     double strength = 0;
     Share found;
@@ -57,7 +57,7 @@ struct NamingRuns {
     std::map<std::string, int> rivals = {};  ///< how often another cause was in the credible set
 };
 
-/// What the experiment can say about one cause.
+/// Power of the experiment for one cause.
 struct CausePower {
     std::string name;
     std::string parameter;  ///< the strength

@@ -10,7 +10,7 @@
 
 namespace coagula::diagnose {
 
-/// Of all runs on a sample [s].
+/// Longest time from the first to the last run on a sample [s].
 inline constexpr double longest_session = 366 * 86400.0;
 
 /// Before the first run on a sample.
@@ -26,15 +26,15 @@ struct RunTime {
     std::size_t before = no_run;  ///< the one before it on the sample
 };
 
-/// Of every table. A run that states its start, or whose clock runs on from the run before it, is where these say; every other
-/// follows the run before it after its pause, 10 s where none is stated, and its pre-shear. Throws InputError where a table
+/// Clocks of every table. A run that states its start, or whose clock runs on from the run before it, is where these say; every
+/// other follows the run before it after its pause, 10 s where none is stated, and its pre-shear. Throws InputError where a table
 /// states its time twice in different ways, or begins more than a minute before the run before it has ended.
 std::vector<RunTime> run_times(const Experiment& experiment);
 
 /// Time of a row on the clock of its table [s]; rows of a table without times follow each other every 10 s.
 double time_in(const Measurement& table, std::size_t row);
 
-/// What is worth knowing of them, in sentences: clocks that run on, and runs whose order nobody says.
+/// Notes about these clocks, in sentences: clocks that run on, and runs whose order nobody says.
 std::vector<std::string> notes_on_clocks(const Experiment& experiment);
 
 }  // namespace coagula::diagnose

@@ -26,7 +26,7 @@ namespace coagula::diagnose {
 /// Results by what was computed; a caller may keep it between diagnoses.
 using SimulationCache = std::map<std::string, std::vector<double>>;
 
-/// What bonds that break leave of the modulus G at one amplitude.
+/// Modulus G at one amplitude after bonds have broken.
 struct Yielded {
     std::complex<double> first;  ///< G* / G in the first oscillation
     double settled = 0;          ///< G' / G in the next one, in which nothing breaks any more
@@ -94,7 +94,7 @@ public:
     /// Degrees of freedom from which their common scale is known.
     double contact_degrees();
 
-    /// As contact_response, of stress over strain at a momentary strain.
+    /// The same as contact_response for the stress over the strain at a momentary strain.
     double contact_secant(const Settings& settings, double strain);
 
     /// G' / G of bonds that break while the strain amplitude x sin(phase) runs for the first time, `before` being the largest

@@ -13,7 +13,7 @@
 
 namespace coagula::diagnose {
 
-/// What structures have otherwise than the recipe of the experiment says.
+/// Changes of the recipe of the experiment with which structures are made again.
 struct StructureChange {
     double size_deviation = 0;  ///< standard deviation of the radii over their mean, of lognormal sizes
     double surface_potential = std::numeric_limits<double>::infinity();  ///< of coagulation [V]; infinite: as the recipe says
@@ -38,7 +38,7 @@ struct PoreCurve {
     double at(double radius) const;
 };
 
-/// What a simulation asks of the stages before it, which this library does not include.
+/// Stages before a simulation, which this library does not include.
 struct OtherStages {
     /// Makes a structure, by its number, by the recipe with this change. Empty where the structures are no recipe's.
     std::function<Packing(std::size_t structure, const StructureChange& change)> make = {};

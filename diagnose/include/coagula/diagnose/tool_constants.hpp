@@ -1,4 +1,4 @@
-// What an instrument reads, torque, deflection and the phase between them, as stress, strain and moduli.
+// Conversion of torque, deflection and the phase between them into stress, strain and moduli.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>

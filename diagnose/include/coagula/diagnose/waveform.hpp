@@ -1,4 +1,4 @@
-// What a waveform says: moduli of the first harmonic and the third harmonic of the stress.
+// Analysis of a waveform: moduli of the first harmonic and the third harmonic of the stress.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>

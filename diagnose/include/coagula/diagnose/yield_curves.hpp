@@ -26,7 +26,7 @@ public:
     std::array<double, 4> storage(double from, double to, double sine) const;
 
 private:
-    /// Of the first curves.
+    /// Values of the first `rows` curves at a load.
     template <int Rows>
     Eigen::Vector<std::complex<double>, Rows> at(double load, Eigen::Index rows = Rows) const;
 

@@ -13,7 +13,7 @@
 
 namespace coagula::experiment {
 
-/// What a table of a measurement has besides its columns.
+/// Facts about the table of a measurement besides its columns.
 struct TableFacts {
     std::vector<std::string> not_understood;                 ///< columns with numbers, as "'heading [unit]'"
     std::vector<std::pair<std::string, std::size_t>> flags;  ///< of a status column, and in how many rows
@@ -32,7 +32,7 @@ struct ExperimentFile {
 /// of the file. Throws InputError with a sentence that names the file, the key or column and the rule.
 ExperimentFile read_experiment(const std::string& path);
 
-/// What `work` with an experiment returns; an InputError of it names the experiment file first.
+/// Returns the result of `work` with an experiment; an InputError of it names the experiment file first.
 template <typename Work>
 auto naming(const std::string& path, const Work& work) {
     try {

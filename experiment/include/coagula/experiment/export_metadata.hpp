@@ -1,4 +1,4 @@
-// What exports say about instrument and sample, and what becomes of it in an experiment.
+// Statements of exports about instrument and sample, and their use in an experiment.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>

@@ -1,4 +1,4 @@
-// From a table as a file has it to a measurement in SI units.
+// Conversion of a table from a file into a measurement in SI units.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>
@@ -11,7 +11,7 @@
 
 namespace coagula::experiment {
 
-/// How the columns of a table become those of a measurement.
+/// Choice of columns of a table for a measurement.
 struct ColumnRules {
     std::map<std::string, std::string> headings;         ///< quantity -> heading in the file, where the heading is not known
     std::map<std::string, std::string> standard_errors;  ///< quantity -> heading of its standard error
@@ -29,7 +29,7 @@ diagnose::Measurement to_measurement(const io::PlainTable& table, diagnose::Meas
 /// Columns with numbers that nobody has a meaning for, as "'heading [unit]'".
 std::vector<std::string> not_understood(const io::PlainTable& table, const ColumnRules& rules);
 
-/// As many and the same, or no number in both.
+/// Whether both have the same length and, in each place, the same number or none.
 bool same_values(const std::vector<double>& one, const std::vector<double>& other);
 
 }  // namespace coagula::experiment

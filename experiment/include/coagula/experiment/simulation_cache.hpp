@@ -1,4 +1,4 @@
-// What was simulated before, as a text file: one line per result, key, tab, numbers.
+// Cache of simulations as a text file: one line per result, with key, tab and numbers.
 #pragma once
 
 #include <coagula/diagnose/simulator.hpp>

@@ -23,7 +23,7 @@ struct DiagnosisRecord {
     std::vector<std::string> notes;       ///< what a reader should know about the data and structures
 };
 
-/// What was found, in a sentence or two.
+/// The verdict in a sentence or two.
 std::string verdict_sentence(const diagnose::Diagnosis& found);
 
 /// HTML.

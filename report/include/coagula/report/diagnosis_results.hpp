@@ -1,4 +1,4 @@
-// What `coagula diagnose` finds: diagnosis.json and a table.
+// Results of `coagula diagnose`: diagnosis.json and a table.
 #pragma once
 
 #include <coagula/diagnose/diagnosis.hpp>
@@ -11,7 +11,7 @@
 
 namespace coagula::report {
 
-/// What replicates or statements say about the errors of some tables.
+/// Errors of some tables, from replicates or statements.
 Json noise_json(const diagnose::NoiseModel& noise);
 
 /// The object of diagnosis.json. @param noise of the tables. @param model path of the extended model; empty: there is none.
@@ -22,7 +22,7 @@ Table table_of(const diagnose::Diagnosis& diagnosis);
 /// The cause that the extended model has; null when there is none (nothing detected).
 const diagnose::Cause* extended_cause(const diagnose::Diagnosis& diagnosis);
 
-/// How the log predictive density on held-out rows changes: "+12.3 (90 % interval 8.1 to 17)". There must be such rows.
+/// Change of the log predictive density on held-out rows: "+12.3 (90 % interval 8.1 to 17)". There must be such rows.
 std::string change_of_density(const diagnose::Gain& gain, const std::function<std::string(double)>& print);
 
 /// No data set drawn from the base model has a misfit as large, so that p is at most what is stated.
