@@ -122,7 +122,8 @@ public:
             } catch (const NotPositiveDefinite&) {  // a dependent column has a larger pivot than that
             }
         }
-        throw std::runtime_error("the rank of the rigidity matrix cannot be told: stiffness fades into none without a gap");
+        throw std::runtime_error(
+            "the rank of the rigidity matrix cannot be determined: its singular values approach zero without a gap");
     }
 
 private:

@@ -28,7 +28,7 @@ bool same_numbers(const diagnose::Measurement& one, const diagnose::Measurement&
 void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tables) {
     for (auto table = tables.begin(); table != tables.end(); ++table) {
         if (table->label.ends_with("(planned)")) {
-            throw InputError(table->label + ": a plan has no measured moduli; it is for --power");
+            throw InputError(table->label + ": a planned table has no measured moduli; give --power to judge the plan");
         }
         const auto copy = std::find_if(tables.begin(), table, [&](const auto& other) { return same_numbers(*table, other); });
         if (copy != table && table->kind != diagnose::MeasurementKind::waveform) {
@@ -76,8 +76,8 @@ std::vector<diagnose::CheckedMeasurement> check_tables(const ExperimentFile& fil
     return checked;
 }
 
-/// Gap and plate radius of the instrument, written into the tables that inherit them, where others state their own: what is the
-/// same is told by that alone.
+/// Writes gap and plate radius of the instrument into the tables that inherit them, where other tables state their own. Tables of
+/// the same geometry then have the same value.
 void state_inherited(diagnose::Experiment& experiment) {
     for (const auto& [name, value] :
          {std::pair{"gap", experiment.instrument.gap}, std::pair{"plate_radius", experiment.instrument.plate_radius}}) {
@@ -102,8 +102,8 @@ void note_liquids(ExperimentFile& file) {
         if (network && std::isnan(table.fluid_viscosity) && looks_newtonian(table)) {
             file.notes.push_back(
                 table.label +
-                ": this sample is a liquid, G'' is far above G' and in proportion to the frequency, and no "
-                "network of particles; add [material] with kind = \"newtonian\", and its viscosity where it is known");
+                ": this sample is a liquid, not a network of particles: G'' is far above G' and proportional to the frequency; "
+                "add [material] with kind = \"newtonian\", and its viscosity where it is known");
         }
     }
 }

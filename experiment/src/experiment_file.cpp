@@ -107,7 +107,7 @@ void ExperimentReader::read_instrument() {
     if (const auto name = keys.text("geometry")) {
         instrument.geometry = diagnose::geometry(*name);
         if (!instrument.geometry) {
-            keys.fail("geometry", "'" + *name + "' is none of plate-plate, cone-plate, concentric-cylinders");
+            keys.fail("geometry", "'" + *name + "' is not one of plate-plate, cone-plate, concentric-cylinders");
         }
     }
     instrument.plate_radius = keys.quantity("plate_radius", "m").value_or(unset);
@@ -130,7 +130,7 @@ void ExperimentReader::read_structures() {
     for (const std::string& file : keys.texts("files")) {
         const std::string path = resolved(file);
         if (!fs::is_regular_file(path)) {
-            keys.fail("files", path + (fs::exists(path) ? " is no file" : " does not exist"));
+            keys.fail("files", path + (fs::exists(path) ? " is not a file" : " does not exist"));
         }
         result_.experiment.structures.push_back(path);
     }
@@ -222,7 +222,7 @@ void ExperimentReader::read_measurements() {
 const diagnose::Quantity& known_quantity(TomlKeys& keys, const std::string& key, const std::string& name) {
     const diagnose::Quantity* quantity = diagnose::find_quantity(name);
     if (quantity == nullptr) {
-        keys.fail(key, "'" + name + "' is no quantity (see docs/reference/experiment-file.md)");
+        keys.fail(key, "'" + name + "' is not a quantity (see docs/reference/experiment-file.md)");
     }
     return *quantity;
 }
@@ -307,7 +307,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         for (const diagnose::MeasurementKind known : diagnose::all_measurement_kinds()) {
             names += (names.empty() ? "" : ", ") + std::string(diagnose::name_of(known));
         }
-        keys.fail("kind", "'" + kind_name + "' is none of " + names);
+        keys.fail("kind", "'" + kind_name + "' is not one of " + names);
     }
     const diagnose::Measurement setting = read_setting(keys, number);
     if (table.contains("planned")) {

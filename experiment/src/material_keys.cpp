@@ -9,7 +9,7 @@ diagnose::Material read_material(TomlKeys& keys) {
     const std::string kind = keys.text("kind").value_or("network");
     const auto known = diagnose::material_kind(kind);
     if (!known) {
-        keys.fail("kind", "'" + kind + "' is none of network, newtonian, smooth");
+        keys.fail("kind", "'" + kind + "' is not one of network, newtonian, smooth");
     }
     diagnose::Material material{.kind = *known};
     if (*known == diagnose::MaterialKind::newtonian) {

@@ -60,7 +60,7 @@ private:
         for (const io::PlainColumn& column : table_.columns) {
             all += (all.empty() ? "'" : ", '") + column.heading + "'";
         }
-        fail("there is no column '" + heading + "' with numbers; those with numbers are " + all);
+        fail("there is no column '" + heading + "' with numbers; the columns with numbers are " + all);
     }
 
     /// Two columns of one heading would leave open which is meant, unless they say the same.

@@ -36,7 +36,7 @@ diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind ki
         } else if (name == "points") {
             points = keys.quantity_of(*node, "planned.points", "1");
         } else {
-            keys.fail("planned", "'" + name + "' is none of from, to, points");
+            keys.fail("planned", "'" + name + "' is not one of from, to, points");
         }
     }
     if (!(from > 0 && to > 0 && from != to)) {

@@ -54,7 +54,7 @@ diagnose::SimulationCache read_cache(const std::filesystem::path& path) {
         std::optional<std::vector<double>> values = whole ? numbers_of(rest.substr(tab + 1, end - tab - 1)) : std::nullopt;
         if (!values) {
             throw InputError(path.string() + ": line " + std::to_string(line) +
-                             " is no whole result of a simulation; remove the file, and what it held is simulated again");
+                             " is not a complete result of a simulation; remove the file to simulate it again");
         }
         cache.insert_or_assign(std::string(rest.substr(0, tab)), *std::move(values));
         rest.remove_prefix(end + 1);

@@ -117,7 +117,7 @@ TabulatedLaw::TabulatedLaw(std::vector<double> gaps, std::vector<double> energie
                 " energies, but it needs at least four gaps and an energy for each");
     for (std::size_t row = 0; row < gaps_.size(); ++row) {
         require(std::isfinite(gaps_[row]) && std::isfinite(energies_[row]),
-                "row " + std::to_string(row + 1) + " of the tabulated law holds what is no finite number");
+                "row " + std::to_string(row + 1) + " of the tabulated law holds a value that is not a finite number");
         require(row == 0 || gaps_[row] - gaps_[row - 1] >= least_step,
                 "row " + std::to_string(row + 1) + " of the tabulated law has a gap that is not at least " + to_text(least_step) +
                     " m larger than the one before it");

@@ -49,7 +49,7 @@ std::string noise_section(const std::vector<diagnose::NoiseModel>& noise) {
             effects[effect.sample].push_back(symbol_of(model.observable) + " " + signed_percent(effect.effect));
         }
     }
-    html += html_table({"observable", "per row", "floor", "per sample", "neighbours correlate by", "where this is from"}, rows);
+    html += html_table({"observable", "per row", "floor", "per sample", "neighbours correlate by", "source"}, rows);
     if (!effects.empty()) {
         html += paragraph(
             "Replicates differ by an effect of each sample, whatever the model (a model that is fitted may ask for others):");

@@ -43,7 +43,7 @@ void add_tables(Results& results, const diagnose::Experiment& experiment) {
         const diagnose::Measurement& table = experiment.measurements[k];
         const std::string path = group + "data/table_" + std::to_string(k + 1) + "/";
         results.push_back(io::text(path + "label", table.label, "file and section of the table"));
-        results.push_back(io::text(path + "kind", std::string(diagnose::name_of(table.kind)), "what was measured against what"));
+        results.push_back(io::text(path + "kind", std::string(diagnose::name_of(table.kind)), "kind of the measurement"));
         results.push_back(io::text(path + "sample", table.sample, "tables of one sample share its effect"));
         for (const diagnose::Column& column : table.columns) {
             const auto vector = [](const std::vector<double>& values) {
@@ -53,7 +53,7 @@ void add_tables(Results& results, const diagnose::Experiment& experiment) {
                                          std::string(diagnose::find_quantity(column.name)->meaning) + "; NaN: left out"));
             if (!column.standard_errors.empty()) {
                 results.push_back(io::vector(path + "standard_error/" + column.name, vector(column.standard_errors), column.unit,
-                                             "standard deviation of a row"));
+                                             "standard deviation of the error of a row"));
             }
         }
         if (!table.left_out.empty()) {
@@ -82,18 +82,18 @@ void add_predictions(Results& results, const Diagnosis& found) {
         io::integers(path + "row", counted(rows, [](const auto& row) { return row.row + 1; }), "row of the table, from 1"));
     results.push_back(
         io::text(path + "observable", lines(rows, [](const auto& row) { return row.observable; }),
-                 "what each entry is, one per line: a modulus, or a part of the third harmonic over the first, a number of "
+                 "kind of each entry, one per line: a modulus, or a part of the third harmonic over the first, a number of "
                  "neighbours or a share of the void space"));
     results.push_back(io::integers(path + "loss", counted(rows, [](const auto& row) { return row.observable == "loss_modulus"; }),
-                                   "1 for a loss modulus, 0 for all else"));
+                                   "1 for a loss modulus, 0 for any other quantity"));
     results.push_back(io::integers(path + "held_out", counted(rows, [](const auto& row) { return row.held_out; }),
                                    "1 for a row held out for the gain"));
-    numbers("measured", &PredictedRow::measured, "Pa", "as measured; what is no modulus has no unit");
-    numbers("standard_deviation", &PredictedRow::standard_deviation, "Pa", "of the error of the row");
+    numbers("measured", &PredictedRow::measured, "Pa", "measured values; values other than moduli have no unit");
+    numbers("standard_deviation", &PredictedRow::standard_deviation, "Pa", "standard deviation of the error of the row");
     numbers("base", &PredictedRow::base, "Pa", "prediction of the base model, without the effect of the sample");
     numbers("extended", &PredictedRow::extended, "Pa", "prediction with the best cause, without the effect of the sample");
-    numbers("base_residual", &PredictedRow::base_residual, "1", "standardised, effects of the samples taken out");
-    numbers("extended_residual", &PredictedRow::extended_residual, "1", "standardised, effects of the samples taken out");
+    numbers("base_residual", &PredictedRow::base_residual, "1", "standardised residual without the effects of the samples");
+    numbers("extended_residual", &PredictedRow::extended_residual, "1", "standardised residual without the effects of the samples");
     for (const diagnose::OtherPrediction& other : found.others) {
         results.push_back(
             io::vector(path + "others/" + other.cause,
@@ -104,24 +104,26 @@ void add_predictions(Results& results, const Diagnosis& found) {
 
 void add_detection(Results& results, const Diagnosis& found) {
     const std::string path = group + "detection/";
-    results.push_back(io::scalar(path + "p_value", found.p_value, "1", "part of drawn data sets with a misfit as large"));
-    results.push_back(io::scalar(path + "extended_p_value", found.extended_p_value, "1", "the same test of the best cause"));
+    results.push_back(io::scalar(path + "p_value", found.p_value, "1",
+                                 "fraction of the data sets drawn from the base model with a misfit at least as large"));
+    results.push_back(
+        io::scalar(path + "extended_p_value", found.extended_p_value, "1", "p-value of the same test of the best cause"));
     results.push_back(io::vector(path + "bootstrap", over(found.bootstrap, [](double value) { return value; }), "1",
                                  "largest standardised misfit of each data set drawn from the base model"));
     results.push_back(
         io::text(path + "statistics",
                  lines(found.statistics, [](const auto& one) { return one.measure + "\t" + one.observable + "\t" + one.axis; }),
                  "misfit statistics, one per line: measure, observable, axis"));
-    results.push_back(
-        io::vector(path + "value", over(found.statistics, [](const auto& one) { return one.value; }), "1", "of each statistic"));
+    results.push_back(io::vector(path + "value", over(found.statistics, [](const auto& one) { return one.value; }), "1",
+                                 "value of each statistic"));
     results.push_back(io::vector(path + "score", over(found.statistics, [](const auto& one) { return one.score; }), "1",
-                                 "of each statistic, standardised"));
+                                 "standardised value of each statistic"));
     for (std::size_t k = 0; k < found.failures.size(); ++k) {
         const diagnose::Failure& failure = found.failures[k];
         const std::string place = group + "where/" + std::to_string(k + 1) + "/";
         results.push_back(io::text(place + "sentence", failure.sentence, failure.observable + " along " + failure.axis));
         results.push_back(io::scalar(place + "log_bayes_factor", failure.log_bayes_factor, "1",
-                                     "natural logarithm; of a smooth departure against none"));
+                                     "natural logarithm of the Bayes factor of a smooth deviation against none"));
     }
 }
 
@@ -143,7 +145,7 @@ void add_causes(Results& results, const Diagnosis& found) {
         for (std::size_t k = 0; k < cause->parameters.size(); ++k) {
             const diagnose::EstimatedParameter& parameter = cause->parameters[k];
             const std::string place = group + "parameters/" + cause->name + "/" + parameter.name + "/";
-            results.push_back(io::scalar(place + "value", parameter.value, parameter.unit, "most probable"));
+            results.push_back(io::scalar(place + "value", parameter.value, parameter.unit, "most probable value"));
             results.push_back(io::scalar(place + "low", parameter.low, parameter.unit, "5 % quantile"));
             results.push_back(io::scalar(place + "high", parameter.high, parameter.unit, "95 % quantile"));
             if (static_cast<Index>(k) < cause->draws.rows()) {
@@ -185,7 +187,7 @@ void add_noise(Results& results, const DiagnosisRecord& record) {
         if (std::any_of(results.begin(), results.end(), [&](const io::Dataset& one) { return one.path == path + "statement"; })) {
             continue;  // tables of this kind at other conditions: the noise that is used is that of the first
         }
-        results.push_back(io::text(path + "statement", noise.statement, "where the numbers come from"));
+        results.push_back(io::text(path + "statement", noise.statement, "source of the numbers"));
         const auto estimate = [&](const std::string& name, const diagnose::Estimate& value, const std::string& unit,
                                   const std::string& meaning) {
             results.push_back(io::vector(path + name, Eigen::Vector3d(value.value, value.low, value.high), unit,
@@ -194,7 +196,8 @@ void add_noise(Results& results, const DiagnosisRecord& record) {
         estimate("floor", noise.floor, diagnose::floor_unit(noise), noise.floor_of_stress ? "floor of the stress" : "floor");
         estimate("relative", noise.relative, "1", "relative part");
         estimate("sample", noise.sample, "1", "effect of a sample");
-        results.push_back(io::scalar(path + "autocorrelation", noise.autocorrelation, "1", "of neighbouring residuals"));
+        results.push_back(
+            io::scalar(path + "autocorrelation", noise.autocorrelation, "1", "correlation of neighbouring residuals"));
     }
     const auto effects = [&](const std::string& name, const std::vector<diagnose::SampleEffect>& list, const std::string& model) {
         results.push_back(io::vector(group + "samples/" + name, over(list, [](const auto& effect) { return effect.effect; }), "1",
@@ -209,12 +212,12 @@ void add_noise(Results& results, const DiagnosisRecord& record) {
 
 void add_provenance(Results& results, const io::Provenance& provenance, const std::vector<std::string>& structures) {
     const std::string path = "/provenance/0001_diagnose/";
-    results.push_back(io::text(path + "command_line", provenance.command_line, "as it could be typed again"));
+    results.push_back(io::text(path + "command_line", provenance.command_line, "command line, which can be typed again"));
     results.push_back(io::text(path + "options", provenance.options, "JSON object of all options"));
-    results.push_back(io::integer(path + "seed", provenance.seed, "of the random numbers"));
-    results.push_back(io::text(path + "version", provenance.version, "of coagula, with git revision"));
-    results.push_back(io::text(path + "time", provenance.time, "UTC"));
-    results.push_back(io::scalar(path + "seconds", provenance.seconds, "s", "taken"));
+    results.push_back(io::integer(path + "seed", provenance.seed, "seed of the random numbers"));
+    results.push_back(io::text(path + "version", provenance.version, "version of coagula with its git revision"));
+    results.push_back(io::text(path + "time", provenance.time, "time of the call, UTC"));
+    results.push_back(io::scalar(path + "seconds", provenance.seconds, "s", "wall-clock time of the call"));
     results.push_back(io::text(path + "structures", lines(structures, [](const std::string& one) { return one; }),
                                "structures that were simulated, one per line"));
 }

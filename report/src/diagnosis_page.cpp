@@ -75,8 +75,8 @@ std::string detection(const DiagnosisRecord& record, Charts& charts) {
     std::string html = heading("Where the base model fails");
     html += paragraph(base_model_text(record.experiment.material));
     if (found.failures.empty()) {
-        html += paragraph(found.detected ? "It fails as a whole, without a smooth departure along one axis that would stand out."
-                                         : "It does not fail: no misfit is larger than chance makes it.");
+        html += paragraph(found.detected ? "It fails as a whole: no smooth deviation along a single axis stands out."
+                                         : "It does not fail: every misfit is as small as chance allows.");
     } else {
         html += "<ul class=\"findings\">\n";
         for (const diagnose::Failure& failure : found.failures) {
@@ -133,13 +133,15 @@ std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
         html += image_table(found, k, extended);
         html += table_charts(charts, table, k, found, extended);
         html += paragraph(
-            "Circles: elastic part or the quantity itself; triangles: viscous part, or neighbours along z; open: held out for the "
-            "gain; bars: one standard deviation. " +
+            "Circles show the elastic part or the quantity itself, triangles the viscous part or neighbours along z; open symbols "
+            "are held out for the "
+            "gain, and bars are one standard deviation. " +
                 (effect == found.base_effects.end() || effect->effect == 0
                      ? std::string{}
                      : "Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +
                            " by the fit of the base model. ") +
-                "What remains is measured less predicted with the effect of the sample taken out; grey: two standard deviations." +
+                "The residual is the measured less the predicted value, without the effect of the sample; the grey band is two "
+                "standard deviations wide on each side." +
                 not_shown(found, k),
             "soft");
     }
@@ -149,15 +151,16 @@ std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
 std::string causes(const Diagnosis& found) {
     std::string html = heading("Causes");
     html += paragraph(
-        "Probability of each cause, given the data, over its physical range. " +
+        "The bars show the probability of each cause, given the data and the physical range of its parameters. " +
         (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
         " The test of the base model, applied to the best cause, gives p = " + print_number(found.extended_p_value) + "." +
-        (found.remainder.detected ? (found.remainder.most ? " Most of it is left over: " : " Something is left over: ") +
+        (found.remainder.detected ? (found.remainder.most ? " Most of the deviation remains: " : " A deviation remains: ") +
                                         escaped(found.remainder.where) + "."
                                   : std::string{}) +
-        (found.level_alone ? " A departure of the level alone says as much: what is taken for known of structure, particles or "
-                             "instrument may be wrong as well."
-                           : std::string{}));
+        (found.level_alone
+             ? " Only the level of the moduli deviates. A wrong value of the structure, the particles or the instrument "
+               "would look the same."
+             : std::string{}));
     std::vector<std::vector<std::string>> rows;
     std::size_t improbable = 0;
     for (const Cause& cause : found.causes) {
@@ -174,7 +177,9 @@ std::string causes(const Diagnosis& found) {
                         "<span class=\"number\">" + escaped(probability_text(cause.posterior)) + "</span>", escaped(cause.words)});
     }
     html += html_table({"cause", "", "probability", "what it changes"}, rows, "bars");
-    return html + (improbable == 0 ? std::string{} : paragraph(std::to_string(improbable) + " more below 0.1 % each.", "soft"));
+    return html + (improbable == 0
+                       ? std::string{}
+                       : paragraph(std::to_string(improbable) + " further causes have a probability below 0.1 % each.", "soft"));
 }
 
 std::string parameters(const Diagnosis& found) {
@@ -229,7 +234,7 @@ std::string proposals(const Diagnosis& found) {
                         "<span class=\"number\">" + printed(proposal.information) + " bit</span>"});
     }
     return heading("What to measure next") +
-           paragraph("Measurements that would tell the causes of the 95 % set apart, the most informative first.") +
+           paragraph("These measurements would separate the causes of the 95 % set, the most informative first.") +
            html_table({"measurement", "decides with probability", "expected information"}, rows);
 }
 
@@ -259,12 +264,13 @@ std::string next_sentence(const diagnose::Proposal& proposal) {
     constexpr double hardly = 0.1;
     return proposal.resolution >= hardly
                ? " To decide, measure " + proposal.what + "."
-               : " No single measurement that was tried here is likely to decide; most is told by " + proposal.what + ".";
+               : " None of the measurements considered here is likely to decide alone; the most informative is " + proposal.what +
+                     ".";
 }
 
 std::string gained(const diagnose::Gain& gain) {
     return gain.held_out == 0 ? std::string{}
-                              : " On rows that no model has seen its error is " + percent(gain.rmse_extended) + " instead of " +
+                              : " On rows held out from the fit its error is " + percent(gain.rmse_extended) + " instead of " +
                                     percent(gain.rmse_base) + "; the log predictive density changes by " +
                                     change_of_density(gain, print_number) + ".";
 }
@@ -303,14 +309,14 @@ std::string verdict_sentence(const Diagnosis& found) {
     const std::string chance = " (" + chance_text(found) + ")";
     if (found.verdict == Verdict::no_discrepancy) {
         return "The base model explains the data: these " + std::to_string(found.observations) +
-               " moduli show nothing that it gets wrong" + chance + ".";
+               " moduli show no deviation from it" + chance + ".";
     }
     const std::string fails = "The base model fails" + chance;
     if (found.verdict == Verdict::none_of_catalogue) {
         const Cause* best = extended_cause(found);
-        return fails + (best == &found.causes.front() ? ", and so does the best that the catalogue has, " + best->name +
+        return fails + (best == &found.causes.front() ? ", and so does the best cause of the catalogue, " + best->name +
                                                             " (p = " + print_number(found.extended_p_value) + ")."
-                                                      : ", and no cause of the catalogue explains how.");
+                                                      : ", and no cause of the catalogue explains the deviation.");
     }
     const std::string next = found.proposals.empty() ? "" : next_sentence(found.proposals.front());
     if (found.verdict == Verdict::tied) {
@@ -318,7 +324,7 @@ std::string verdict_sentence(const Diagnosis& found) {
     }
     const Cause& cause = found.causes.front();
     return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + probability_text(cause.posterior) +
-           ")." + (found.remainder.detected ? " It leaves something over: " + found.remainder.where + "." : std::string{}) +
+           ")." + (found.remainder.detected ? " A deviation remains: " + found.remainder.where + "." : std::string{}) +
            gained(found.gain);
 }
 

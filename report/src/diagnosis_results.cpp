@@ -84,12 +84,12 @@ Json estimate_json(const diagnose::Estimate& estimate, const std::string& unit) 
 
 std::string describe(const diagnose::Gain& gain) {
     if (gain.held_out == 0) {
-        return "none: too few rows to hold some out";
+        return "none, because there are too few rows to hold some out";
     }
     const auto percent = [](double part) { return with_unit(100 * part, "1") + " %"; };
-    return "error " + percent(gain.rmse_base) + " by the base model, " + percent(gain.rmse_extended) +
-           " by the cause that the rest asks for (" + percent(gain.rmse_flexible) +
-           " by a smooth correction); log predictive density " +
+    return "error " + percent(gain.rmse_base) + " with the base model, " + percent(gain.rmse_extended) +
+           " with the cause chosen on the other rows (" + percent(gain.rmse_flexible) +
+           " with a smooth correction); change of the log predictive density " +
            change_of_density(gain, [](double value) { return with_unit(value, "1"); });
 }
 
@@ -205,7 +205,7 @@ Table table_of(const Diagnosis& diagnosis) {
     }
     lines.emplace_back("95 % set of causes", list_of(diagnosis.credible_set));
     if (diagnosis.credible_set.size() > 1 && !diagnosis.certain.empty()) {
-        lines.emplace_back("in all of that set", list_of(diagnosis.certain));
+        lines.emplace_back("in every member of that set", list_of(diagnosis.certain));
     }
     for (const Cause& cause : diagnosis.causes) {
         if (cause.posterior > 0.01) {
@@ -213,7 +213,7 @@ Table table_of(const Diagnosis& diagnosis) {
         }
     }
     if (diagnosis.remainder.detected) {
-        lines.emplace_back("left over",
+        lines.emplace_back("remaining deviation",
                            diagnosis.remainder.where + "   (p-value " + with_unit(diagnosis.remainder.p_value, "1") + ")");
     }
     lines.emplace_back("gain on held-out data", describe(diagnosis.gain));

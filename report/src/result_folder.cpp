@@ -24,7 +24,7 @@ ResultFolder::ResultFolder(fs::path folder, std::string key_file, std::vector<st
       force_(force),
       staging_(folder_ / ".new") {
     if (fs::exists(folder_) && !fs::is_directory(folder_)) {
-        throw InputError(folder_.string() + " is there already and is no folder");
+        throw InputError(folder_.string() + " exists already and is not a folder");
     }
     refuse_existing();
 }

@@ -113,7 +113,7 @@ class Diagnosis(ProgramTest):
         for text, line in ((whole[:-3], 1), (whole + "rest", 2), (f"{key}\t\n", 1), (f"{key}\t1 2,5 3 4\n", 1), (f"{key}\tnan 2 3 4\n", 1)):
             with self.subTest(text=text):
                 cache.write_text(text)
-                self.fail_with(2, *words, says=f"simulations.txt: line {line} is no whole result of a simulation; remove the file")
+                self.fail_with(2, *words, says=f"simulations.txt: line {line} is not a complete result of a simulation; remove the file")
         cache.write_text(f"{key}\t{numbers.rsplit(' ', 1)[0]}\n")
         self.assertEqual(self.succeed_json(*words)["rows"], first["rows"])
         self.assertEqual(cache.read_text(), whole)

@@ -123,7 +123,7 @@ class Oil(Tables):
 
     def test_refusals(self):
         text = self.gap_series(0, "")
-        self.refuse(text.replace("newtonian", "viscous"), "'viscous' is none of network, newtonian, smooth")
+        self.refuse(text.replace("newtonian", "viscous"), "'viscous' is not one of network, newtonian, smooth")
         self.refuse(text.replace("[instrument]", "viscosity = -1\n[instrument]"), "material.viscosity is -1 Pa.s, but must be > 0")
         self.refuse(text.replace("newtonian", "smooth").replace("[instrument]", "viscosity = 1\n[instrument]"), "viscosity")
         self.refuse(text + '[structures]\ngenerator = "vem"\nparticles = 100\nseeds = [1]\n', "[structures]", "has no particles")

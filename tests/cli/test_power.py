@@ -79,7 +79,7 @@ class Power(ProgramTest):
             ('from = "0.6 rad/s"', 'from = "1 m"', "planned.from"),
             ('from = "0.6 rad/s"', 'from = "x Hz"', "planned.from"),
             ("points = 12", "points = 3", "whole number from 5"),
-            ("points = 12", "points = 12, mood = 1", "'mood' is none of from, to, points"),
+            ("points = 12", "points = 12, mood = 1", "'mood' is not one of from, to, points"),
             ('"frequency-sweep"', '"coordinates"', "no axis"),
             ('"frequency-sweep"', '"waveform"', "waveforms are planned as a table of kind harmonics"),
             ("stated_relative = 0.03", "stated_phase = 2", "stated_phase"),
@@ -88,9 +88,9 @@ class Power(ProgramTest):
                 self.write("plan.toml", PLAN.replace(old, new))
                 self.fail_with(2, "diagnose", "--power", "plan.toml", says=says)
         self.write("plan.toml", PLAN)
-        self.fail_with(2, "diagnose", "--power", "plan.toml", "--causes", "magic", says="'magic' is no cause")
+        self.fail_with(2, "diagnose", "--power", "plan.toml", "--causes", "magic", says="'magic' is not a cause")
         # A plan is no measurement.
-        self.fail_with(2, "diagnose", "plan.toml", "-o", "results", says="a plan has no measured moduli")
+        self.fail_with(2, "diagnose", "plan.toml", "-o", "results", says="a planned table has no measured moduli")
 
 
 if __name__ == "__main__":

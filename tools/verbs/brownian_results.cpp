@@ -41,7 +41,7 @@ Results datasets_of(const BrownianRun& run, const PairPotential& potential, cons
     Results results = {
         io::scalar(group + "time", run.time, "s", "simulated time"),
         io::integer(group + "steps", run.steps, "time steps"),
-        io::text(group + "ended_by", run.ended_by, "what ended the run: time, coordination or plateau"),
+        io::text(group + "ended_by", run.ended_by, "criterion that ended the run: time, coordination or plateau"),
         io::scalar(group + "coordination", run.coordination, "1", "mean number of contacts at the end"),
         io::scalar(group + "contact_tolerance", options.contact_tolerance, "1", "pairs nearer than (1 + x) (r_i + r_j) touch"),
         io::scalar(group + "diffusion_time", step.diffusion_time, "s", "R^2/D of a particle of mean radius"),
@@ -50,7 +50,7 @@ Results datasets_of(const BrownianRun& run, const PairPotential& potential, cons
         io::integer(group + "time_step/far_interval", step.far_interval, "steps between evaluations of the far forces"),
         io::scalar(group + "time_step/stability_bound", step.stability_bound, "s", "longest stable time step"),
         io::scalar(group + "time_step/accuracy_bound", step.accuracy_bound, "s", "longest accurate time step"),
-        io::text(group + "time_step/reason", step.reason, "what sets the time step"),
+        io::text(group + "time_step/reason", step.reason, "bound that sets the time step"),
         io::scalar(group + "potential/barrier_height", potential.barrier_height(farthest) / thermal, "1",
                    "barrier above the secondary minimum, over kB T"),
         io::scalar(group + "potential/contact_energy", potential.contact_minimum().energy / thermal, "1",

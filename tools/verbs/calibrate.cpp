@@ -298,8 +298,10 @@ Verb calibrate_verb() {
                     text("measured", "LIST", "measured shear modulus of each structure, such as 1.5MPa,480kPa"),
                     output("write the table as CSV"), flag("force", "replace an existing output file")},
         .run = run_calibrate,
-        .notes = {"Ratios are relative to the first structure: give the most homogeneous one first for the ratio of the paper.",
-                  "Of linear springs in a fixed ratio the modulus is proportional to the stiffness; the lines show how exactly."},
+        .notes =
+            {"Ratios are relative to the first structure. For the ratio of Schenker et al. 2012 give the most homogeneous one "
+             "first.",
+             "With linear springs in a fixed ratio the modulus is proportional to the stiffness; the table shows how exactly."},
         .many_inputs = true};
     for (const Option& option : rheometer_options()) {
         if (option.name != "orientation" && option.name != "checkpoint") {

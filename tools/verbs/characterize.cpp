@@ -147,12 +147,12 @@ std::vector<Option> all_options() {
     for (const MeasureOption& option : characterize::measure_options()) {
         options.push_back(to_option(option));
     }
-    options.push_back(text("only", "LIST", "measure only these (see below), such as doh,overlap; all: every measure"));
+    options.push_back(text("only", "LIST", "take only these measures (see below), such as doh,overlap; all: every measure"));
     options.push_back(text("position-noise", "X|X,Y,Z",
-                           "measure again with noise of this standard deviation added to the coordinates, and say what changes"));
+                           "add noise of this standard deviation to the coordinates, measure again and say what changes"));
     options.push_back(count("noise-replicas", "number of packings with noise", "4", within(2, 1000)));
     options.push_back(flag("compare", "say which of two files is more heterogeneous, by three measures; nothing is written"));
-    options.push_back(count("seed", "of random points", "1", at_least(0)));
+    options.push_back(count("seed", "seed of the random numbers", "1", at_least(0)));
     options.push_back(output("write to a new file; results are added to the input file when not given"));
     options.push_back(flag("force", "replace an existing output file"));
     return options;
@@ -160,7 +160,7 @@ std::vector<Option> all_options() {
 
 /// One line per measure for the help text.
 std::vector<std::string> measure_notes() {
-    std::vector<std::string> notes = {"Measures (* only if asked for by --only or by their option):"};
+    std::vector<std::string> notes = {"Measures (those with * only with --only or with an option of theirs):"};
     std::size_t width = 0;
     for (const characterize::Measure& measure : characterize::measures()) {
         width = std::max(width, measure.name.size());

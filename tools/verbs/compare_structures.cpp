@@ -58,7 +58,7 @@ std::string row(const ComparedMeasure& measure, const Files& files) {
            (which ? files.at(*which) + " is more heterogeneous, by " +
                         one_decimal(std::abs(measure.difference()) / measure.difference_error()) + " standard errors"
             : known ? "less than two standard errors apart"
-                    : "no standard error, as a structure is too small for sub-volumes");
+                    : "no standard error, because a structure is too small for sub-volumes");
 }
 
 const char* name_of(Agreement agreement) {
@@ -87,7 +87,7 @@ std::string verdict(const HeterogeneityComparison& comparison, const Files& file
                    names_of(comparison, comparison.more_heterogeneous()) + "; " + names_of(comparison, std::nullopt) +
                    " do not tell the structures apart";
         case Agreement::none:
-            return "none of the " + count + " measures tells the structures apart";
+            return "none of the " + count + " measures separates the structures";
         case Agreement::disagree:
             break;
     }

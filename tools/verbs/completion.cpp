@@ -31,7 +31,7 @@ Verb completion_verb() {
         .run = run_completion,
         .notes =
             {"In bash: source <(coagula completion bash). In zsh: coagula completion zsh > FOLDER/_coagula, FOLDER one of $fpath.",
-             "An installed coagula has brought both with it."},
+             "Both are part of an installation of coagula."},
         .input_choices = {"bash", "zsh"}};
 }
 

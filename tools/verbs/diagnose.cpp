@@ -260,18 +260,19 @@ void run_diagnose(const Arguments& arguments) {
 Verb diagnose_verb() {
     Verb verb{
         .name = "diagnose",
-        .summary = "what the simulation gets wrong about measured moduli, and the cause",
+        .summary = "where the simulation deviates from measured moduli, and the cause",
         .input = "EXPERIMENT.toml",
         .options = {flag("new",
-                         "write a commented experiment file (-o, otherwise printed) from exports of instruments, DATA..., which "
-                         "then stand in place of EXPERIMENT.toml"),
-                    flag("check", "check the data only: columns, replicates, cells left out with reasons, noise"),
-                    flag("power", "before anyone measures: which causes this experiment could find, and from which strength on"),
+                         "write a commented experiment file (to -o, otherwise printed) from exports of instruments, which are "
+                         "given in place of EXPERIMENT.toml"),
+                    flag("check", "check the data only: print columns, replicates, cells left out with reasons, and noise"),
+                    flag("power", "before measuring: say which causes this experiment could find, and from which strength on"),
                     flag("catalogue",
-                         "the causes that are known, with their parameters and priors, as a table; needs no experiment"),
-                    text("causes", "NAME,NAME...", "these only, instead of the whole catalogue"),
-                    count("data-sets", "of --power: simulated at each strength near a threshold (200)", "", within(20, 100000)),
-                    count("diagnoses", "of --power: full diagnoses of simulated data for each cause (4)", "", within(0, 10000))},
+                         "print the catalogue of causes with their parameters and priors as a table; needs no experiment"),
+                    text("causes", "NAME,NAME...", "consider only these causes, instead of the whole catalogue"),
+                    count("data-sets", "with --power: data sets simulated at each strength near a threshold (200)", "",
+                          within(20, 100000)),
+                    count("diagnoses", "with --power: full diagnoses of simulated data for each cause (4)", "", within(0, 10000))},
         .run = run_diagnose,
         .notes = {"Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore "
                   "curves "

@@ -36,7 +36,7 @@ std::string outside_of_contact(const std::string& name) {
     std::string text;
     for (const diagnose::Mechanism& mechanism : diagnose::catalogue()) {
         if (!mechanism.in_contact && parts.find(" + " + mechanism.name + " + ") != std::string::npos) {
-            text += "# " + mechanism.name + " is none of the contact, which follows without it.\n";
+            text += "# " + mechanism.name + " does not act in the contact; the contact below leaves it out.\n";
         }
     }
     return text;
@@ -217,7 +217,7 @@ Written write_diagnosis(const Arguments& arguments, const std::string& path, con
     for (const std::string& note : record.notes) {
         table.emplace_back("note", note);
     }
-    table.emplace_back("written to", folder.path().string() + ", page for people: " + (folder.path() / "report.html").string());
+    table.emplace_back("written to", folder.path().string() + ", report: " + (folder.path() / "report.html").string());
     return {std::move(json), std::move(table)};
 }
 
@@ -225,9 +225,9 @@ Written write_diagnosis(const Arguments& arguments, const std::string& path, con
 
 std::vector<Option> diagnosis_options() {
     return {output("folder for report.html, diagnosis.json, diagnosis.h5, extended_model.toml and the cache of simulations"),
-            quantity("level", "1", "of the test whether anything is wrong", "0.05", within(1e-6, 0.5)),
-            count("bootstrap", "data sets drawn for the test", "999", within(99, 1000000)),
-            count("seed", "of the random numbers", "1", at_least(0)), flag("force", "replace an existing diagnosis")};
+            quantity("level", "1", "significance level of the test of the base model", "0.05", within(1e-6, 0.5)),
+            count("bootstrap", "simulated data sets for that test", "999", within(99, 1000000)),
+            count("seed", "seed of the random numbers", "1", at_least(0)), flag("force", "replace an existing diagnosis")};
 }
 
 void run_diagnosis(const Arguments& arguments) {

@@ -64,7 +64,7 @@ std::string name_of(PowerLawMinimum minimum) {
 /// What the data say about a threshold, one sentence.
 std::string summary(const PowerLawFit& fit) {
     if (fit.law.beta <= 0) {
-        return "the modulus does not rise with a: a0 is no threshold";
+        return "the modulus does not rise with a: a0 is not a threshold";
     }
     if (fit.minimum == PowerLawMinimum::far_away) {
         return "the sum of squares falls as far down as a0 was sought: the moduli grow like an exponential, without a threshold";
@@ -228,11 +228,12 @@ Verb fit_power_law_verb() {
             .input = "TABLE.csv",
             .options = {text("a", "NAME", "column of the degree of heterogeneity", "a"),
                         text("modulus", "NAME", "column of the shear modulus, its unit in the header: modulus [MPa]", "modulus"),
-                        text("standard-error", "NAME", "column of its standard error; standard_error, if there, when not given"),
-                        quantity("modulus-unit", "Pa", "one unit of columns that name none", "", physical::modulus),
-                        quantity("confidence", "1", "of the interval of a0", "0.95", within(1e-6, 0.999999)),
-                        count("points", "of the profile", "300", within(10, 10000)), output("write the profile as CSV"),
-                        flag("force", "replace an existing output file")},
+                        text("standard-error", "NAME",
+                             "column of the standard error of the modulus; standard_error, if there is one, when not given"),
+                        quantity("modulus-unit", "Pa", "unit of the moduli where the header names none", "", physical::modulus),
+                        quantity("confidence", "1", "confidence level of the interval of a0", "0.95", within(1e-6, 0.999999)),
+                        count("points", "number of points of the profile", "300", within(10, 10000)),
+                        output("write the profile as CSV"), flag("force", "replace an existing output file")},
             .run = run_fit_power_law,
             .notes = {"Least squares in the modulus; with standard errors weighted, which are then taken as they are."}};
 }

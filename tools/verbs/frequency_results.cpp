@@ -61,12 +61,12 @@ void append_network(Results& results, const FrequencyResponse& response, double 
     results.push_back(
         io::scalar(group + "bond_tolerance", bond_tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
     results.push_back(io::text(group + "model", io::contact_model_text(model), "the contact model, as a TOML file"));
-    results.push_back(
-        io::scalar(group + "contact_stiffness/normal", model.normal_stiffness / 2, "N/m", "of a contact's normal spring"));
-    results.push_back(
-        io::scalar(group + "contact_stiffness/shear", model.shear_stiffness / 2, "N/m", "of a contact's shear spring"));
-    results.push_back(
-        io::vector(group + "frequency", over_points(response, [](const auto& p) { return p.frequency; }), "Hz", "of the strain"));
+    results.push_back(io::scalar(group + "contact_stiffness/normal", model.normal_stiffness / 2, "N/m",
+                                 "stiffness of the normal spring of a contact"));
+    results.push_back(io::scalar(group + "contact_stiffness/shear", model.shear_stiffness / 2, "N/m",
+                                 "stiffness of the shear spring of a contact"));
+    results.push_back(io::vector(group + "frequency", over_points(response, [](const auto& p) { return p.frequency; }), "Hz",
+                                 "frequency of the strain"));
 }
 
 /// Mean, standard deviation and the six orientations of one part of G*.
@@ -126,7 +126,7 @@ void append_stiffness(Results& results, const FrequencyResponse& response) {
 void append_solution(Results& results, const FrequencyResponse& response) {
     Eigen::VectorXi iterations(static_cast<Index>(response.points.size()));
     std::transform(response.points.begin(), response.points.end(), iterations.begin(), [](const auto& p) { return p.iterations; });
-    results.push_back(io::integers(group + "iterations", iterations, "of the solver, largest over the strains"));
+    results.push_back(io::integers(group + "iterations", iterations, "iterations of the solver, largest number over the strains"));
     results.push_back(io::vector(group + "residual", over_points(response, [](const auto& p) { return p.residual; }), "1",
                                  "|f - K u| / |f|, largest over the strains"));
     Eigen::MatrixXd dissipation(static_cast<Index>(response.points.size()), 6);
@@ -151,7 +151,7 @@ Results datasets_of(const FrequencyResponse& response, double bond_tolerance, co
     append_modulus(results, response, "loss_modulus", imaginary_part);
     results.push_back(io::vector(group + "phase",
                                  over_points(response, [](const auto& p) { return std::arg(p.mean_shear_modulus()); }), "rad",
-                                 "of the mean modulus: stress ahead of strain"));
+                                 "phase of the mean modulus, by which the stress leads the strain"));
     results.push_back(tensors("storage_tensor", response, real_part, "G' for all strains, Voigt order xx yy zz yz xz xy"));
     results.push_back(tensors("loss_tensor", response, imaginary_part, "G'' for all strains, Voigt order xx yy zz yz xz xy"));
     append_derivatives(results, response);

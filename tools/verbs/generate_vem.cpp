@@ -43,14 +43,14 @@ Results datasets_of(const generators::VoidExpansion& made, const generators::Voi
         number("volume_fraction", volume_fraction(made.packing), "1", "solid volume over the volume of the box"),
         io::vector(vem_group + "box", made.packing.cell.lengths(), "m", "edge lengths of the box"),
         number("coordination", made.coordination, "1", "mean number of contacts of a particle, rattlers included"),
-        number("target_coordination", options.target_coordination, "1", "at which the expansion stops"),
+        number("target_coordination", options.target_coordination, "1", "mean number of contacts at which the expansion stops"),
         number("contact_tolerance", options.contact_tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are in contact"),
         number("overlap/rms", made.overlap_rms, "1", "root mean square overlap of the contacts over the mean diameter"),
         number("overlap/max", made.overlap_max, "1", "largest overlap over the mean diameter"),
-        number("void_radius", made.void_radius, "m", "at which the voids were deleted"),
-        io::integer(vem_group + "increments", made.increments, "of the void radius"),
-        io::integer(vem_group + "steps", made.steps, "explicit time steps in all"),
-        io::integer(vem_group + "seed", static_cast<std::int64_t>(options.seed), "of the random numbers")};
+        number("void_radius", made.void_radius, "m", "radius of the voids when they were deleted"),
+        io::integer(vem_group + "increments", made.increments, "number of increments of the void radius"),
+        io::integer(vem_group + "steps", made.steps, "number of explicit time steps"),
+        io::integer(vem_group + "seed", static_cast<std::int64_t>(options.seed), "seed of the random numbers")};
 }
 
 /// The expansion stops at the first packing that reaches the target. One sentence where that lies well above it, otherwise empty.
@@ -115,8 +115,9 @@ Verb generate_vem_verb() {
         .summary = "make a packing of chosen heterogeneity by void expansion",
         .input = "",
         .options = {count("particles", "number of particles", "8000", within(3, 1e8)),
-                    count("voids", "number of void particles, fewer make it more heterogeneous; half of N when not given", "",
-                          within(0, 1e9)),
+                    count("voids",
+                          "number of void particles; fewer give a more heterogeneous packing; half of the particles when not given",
+                          "", within(0, 1e9)),
                     required(quantity("volume-fraction", "1", "volume of the spheres over that of the box", "", between(0, 0.64))),
                     particle_radius("mean radius of the particles; required, unless a table gives the radii"),
                     text("size-distribution", "NAME",
@@ -127,7 +128,7 @@ Verb generate_vem_verb() {
                              between(0, 6)),
                     quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01",
                              between(0, 0.1)),
-                    count("seed", "of the random numbers", "1", at_least(0)), required(output("HDF5 file to write")),
+                    count("seed", "seed of the random numbers", "1", at_least(0)), required(output("HDF5 file to write")),
                     flag("force", "replace an existing file")},
         .run = run_generate_vem};
 }

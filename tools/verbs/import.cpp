@@ -134,7 +134,7 @@ io::ImportOptions import_options(const Arguments& arguments) {
         options.box = parse_box(arguments.text("box"));
     }
     if (options.open && (options.box || options.wrap)) {
-        throw InputError("--open goes without --box and --wrap: a set with a free surface has no periodic box");
+        throw InputError("--open excludes --box and --wrap: a set with a free surface has no periodic box");
     }
     return options;
 }
@@ -184,21 +184,22 @@ Verb import_verb() {
         .name = "import",
         .summary = "take over coordinates from CSV, extended XYZ, LAMMPS data or dump, or GSD",
         .input = "FILE",
-        .options = {required(output("HDF5 file to write")), flag("force", "replace an existing file"),
-                    choice("format", {"csv", "extxyz", "lammps", "dump", "gsd"}, "format of the file; by its ending when not given",
-                           ""),
-                    particle_radius("radius of every particle; a column of the file when not given"),
-                    text("box", "L|LX,LY,LZ", "edge lengths of the periodic box [unit m; range " + physical::length.text() + "]"),
-                    flag("open", "the set has a free surface: no periodic box"),
-                    text("length-unit", "U|UX,UY,UZ[,UR]",
-                         "length of one unit of columns that name none, or name pixels: of all, or of each axis and of the radius, "
-                         "such as 0.1um,0.1um,0.3um [unit m; range " +
-                             physical::length.text() + "]"),
-                    text("columns", "NAME=HEADING,...", "columns of a CSV file: x, y, z, radius, diameter, frame"),
-                    text("frame", "N|first|last|all",
-                         "of a trajectory: the value in the column frame of a CSV file, which has no default; otherwise counted "
-                         "from 0, the last when not given; all: the whole trajectory"),
-                    flag("wrap", "bring particles outside the periodic box back in; otherwise they are an error")},
+        .options =
+            {required(output("HDF5 file to write")), flag("force", "replace an existing file"),
+             choice("format", {"csv", "extxyz", "lammps", "dump", "gsd"}, "format of the file; by its ending when not given", ""),
+             particle_radius("radius of every particle; a column of the file when not given"),
+             text("box", "L|LX,LY,LZ", "edge lengths of the periodic box [unit m; range " + physical::length.text() + "]"),
+             flag("open", "the set has a free surface: no periodic box"),
+             text("length-unit", "U|UX,UY,UZ[,UR]",
+                  "length that 1 stands for in columns without a unit or in pixels: one for all, or one for each axis and the "
+                  "radius, "
+                  "such as 0.1um,0.1um,0.3um [unit m; range " +
+                      physical::length.text() + "]"),
+             text("columns", "NAME=HEADING,...", "columns of a CSV file: x, y, z, radius, diameter, frame"),
+             text("frame", "N|first|last|all",
+                  "frame of a trajectory: the value in the column frame of a CSV file, which has no default; otherwise counted "
+                  "from 0, the last when not given; all: the whole trajectory"),
+             flag("wrap", "move particles outside the periodic box back into it; otherwise they are an error")},
         .run = run_import};
 }
 

@@ -33,7 +33,8 @@ struct Group {
     }
     void fabric(const std::string& name, const Fabric& fabric, const std::string& description) const {
         results.push_back(io::matrix(path + name + "/tensor", fabric.tensor, "1", description));
-        results.push_back(io::vector(path + name + "/eigenvalues", fabric.eigenvalues, "1", "of the fabric tensor, ascending"));
+        results.push_back(
+            io::vector(path + name + "/eigenvalues", fabric.eigenvalues, "1", "eigenvalues of the fabric tensor, ascending"));
         number(name + "/anisotropy", fabric.anisotropy, "1", "sqrt(3/2) |deviator|: 0 isotropic, 1 all contacts parallel");
     }
 };
@@ -53,10 +54,10 @@ double backbone_fraction(const ShearLoad& load) {
 void append_backbone(const Group& at, const ShearLoad& load, bool periodic) {
     const mechanics::Backbone& backbone = load.backbone;
     at.count("backbone/bonds", backbone.bonds, "least number of bonds that store this share of the energy");
-    at.number("backbone/bond_fraction", backbone_fraction(load), "1", "over all bonds");
+    at.number("backbone/bond_fraction", backbone_fraction(load), "1", "bonds of the backbone over all bonds");
     at.count("backbone/particles", backbone.particles, "particles with at least one such bond");
     at.number("backbone/particle_fraction", fraction(backbone.particles, load.particle_energy_share.size()), "1",
-              "over all particles");
+              "particles of the backbone over all particles");
     at.count("backbone/clusters", backbone.clusters, "connected parts of the backbone");
     at.count("backbone/largest_cluster", backbone.largest.particles, "particles of its largest part");
     if (periodic) {
@@ -68,7 +69,7 @@ void append_forces(const Group& at, const ShearLoad& load) {
     const mechanics::ForceDistribution& forces = load.distribution;
     at.count("force_distribution/bonds", forces.bonds, "bonds that can carry load");
     at.number("force_distribution/mean", forces.mean, "N", "mean |normal force| of these per unit strain");
-    at.number("force_distribution/bin_width", forces.bin_width, "1", "of the density");
+    at.number("force_distribution/bin_width", forces.bin_width, "1", "width of the bins of the density");
     at.results.push_back(io::vector(at.path + "force_distribution/density", forces.density, "1",
                                     "probability density of |normal force| over its mean, bins from 0 on"));
     at.number("force_distribution/beyond", forces.beyond, "1", "share of the bonds beyond the last bin");
@@ -81,7 +82,7 @@ void append_forces(const Group& at, const ShearLoad& load) {
 }
 
 void append_non_affinity(const Group& at, const std::string& name, const mechanics::NonAffinity& motion) {
-    at.count(name + "particles", motion.particles, "load-bearing particles that count here");
+    at.count(name + "particles", motion.particles, "load-bearing particles in this average");
     at.number(name + "mean_square", motion.mean_square, "1",
               "mean square displacement beyond the affine one over (mean radius times strain)^2");
     at.number(name + "median", motion.median, "1", "median of its length over mean radius times strain");
@@ -157,7 +158,7 @@ Results load_structure_datasets(const LoadStructure& structure, bool periodic) {
     results.push_back(io::text(group + "summary", structure.summary(), "whether shear is carried, and if not, why"));
     top.fabric("fabric", structure.fabric, "mean of n n^T over the bonds");
     top.count("clusters", structure.clusters, "connected clusters of bonded particles");
-    top.count("largest_cluster", structure.largest_cluster, "particles of the largest");
+    top.count("largest_cluster", structure.largest_cluster, "particles of the largest cluster");
     if (periodic) {
         const auto& percolates = structure.percolates;
         top.flags("percolates", {percolates[0] ? 1 : 0, percolates[1] ? 1 : 0, percolates[2] ? 1 : 0},
@@ -182,7 +183,7 @@ Results bond_datasets(const LoadStructure& structure) {
         results.push_back(io::vector(path + "normal_force", seven_digits(load.normal_force), "N", normal_force_meaning));
         results.push_back(io::vector(path + "shear_force", seven_digits(load.shear_force), "N",
                                      "magnitude of the force across the bond per unit strain"));
-        results.push_back(io::vector(path + "energy_share", seven_digits(load.energy_share), "1", "of the elastic energy"));
+        results.push_back(io::vector(path + "energy_share", seven_digits(load.energy_share), "1", "share of the elastic energy"));
         results.push_back(io::integers(path + "backbone", backbone_flags(load), backbone_meaning));
     }
     return results;

@@ -17,7 +17,7 @@ int parse_number(const std::string& word) {
     int value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc{} || end != word.data() + word.size() || value < 2 || value > most_values) {
-        throw InputError("'" + word + "' is no number of values between 2 and " + std::to_string(most_values));
+        throw InputError("'" + word + "' is not a number of values between 2 and " + std::to_string(most_values));
     }
     return value;
 }
@@ -28,7 +28,7 @@ std::vector<double> parse_logarithmic_sweep(const std::string& text, const std::
                                             const std::string& example) {
     const std::vector<std::string> parts = split(text, ':');
     if (parts.size() != 3) {
-        throw InputError("'" + text + "' is no range FROM:TO:NUMBER, such as " + example);
+        throw InputError("'" + text + "' is not a range FROM:TO:NUMBER, such as " + example);
     }
     const double from = value(parts[0]);
     const double to = value(parts[1]);

@@ -65,7 +65,7 @@ void append_contact_stiffness(Results& results, const std::string& group, const 
         return tangents.empty() ? unset : sum / static_cast<double>(tangents.size());
     };
     const std::string description =
-        tangents.empty() ? "NaN: there are no contacts" : "of a contact as found, mean: two particles in series";
+        tangents.empty() ? "NaN: there are no contacts" : "mean stiffness of a contact as found, two particles in series";
     results.push_back(io::scalar(group + "contact_stiffness/normal", mean(&ContactTangent::normal), "N/m", description));
     results.push_back(io::scalar(group + "contact_stiffness/shear", mean(&ContactTangent::shear), "N/m", description));
 }

@@ -24,7 +24,7 @@ std::vector<mechanics::ShearOrientation> parse_orientations(const std::string& t
         const auto found = std::find_if(all.begin(), all.end(), [&](const auto& entry) { return name_of(entry) == word; });
         if (found == all.end()) {
             throw InputError("--orientation: '" + word +
-                             "' is none of xy, xz, yx, yz, zx, zy (plate normal, shear direction) or all");
+                             "' is not one of xy, xz, yx, yz, zx, zy (plate normal, shear direction) or all");
         }
         if (std::find(seen.begin(), seen.end(), word) != seen.end()) {
             throw InputError("--orientation: '" + word + "' is named twice");

@@ -84,7 +84,7 @@ Table table_over_structures(const std::vector<Json>& structures) {
                            mean ? "G' " + with_error(*mean) : "not reached by every structure");
     }
     if (count > 0) {
-        table.emplace_back("", "these errors are of the scatter from structure to structure");
+        table.emplace_back("", "standard errors follow from the scatter between structures");
     }
     return table;
 }

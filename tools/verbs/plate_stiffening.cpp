@@ -62,7 +62,7 @@ double gap(const Packing& packing, const std::vector<PlateStiffening>& found) {
 
 std::string effect_text(double ratio, double between, double periodic) {
     if (std::isnan(ratio)) {
-        return "with an effect that is not known: there is no linear modulus to compare with";
+        return "with an unknown effect, because there is no linear modulus to compare with";
     }
     return std::string(ratio < 1 ? "lower" : "raise") + " G' by " + with_unit(100 * std::abs(ratio - 1), "1") + " %: linear " +
            with_unit(between, "Pa") + " with them, " + with_unit(periodic, "Pa") + " in the periodic cell";

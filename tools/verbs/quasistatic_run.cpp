@@ -148,7 +148,7 @@ void append_broken(Results& results, const std::string& path, const std::vector<
     if (!broken.empty()) {
         results.push_back(io::integers(path + "broken/bond", bond, "column in the list of bonds, in the order of breakage"));
         results.push_back(io::vector(path + "broken/strain", collect(broken, [](const auto& entry) { return entry.strain; }), "1",
-                                     "strain at which it broke"));
+                                     "strain at which the bond broke"));
     }
     std::vector<BreakageCause> causes;
     std::transform(broken.begin(), broken.end(), std::back_inserter(causes), [](const auto& entry) { return entry.cause; });
@@ -159,14 +159,14 @@ void append_broken(Results& results, const std::string& path, const std::vector<
 std::string sentence_of(const mechanics::NetworkFailure& failure) {
     return "failed at strain " + with_unit(failure.strain, "1") + ", " + std::to_string(failure.broken) + " bonds broken: " +
            (failure.parted ? "nothing reaches from plate to plate any more"
-                           : "from there on less than 1/1000 of the largest stress");
+                           : "the stress stays below 1/1000 of its largest value from there on");
 }
 
 void append_failure(Results& results, const std::string& path, const std::optional<mechanics::NetworkFailure>& failure) {
     results.push_back(io::scalar(path + "failure_strain", failure ? failure->strain : unset, "1",
-                                 "where the network ceased to carry load; NaN: nowhere"));
+                                 "strain at which the network ceased to carry load; NaN: it did not"));
     if (failure) {
-        results.push_back(io::text(path + "failure", sentence_of(*failure), "how the network failed"));
+        results.push_back(io::text(path + "failure", sentence_of(*failure), "description of the failure of the network"));
     }
 }
 
@@ -177,19 +177,19 @@ void append_points(Results& results, const std::string& path, const mechanics::R
     };
     using Point = mechanics::StrainPoint;
     add(
-        "strain", [](const Point& p) { return p.strain; }, "1", "of each equilibrium");
+        "strain", [](const Point& p) { return p.strain; }, "1", "strain of each equilibrium");
     add(
         "stress", [&](const Point& p) { return p.stress(orientation.normal, orientation.direction); }, "Pa", "shear stress");
     add(
-        "work", [](const Point& p) { return p.work; }, "J", "done by the boundary");
+        "work", [](const Point& p) { return p.work; }, "J", "work done by the boundary");
     add(
         "stored", [](const Point& p) { return p.stored; }, "J", "energy in the contacts");
     add(
-        "dissipated", [](const Point& p) { return p.dissipated; }, "J", "by friction and micro-slip");
+        "dissipated", [](const Point& p) { return p.dissipated; }, "J", "energy dissipated by friction and micro-slip");
     add(
-        "breakage", [](const Point& p) { return p.breakage; }, "J", "set free by breaking bonds");
+        "breakage", [](const Point& p) { return p.breakage; }, "J", "energy released by breaking bonds");
     add(
-        "released", [](const Point& p) { return p.released; }, "J", "set free by falls to another equilibrium");
+        "released", [](const Point& p) { return p.released; }, "J", "energy released by jumps to another equilibrium");
     add(
         "bonds", [](const Point& p) { return static_cast<double>(p.bonds); }, "1", "intact bonds");
 }
@@ -232,7 +232,7 @@ void append_ramps(Results& results, const std::vector<Test>& tests) {
 void append_sweeps(Results& results, const std::vector<Test>& tests, const std::vector<double>& amplitudes) {
     const auto count = static_cast<Index>(amplitudes.size());
     results.push_back(io::vector(quasistatic_group + "amplitude", Eigen::VectorXd::Map(amplitudes.data(), count), "1",
-                                 "of the strain, in the order of the run"));
+                                 "amplitudes of strain, in the order of the run"));
     const bool all_reached = std::all_of(tests.begin(), tests.end(),
                                          [&](const Test& test) { return test.sweep.amplitudes.size() == amplitudes.size(); });
     const std::string not_reached = all_reached ? "" : "; NaN: not reached, the network failed before";
@@ -253,15 +253,17 @@ void append_sweeps(Results& results, const std::vector<Test>& tests, const std::
         };
         using Entry = mechanics::AmplitudeResponse;
         add(
-            "third_harmonic", [](const Entry& a) { return a.third_harmonic; }, "1", "of the stress over its fundamental");
+            "third_harmonic", [](const Entry& a) { return a.third_harmonic; }, "1",
+            "third harmonic of the stress over its fundamental");
         add(
-            "loop_area", [](const Entry& a) { return a.loop_area; }, "J/m3", "of stress against strain");
+            "loop_area", [](const Entry& a) { return a.loop_area; }, "J/m3", "area of the loop of stress against strain");
         add(
-            "peak_stress", [](const Entry& a) { return a.peak_stress; }, "Pa", "largest");
+            "peak_stress", [](const Entry& a) { return a.peak_stress; }, "Pa", "largest shear stress of the cycle");
         add(
-            "bonds", [](const Entry& a) { return static_cast<double>(a.bonds); }, "1", "intact at the end");
+            "bonds", [](const Entry& a) { return static_cast<double>(a.bonds); }, "1", "bonds intact at the end of the cycle");
         add(
-            "balance_error", [](const Entry& a) { return a.balance_error; }, "1", "work against energy, over the gross work");
+            "balance_error", [](const Entry& a) { return a.balance_error; }, "1",
+            "work less the change of energy, over the gross work");
         append_broken(results, path, tests[k].sweep.broken);
         append_failure(results, path, tests[k].sweep.failure);
     }
@@ -269,7 +271,7 @@ void append_sweeps(Results& results, const std::vector<Test>& tests, const std::
     append_modulus(results, "loss_modulus", tests, loss, "fundamental ahead of the strain, per amplitude" + not_reached);
     const Eigen::VectorXd phase = loss.colwise().mean().binaryExpr(
         storage.colwise().mean(), [](double lost, double stored) { return std::atan2(lost, stored); });
-    results.push_back(io::vector(quasistatic_group + "phase", phase, "rad", "of the mean moduli" + not_reached));
+    results.push_back(io::vector(quasistatic_group + "phase", phase, "rad", "phase of the mean moduli" + not_reached));
 }
 
 Table table_of(const std::vector<Test>& tests, bool sweep) {
@@ -310,8 +312,8 @@ void check_stiffness_at_rest(const Arguments& arguments, const ContactModel& mod
 
 std::vector<Option> quasistatic_options() {
     return {text("amplitudes", "LIST", "quasistatic: amplitudes of strain such as 1e-4,1e-3 or FROM:TO:N in logarithmic steps"),
-            flag("down", "quasistatic: the amplitudes once more, downwards"),
-            count("cycles", "quasistatic: cycles per amplitude, the last is measured", "1", within(1, 1000)),
+            flag("down", "quasistatic: repeat the amplitudes in descending order"),
+            count("cycles", "quasistatic: cycles per amplitude, of which the last is measured", "1", within(1, 1000)),
             count("steps-per-cycle", "quasistatic: equilibria in a cycle, a multiple of 4", "32", within(4, 100000)),
             quantity("ramp", "1", "quasistatic: shear to this strain instead of cycles", "", within(-10, 10)),
             count("ramp-steps", "quasistatic: equally spaced equilibria on the ramp", "50", within(1, 100000))};

@@ -28,11 +28,11 @@ struct OscillationColumn {
 constexpr std::array<OscillationColumn, 8> oscillation_columns{
     {{"amplitude", &Oscillation::amplitude, "1", "amplitude of the strain"},
      {"storage_modulus", &Oscillation::storage_modulus, "Pa", "largest stress over largest strain, times cos(phase)"},
-     {"loss_modulus", &Oscillation::loss_modulus, "Pa", "the same times sin(phase)"},
-     {"phase", &Oscillation::phase, "rad", "of the fundamental of the stress before that of the strain"},
-     {"fundamental_storage_modulus", &Oscillation::fundamental_storage, "Pa", "of the fundamental alone"},
-     {"fundamental_loss_modulus", &Oscillation::fundamental_loss, "Pa", "of the fundamental alone"},
-     {"third_harmonic", &Oscillation::third_harmonic, "1", "amplitude over that of the fundamental"},
+     {"loss_modulus", &Oscillation::loss_modulus, "Pa", "largest stress over largest strain, times sin(phase)"},
+     {"phase", &Oscillation::phase, "rad", "phase by which the fundamental of the stress leads that of the strain"},
+     {"fundamental_storage_modulus", &Oscillation::fundamental_storage, "Pa", "storage modulus of the fundamental alone"},
+     {"fundamental_loss_modulus", &Oscillation::fundamental_loss, "Pa", "loss modulus of the fundamental alone"},
+     {"third_harmonic", &Oscillation::third_harmonic, "1", "amplitude of the third harmonic over that of the fundamental"},
      {"offset", &Oscillation::offset, "Pa", "mean stress"}}};
 
 const Oscillation& last(const RheometerRun& run) {
@@ -70,16 +70,17 @@ void append_network(Results& results, const RheometerResult& result, const mecha
         io::scalar(group + "bond_tolerance", bond_tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
     results.push_back(io::text(group + "model", io::contact_model_text(options.model), "the contact as a TOML file"));
     results.push_back(io::scalar(group + "contact_stiffness/normal", result.contact_normal_stiffness, "N/m",
-                                 "of an unloaded contact: two particles in series"));
+                                 "stiffness of an unloaded contact: two particles in series"));
     results.push_back(io::scalar(group + "contact_stiffness/shear", result.contact_shear_stiffness, "N/m",
-                                 "of an unloaded contact: two particles in series"));
+                                 "stiffness of an unloaded contact: two particles in series"));
 }
 
 void append_protocol(Results& results, const RheometerResult& result, const mechanics::RheometerOptions& options) {
-    results.push_back(io::scalar(group + "frequency", options.frequency, "Hz", "of the oscillations, with scaled masses"));
+    results.push_back(
+        io::scalar(group + "frequency", options.frequency, "Hz", "frequency of the oscillations, with scaled masses"));
     results.push_back(io::scalar(group + "damping", options.damping, "1", "coefficient of the local damping"));
-    results.push_back(io::integer(group + "steps_per_oscillation", options.steps_per_oscillation, "time steps"));
-    results.push_back(io::scalar(group + "time_step", result.time_step, "s", "of the run"));
+    results.push_back(io::integer(group + "steps_per_oscillation", options.steps_per_oscillation, "time steps of an oscillation"));
+    results.push_back(io::scalar(group + "time_step", result.time_step, "s", "time step of the run"));
     results.push_back(io::scalar(group + "mass_scaling", result.mass_scaling, "1", "mass in the run over the real mass"));
     results.push_back(io::scalar(group + "inertial_number", result.inertial_number, "1",
                                  "largest strain rate times sqrt(mass / normal contact stiffness)"));
@@ -111,7 +112,7 @@ void append_moduli(Results& results, const RheometerResult& result) {
         add("loss_modulus/" + name, last(run).loss_modulus, "plate normal and shear direction " + name);
         names += (names.empty() ? "" : ",") + name;
     }
-    results.push_back(io::scalar(group + "phase", result.phase(), "rad", "of the mean moduli"));
+    results.push_back(io::scalar(group + "phase", result.phase(), "rad", "phase of the mean moduli"));
     results.push_back(io::text(group + "orientations", names, "plate normal and shear direction, the order of all arrays"));
 }
 
@@ -194,7 +195,7 @@ std::string rate_error_text(const RheometerResult& result) {
         }
     }
     if (known == 0) {
-        return "not known: no orientation came to rest under a stress";
+        return "unknown, because no orientation came to rest under a stress";
     }
     const std::size_t all = result.runs.size();
     return "at most " + with_unit(100 * largest, "1") + " %" +

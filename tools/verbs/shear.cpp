@@ -94,13 +94,14 @@ std::optional<mechanics::RelaxedNetwork> relaxed(const Arguments& arguments, con
         return std::nullopt;
     }
     if (!std::isnan(model.prestress)) {
-        throw InputError("--relax brings bonds of rest length r_i + r_j to rest and takes them as unstressed there, but " +
-                         arguments.text("model") +
-                         " has prestress, which every bond as found would carry again; --method quasistatic and dem bring a "
-                         "prestressed network to rest themselves");
+        throw InputError(
+            "--relax brings bonds of rest length r_i + r_j to rest and takes them as unstressed there, but " +
+            arguments.text("model") +
+            " has prestress, which every bond would carry again after the relaxation; --method quasistatic and dem bring "
+            "a prestressed network to rest themselves");
     }
     if (!std::isnan(model.young_modulus)) {
-        throw InputError("--relax knows linear springs only, but " + arguments.text("model") +
+        throw InputError("--relax supports linear springs only, but " + arguments.text("model") +
                          " has young_modulus; --method quasistatic and dem with --rest-length radii bring such contacts to rest");
     }
     mechanics::RelaxationOptions options;
@@ -265,33 +266,35 @@ Verb shear_verb() {
         .name = "shear",
         .summary = "shear modulus and elastic tensor of the bonded packing",
         .input = "FILE.h5 ...",
-        .options = {choice("method", {"linear", "quasistatic", "dem"}, "how the response is computed", "linear"),
-                    quantity("normal-stiffness", "N/m", "normal stiffness of a particle, two in series make a contact", "100N/m",
-                             physical::stiffness),
-                    quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", within(0, 1e15)),
-                    quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
-                    text("frequency", "LIST", "response to harmonic strain at these frequencies instead, such as 1Hz,10Hz"),
-                    text("frequency-sweep", "FROM:TO:N", "the same at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
-                    text("model", "FILE.toml", "the contact in full and the solvent (docs/reference/contact-model.md)"),
-                    choice("relax", {"none", "minimise", "paper"},
-                           "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero",
-                           "none"),
-                    choice("solver", {"auto", "direct", "iterative"}, "of the linear equations", "auto"),
-                    quantity("memory-limit", "byte", "memory of the direct solver; beyond it 'auto' iterates", "4GB",
-                             within(1, 1e18)),
-                    quantity("tolerance", "1", "direct solver: relative residual of every strain", "1e-10", within(1e-14, 1e-2)),
-                    quantity("modulus-tolerance", "1", "iterative solver: estimated relative error of the moduli", "1e-5",
-                             within(1e-12, 1e-2)),
-                    output("write to a new file; results are added to the input file when not given"),
-                    flag("force", "replace an existing output file")},
+        .options =
+            {choice("method", {"linear", "quasistatic", "dem"}, "how the response is computed", "linear"),
+             quantity("normal-stiffness", "N/m", "normal stiffness of a particle, two in series make a contact", "100N/m",
+                      physical::stiffness),
+             quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", within(0, 1e15)),
+             quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
+             text("frequency", "LIST", "compute the response to an oscillating strain at these frequencies, such as 1Hz,10Hz"),
+             text("frequency-sweep", "FROM:TO:N", "compute it at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
+             text("model", "FILE.toml", "all parameters of the contacts and the solvent (docs/reference/contact-model.md)"),
+             choice("relax", {"none", "minimise", "paper"},
+                    "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero", "none"),
+             choice("solver", {"auto", "direct", "iterative"}, "solver of the linear equations", "auto"),
+             quantity("memory-limit", "byte", "memory for the direct solver; auto takes the iterative one where this is not enough",
+                      "4GB", within(1, 1e18)),
+             quantity("tolerance", "1", "direct solver: relative residual of every strain", "1e-10", within(1e-14, 1e-2)),
+             quantity("modulus-tolerance", "1", "iterative solver: estimated relative error of the moduli", "1e-5",
+                      within(1e-12, 1e-2)),
+             output("write to a new file; results are added to the input file when not given"),
+             flag("force", "replace an existing output file")},
         .run = run_shear,
-        .notes = {"With --method dem one --frequency counts (default 1Hz); masses are scaled so that it can be stepped through.",
-                  "With --frequency the springs may have losses (--model); of the solver's options the tolerance counts.",
-                  "Strengths, friction and ageing play no part at vanishing strain: linear and --frequency results name them.",
-                  "--relax moves the particles for the calculation only; how far is stored as relaxation_displacement.",
-                  "With --method quasistatic and neither --amplitudes nor --ramp: secant moduli at a strain of 1e-6."}};
+        .notes = {
+            "--method dem takes one --frequency (default 1Hz) and scales the masses so that its time steps are few enough.",
+            "With --frequency the springs may have losses (--model), and only --tolerance of the solver's options has an effect.",
+            "Bond strengths, friction and ageing have no effect at vanishing strain; linear and --frequency results list those "
+            "given.",
+            "--relax moves the particles for the calculation only; relaxation_displacement in the file says how far.",
+            "--method quasistatic without --amplitudes and --ramp computes secant moduli at a strain of 1e-6."}};
     verb.notes.emplace_back(
-        "Of several files each gets its results; printed are the mean of G' and its standard error over the structures.");
+        "Each of several files gets its own results; the mean of G' and its standard error over the structures are printed.");
     verb.many_inputs = true;
     for (const std::vector<Option>& own : {rheometer_options(), quasistatic_options()}) {
         verb.options.insert(verb.options.end() - 2, own.begin(), own.end());

@@ -42,12 +42,14 @@ void append_network(Results& results, const LinearResponse& response, double bon
                                   "zero-energy modes of the load-bearing particles; -1: not counted"));
     results.push_back(io::scalar(linear_group + "bond_tolerance", bond_tolerance, "1",
                                  "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
-    results.push_back(io::scalar(linear_group + "particle_stiffness/normal", options.normal_stiffness, "N/m", "of one particle"));
-    results.push_back(io::scalar(linear_group + "particle_stiffness/shear", options.shear_stiffness, "N/m", "of one particle"));
+    results.push_back(
+        io::scalar(linear_group + "particle_stiffness/normal", options.normal_stiffness, "N/m", "stiffness of one particle"));
+    results.push_back(
+        io::scalar(linear_group + "particle_stiffness/shear", options.shear_stiffness, "N/m", "stiffness of one particle"));
     results.push_back(io::scalar(linear_group + "contact_stiffness/normal", response.contact_normal_stiffness, "N/m",
-                                 "of a contact: two particles in series"));
+                                 "stiffness of a contact: two particles in series"));
     results.push_back(io::scalar(linear_group + "contact_stiffness/shear", response.contact_shear_stiffness, "N/m",
-                                 "of a contact: two particles in series"));
+                                 "stiffness of a contact: two particles in series"));
 }
 
 void append_boundary(Results& results, const mechanics::LinearOptions& options) {
@@ -87,16 +89,16 @@ void append_moduli(Results& results, const LinearResponse& response) {
 
 void append_tensors(Results& results, const LinearResponse& response) {
     results.push_back(io::matrix(linear_group + "elastic_tensor", response.elastic_tensor, "Pa", "Voigt order xx yy zz yz xz xy"));
-    results.push_back(
-        io::matrix(linear_group + "affine_tensor", response.affine_tensor, "Pa", "the same if all particles followed the strain"));
+    results.push_back(io::matrix(linear_group + "affine_tensor", response.affine_tensor, "Pa",
+                                 "elastic tensor if all particles followed the strain"));
     results.push_back(io::vector(linear_group + "non_affinity", response.non_affinity, "1",
                                  "rms displacement beyond the affine one per unit strain over the mean radius, Voigt order"));
 }
 
 void append_solution(Results& results, const LinearResponse& response) {
     results.push_back(io::text(linear_group + "solver", solver_name(response.solver_used), "linear solver used"));
-    results.push_back(
-        io::integer(linear_group + "iterations", response.iterations, "of conjugate gradients, largest over the strains"));
+    results.push_back(io::integer(linear_group + "iterations", response.iterations,
+                                  "iterations of the conjugate gradients, largest number over the strains"));
     const bool estimated = std::isfinite(response.modulus_error);
     results.push_back(io::scalar(linear_group + "modulus_error", estimated ? response.modulus_error : unset, "1",
                                  estimated ? "estimated relative error of the moduli from stopping the iteration"
@@ -130,8 +132,8 @@ std::vector<io::ParticleField> fields_of(const LinearResponse& response) {
 void append_relaxation(const std::string& method_group, Results& results, std::vector<io::ParticleField>& fields,
                        const mechanics::RelaxedNetwork& rest) {
     const double moved = std::sqrt(rest.displacement.squaredNorm() / static_cast<double>(rest.packing.size()));
-    results.push_back(
-        io::scalar(method_group + "/relaxation/rms_displacement", moved, "m", "how far the particles moved before the shear"));
+    results.push_back(io::scalar(method_group + "/relaxation/rms_displacement", moved, "m",
+                                 "rms displacement of the particles before the shear"));
     results.push_back(io::scalar(method_group + "/relaxation/rms_force", rest.rms_force, "1",
                                  "rms force left over normal contact stiffness times mean radius"));
     results.push_back(io::integer(method_group + "/relaxation/iterations", rest.iterations, "iterations of the relaxation"));

@@ -36,7 +36,7 @@ MeasureResult run_chord_lengths(const MeasureInput& input) {
 
 Measure chord_lengths_measure() {
     return {.name = "chord_lengths",
-            .summary = "lengths of the pieces that straight lines have in the void and in the spheres",
+            .summary = "chord lengths: lengths of the pieces of straight lines in the void and in the spheres",
             .run = run_chord_lengths,
             .options = {{"chord-lines", "", "number of lines of the chord lengths along each axis", 3000, 1, 1e8}}};
 }

@@ -40,7 +40,7 @@ MeasureResult run_fabric(const MeasureInput& input) {
     });
     MeasureResult result;
     result.add_matrix("fabric/tensor", fabric.tensor, "1", "mean of n n^T over the contacts, n their unit vectors");
-    result.add_vector("fabric/eigenvalues", fabric.eigenvalues, "1", "of the fabric tensor, ascending");
+    result.add_vector("fabric/eigenvalues", fabric.eigenvalues, "1", "eigenvalues of the fabric tensor, ascending");
     result.add("fabric/anisotropy", fabric.anisotropy, "1", "sqrt(3/2) |fabric - 1/3|: 0 isotropic, 1 all contacts parallel",
                error[0]);
     result.add("fabric/by_chance", std::sqrt(1 / static_cast<double>(contacts.size())), "1",

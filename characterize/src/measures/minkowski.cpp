@@ -21,11 +21,13 @@ MeasureResult run_minkowski(const MeasureInput& input) {
                       "integral of the mean curvature of the union's surface over the volume");
     result.add_vector("minkowski/euler_characteristic", found.euler_characteristic, "m-3",
                       "Euler characteristic of the union (parts - tunnels + cavities) over the volume");
-    result.add("minkowski/undilated/volume_fraction", found.volume_fraction[0], "1", "at dilation 0", found.volume_fraction_stderr);
-    result.add("minkowski/undilated/surface", found.surface[0], "m-1", "at dilation 0", found.surface_stderr);
-    result.add("minkowski/undilated/mean_curvature", found.mean_curvature[0], "m-2", "at dilation 0", found.mean_curvature_stderr);
-    result.add("minkowski/undilated/euler_characteristic", found.euler_characteristic[0], "m-3", "at dilation 0",
-               found.euler_characteristic_stderr);
+    result.add("minkowski/undilated/volume_fraction", found.volume_fraction[0], "1", "volume fraction at dilation 0",
+               found.volume_fraction_stderr);
+    result.add("minkowski/undilated/surface", found.surface[0], "m-1", "surface per volume at dilation 0", found.surface_stderr);
+    result.add("minkowski/undilated/mean_curvature", found.mean_curvature[0], "m-2",
+               "integrated mean curvature per volume at dilation 0", found.mean_curvature_stderr);
+    result.add("minkowski/undilated/euler_characteristic", found.euler_characteristic[0], "m-3",
+               "Euler characteristic per volume at dilation 0", found.euler_characteristic_stderr);
     add_known(result, "minkowski/percolation_dilation", found.percolation_dilation, "m",
               "dilation at which the Euler characteristic first passes zero", found.percolation_dilation_stderr);
     result.add_line("surface of the spheres", with_unit(found.surface[0] * input.r0(), "1/r0"));

@@ -79,7 +79,7 @@ private:
     void add_counts() const {
         count_of("unknowns", found_.unknowns, "displacements and rotations");
         count_of("constraints", found_.constraints, "relative displacements that contacts constrain");
-        count_of("rank", found_.rank, "of the rigidity matrix: independent constraints");
+        count_of("rank", found_.rank, "rank of the rigidity matrix: number of independent constraints");
         count_of("rigid_motions", found_.rigid_motions, "motions of the sample as a whole");
         count_of("floppy_modes", found_.floppy_modes, "other motions without stiffness: unknowns - rank - rigid_motions");
         count_of("rattler_modes", found_.rattler_modes, "floppy modes that are motions of rattlers");
@@ -179,7 +179,7 @@ Measure rigidity_measure() {
 
 Measure rigidity_central_measure() {
     return {.name = "rigidity_central",
-            .summary = "the same where contacts bear central forces only",
+            .summary = "floppy modes, self-stress, local redundancy, rigid clusters with central contact forces only",
             .run = [](const MeasureInput& input) { return measure(input, Bonds::central, "rigidity_central"); },
             .options = {contact_tolerance_option()},
             .by_default = false};

@@ -48,7 +48,8 @@ Measure rings_measure() {
     return {.name = "rings",
             .summary = "shortest-path rings of the contact network (Franzblau)",
             .run = run_rings,
-            .options = {contact_tolerance_option(), {"largest-ring", "", "largest size of rings that are searched", 8, 3, 12}}};
+            .options = {contact_tolerance_option(),
+                        {"largest-ring", "", "largest number of particles of a ring to search for", 8, 3, 12}}};
 }
 
 }  // namespace coagula::characterize

@@ -28,11 +28,11 @@ MeasureResult run_sampled_check(const MeasureInput& input) {
 
 Measure sampled_check_measure() {
     return {.name = "sampled_check",
-            .summary = "random points against the exact pore-size curve",
+            .summary = "check of the exact pore-size curve by random points",
             .run = run_sampled_check,
             .options = {radii_option(),
                         pore_tolerance_option(),
-                        {"samples", "", "also sample N random points, a check of the exact pore-size curve", {}, 100, 1e10}},
+                        {"samples", "", "check the exact pore-size curve by this many random points", {}, 100, 1e10}},
             .by_default = false,
             .along = {"pores"},
             .when_given = "samples"};

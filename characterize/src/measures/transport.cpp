@@ -45,8 +45,9 @@ Measure transport_measure() {
     return {.name = "transport",
             .summary = "formation factor, geodesic tortuosity and permeability of the pores, on a grid of voxels",
             .run = run_transport,
-            .options = {{"voxels-per-radius", "1", "voxels of transport per mean radius", 3, 1, 100},
-                        {"most-voxels", "1", "transport takes coarser voxels where there would be more than this", 2e6, 1e3, 1e9}},
+            .options = {{"voxels-per-radius", "1", "voxels per mean radius of the grid for transport", 3, 1, 100},
+                        {"most-voxels", "1", "largest number of voxels for transport; larger packings get coarser voxels", 2e6, 1e3,
+                         1e9}},
             .by_default = false};
 }
 

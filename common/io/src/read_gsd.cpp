@@ -128,7 +128,7 @@ private:
                 break;
             }
             if (entry.name >= names_.size() || entry.type == 0 || entry.type >= sizes.size() || entry.location < 0) {
-                fail("the file is damaged: entry " + std::to_string(k) + " of its index is no chunk");
+                fail("the file is damaged: entry " + std::to_string(k) + " of its index is not a chunk");
             }
             const std::uint64_t row = sizes[entry.type] * entry.columns;
             if (row > 0 && !holds(static_cast<std::uint64_t>(entry.location), entry.rows, row)) {

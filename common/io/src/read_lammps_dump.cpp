@@ -163,7 +163,7 @@ std::vector<RawPacking> read_lammps_dump(LineReader& file, const ImportOptions& 
             collector.add(read_atoms(file, header, parse_columns(file, split_words(item.substr(5))), divisor), frame++);
             header = {};
         } else {
-            file.fail("'" + line + "' is no part of a dump of atoms");
+            file.fail("'" + line + "' is not part of a dump of atoms");
         }
     }
     return collector.take(file.path());

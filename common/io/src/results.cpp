@@ -70,13 +70,13 @@ void write_dataset(File& file, const Dataset& dataset) {
 
 void write_provenance(File& file, const Provenance& entry) {
     const std::string group = std::string(layout::provenance) + "/" + provenance_name(file, entry.stage) + "/";
-    write_dataset(file, text(group + "stage", entry.stage, "what was done"));
+    write_dataset(file, text(group + "stage", entry.stage, "stage of the work, such as characterize"));
     write_dataset(file, text(group + "command_line", entry.command_line, "the command as it was given"));
-    write_dataset(file, text(group + "options", entry.options, "all options with their values, a JSON object"));
+    write_dataset(file, text(group + "options", entry.options, "values of all options, a JSON object"));
     write_dataset(file, integer(group + "seed", entry.seed, "seed of the random numbers; -1: there were none"));
     write_dataset(file, text(group + "version", entry.version, "version of coagula"));
-    write_dataset(file, text(group + "time", entry.time, "when it was done (UTC, ISO 8601)"));
-    write_dataset(file, scalar(group + "seconds", entry.seconds, "s", "time it took"));
+    write_dataset(file, text(group + "time", entry.time, "date and time of the call (UTC, ISO 8601)"));
+    write_dataset(file, scalar(group + "seconds", entry.seconds, "s", "wall-clock time of the call"));
     write_dataset(file, text(group + "positions_sha256", entry.positions_sha256,
                              "SHA-256 of the positions that went in (nm, little-endian doubles); empty for a generator"));
 }

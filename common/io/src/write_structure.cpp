@@ -97,7 +97,8 @@ void write_bonds(File& file, const std::string& particles_group, const ContactNe
     file.describe(layout::bonds, "1", "ids of the two particles that each bond joins");
     file.set_reference(layout::bonds, "particles_group", particles_group);
     file.write(layout::branch_vectors, {number, 3}, bonds.branch.data());
-    file.describe(layout::branch_vectors, "m", "from the first to the second centre of each bond, through the periodic boundary");
+    file.describe(layout::branch_vectors, "m",
+                  "vector from the first to the second centre of each bond, through the periodic boundary");
 }
 
 /// What add_results adds.

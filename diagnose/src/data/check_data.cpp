@@ -119,7 +119,7 @@ void Checker::check_columns() {
     for (const Column& column : table().columns) {
         const Quantity* quantity = find_quantity(column.name);
         if (quantity == nullptr) {
-            throw std::invalid_argument(table().label + ": '" + column.name + "' is no quantity");
+            throw std::invalid_argument(table().label + ": '" + column.name + "' is not a quantity");
         }
         require(quantity->unit == column.unit, table().label + ": column '" + column.name + "' is in " + column.unit +
                                                    ", but must be in " + std::string(quantity->unit));
@@ -367,7 +367,7 @@ void Checker::check_what_is_left() {
         usable += all ? 1 : 0;
     }
     if (usable < rule_.fewest_rows) {
-        complain(std::to_string(usable) + " usable rows are too few to say anything: a " + std::string(name_of(table().kind)) +
+        complain(std::to_string(usable) + " usable rows are too few: a table of kind " + std::string(name_of(table().kind)) +
                  " needs at least " + std::to_string(rule_.fewest_rows));
         return;
     }
@@ -377,7 +377,8 @@ void Checker::check_what_is_left() {
             *std::find_if(values.values.begin(), values.values.end(), [](double value) { return std::isfinite(value); });
         if (std::all_of(values.values.begin(), values.values.end(),
                         [&](double value) { return !std::isfinite(value) || value == first; })) {
-            complain("column '" + name + "' is " + to_text(first) + " " + values.unit + " in every row: that is no measurement");
+            complain("column '" + name + "' is " + to_text(first) + " " + values.unit +
+                     " in every row, which no measurement gives");
         }
     }
     if (checked_.problems.empty() && table().kind == MeasurementKind::waveform && !harmonics_of(table())) {

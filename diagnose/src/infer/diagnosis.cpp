@@ -212,7 +212,7 @@ void rank_causes(const Comparison& comparison, const Inference& inference, const
         diagnosis.causes.back().leaves_remainder = leaves_remainder;
     }
     diagnosis.causes.push_back({.name = none_name,
-                                .words = "a smooth departure that no mechanism of the catalogue makes",
+                                .words = "a smooth deviation that no cause of the catalogue produces",
                                 .posterior = posterior.back(),
                                 .log_evidence = base.fit.log_evidence + base.remainder->log_factor});
     std::stable_sort(diagnosis.causes.begin(), diagnosis.causes.end(),

@@ -149,7 +149,7 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         const bool centres = std::any_of(tables.begin(), tables.end(),
                                          [](const Measurement& table) { return table.kind == MeasurementKind::coordinates; });
         throw InputError("the experiment has " + std::to_string(data.observations.size()) +
-                         " usable numbers: at least five are needed to say anything" +
+                         " usable numbers, but a diagnosis needs at least five" +
                          (centres
                               ? "; coordinates take part where sample.particle_radius is stated and 20 particles lie deep enough"
                                 " inside"

@@ -260,10 +260,10 @@ Eigen::VectorXd where_replicated(const Replicates& replicates, const Eigen::Vect
 std::string how_fitted(const NoiseModel& noise, bool with_floor) {
     return "restricted maximum likelihood from " + count_text(noise.tables, "table") + " on " +
            count_text(noise.samples, "sample") + ", " + std::to_string(noise.values) + " values" +
-           (with_floor ? "" : "; the levels are too alike to tell a floor from the relative part") +
+           (with_floor ? "" : "; the levels are too similar to separate a floor from the relative part") +
            (noise.sample_estimated || is_of_phase(noise)
                 ? ""
-                : "; one sample tells nothing about differences between samples: stated, not measured");
+                : "; differences between samples are stated, not measured, because there is only one sample");
 }
 
 /// What was fitted to the values beforehand has made their scatter smaller.

@@ -22,7 +22,7 @@ void borrow(NoiseModel& model, const NoiseModel& donor) {
     model.floor = donor.floor_of_stress == model.floor_of_stress ? donor.floor : Estimate{};
     model.relative = donor.relative;
     model.degrees = donor.degrees;
-    model.statement = "there are no replicates: as found in those of the " + std::string(name_of(donor.kind));
+    model.statement = "there are no replicates: taken from the replicates of the " + std::string(name_of(donor.kind));
 }
 
 }  // namespace

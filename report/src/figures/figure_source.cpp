@@ -49,7 +49,7 @@ std::string FigureSource::command_for(const std::string& path) const {
 std::vector<double> FigureSource::numbers(const std::string& path) const {
     const io::Dataset* dataset = find(path);
     if (dataset == nullptr) {
-        throw InputError(file + " has no " + path + ", of which the figure is drawn: '" + command_for(path) + "' computes it");
+        throw InputError(file + " has no " + path + ", which the figure shows: '" + command_for(path) + "' computes it");
     }
     if (const auto* whole = std::get_if<std::vector<std::int64_t>>(&dataset->values)) {
         return {whole->begin(), whole->end()};

@@ -181,7 +181,7 @@ TEST(CheckData, RefusesOtherUnitsThanSI) {
 }
 
 TEST(CheckData, SaysThatThreePointsAreTooFew) {
-    expect_problem(amplitude_sweep(3), "3 usable rows are too few to say anything: a amplitude-sweep needs at least 5");
+    expect_problem(amplitude_sweep(3), "3 usable rows are too few: a table of kind amplitude-sweep needs at least 5");
 }
 
 TEST(CheckData, SaysThatNothingIsReadable) {

@@ -146,7 +146,7 @@ TEST(Noise, LeavesTheFloorOutWhereLevelsAreAlike) {
     }
     const NoiseModel noise = fit_noise(replicates);
     EXPECT_EQ(noise.floor.value, 0);
-    EXPECT_NE(noise.statement.find("too alike"), std::string::npos);
+    EXPECT_NE(noise.statement.find("too similar"), std::string::npos);
     EXPECT_TRUE(covers(noise.relative, 0.03));
 }
 
