@@ -74,6 +74,7 @@ set(coagula_slow_tests
   "cli[.]materials[.]SmoothMaterial[.]inertia_of_a_stiff_tool"
   "cli[.]materials[.]RealExports[.](wormlike_micelles|yielding_and_recovery).*"
   "cli[.]option_sweep"
+  "cli[.]quickstart[.].*"
   "mechanics_validation[.].*"
   "python[.]package[.]Stubs[.]mypy.*"
   "examples[.].*"
