@@ -34,22 +34,33 @@ function(coagula_unity target)
   endif()
 endfunction()
 
-# coagula_precompile(<target> <header>...): what nearly every source of the target includes is parsed once. Sources with compile options
-# of their own say SKIP_PRECOMPILE_HEADERS.
+# coagula_precompile(<target> [LIKE <other>] [<header>...]): what nearly every source of the target includes is parsed once, for all targets
+# that are compiled alike. Sources with compile options of their own say SKIP_PRECOMPILE_HEADERS.
 function(coagula_precompile target)
-  target_precompile_headers(${target} PRIVATE <Eigen/Core> <algorithm> <cmath> <functional> <optional> <stdexcept> <string> <vector> ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 1 COMPILED "" "LIKE" "")
+  if(COMPILED_LIKE)
+    target_precompile_headers(${target} REUSE_FROM ${COMPILED_LIKE})
+  else()
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <algorithm> <cmath> <functional> <optional> <stdexcept> <string> <vector>
+      ${COMPILED_UNPARSED_ARGUMENTS})
+  endif()
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
-# coagula_glue(<target>): computes little itself. With sanitizers it is not optimised, which halves the time to compile it.
+# coagula_glue(<target>): reads, writes and arranges, and computes little itself. It is optimised only so far as costs the compiler little,
+# with sanitizers not at all.
 function(coagula_glue target)
   if(COAGULA_SANITIZE)
     target_compile_options(${target} PRIVATE -O0)
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
 
-# coagula_library(<name>): finishes the target coagula_<name> made by the caller.
+# coagula_library(<name> [GLUE] [LIKE <other>] [<header>...]): finishes the target coagula_<name> made by the caller; GLUE: coagula_glue,
+# the others: coagula_precompile.
 function(coagula_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 LIBRARY "GLUE" "" "")
   set(target coagula_${name})
   add_library(coagula::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
@@ -59,7 +70,10 @@ function(coagula_library name)
     "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   coagula_warnings(${target})
   coagula_unity(${target})
-  coagula_precompile(${target})
+  if(LIBRARY_GLUE)
+    coagula_glue(${target})
+  endif()
+  coagula_precompile(${target} ${LIBRARY_UNPARSED_ARGUMENTS})
   install(TARGETS ${target} EXPORT coagula_${name}_targets COMPONENT ${name})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
   install(EXPORT coagula_${name}_targets NAMESPACE coagula:: FILE coagula-${name}-targets.cmake

@@ -1,6 +1,6 @@
 #include <coagula/characterize/heterogeneity.hpp>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include <cmath>

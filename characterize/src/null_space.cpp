@@ -1,9 +1,7 @@
 #include "null_space.hpp"
 
+#include <coagula/common/dense.hpp>
 #include <coagula/common/random.hpp>
-
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <string>
@@ -70,11 +68,10 @@ SoftMotions softest(const SparseMap& matrix, const NullSpace& space, std::uint64
     const Index count = std::min<Index>(inverse_vectors, free);
     Eigen::MatrixXd x = rows_where(random_matrix(matrix.unknowns(), count, Draw::inverse_iteration, seed), space.pinned, false);
     for (int k = 0; k < inverse_iterations; ++k) {
-        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(space.factor->solve(x));
-        x = qr.householderQ() * Eigen::MatrixXd::Identity(matrix.unknowns(), count);
+        x = dense::orthonormal(space.factor->solve(x));
     }
-    const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(matrix.apply(x), Eigen::ComputeThinV);
-    return {svd.singularValues(), x * svd.matrixV()};
+    const dense::SingularValues strains(matrix.apply(x), dense::SingularValues::Vectors::right);
+    return {strains.values, x * strains.vectors};
 }
 
 /// As many unknowns, of those for which `choose` says so, as `vectors` has columns: those that span these best.
@@ -86,10 +83,10 @@ std::vector<Index> spanning_unknowns(const Eigen::MatrixXd& vectors, const std::
         }
     }
     const Eigen::MatrixXd rows = vectors(candidate, Eigen::all).transpose();
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> best(rows);
+    const Eigen::VectorXi best = dense::PivotedQr(rows).order;
     std::vector<Index> chosen;
     for (Index k = 0; k < vectors.cols(); ++k) {
-        chosen.push_back(candidate[static_cast<std::size_t>(best.colsPermutation().indices()[k])]);
+        chosen.push_back(candidate[static_cast<std::size_t>(best[k])]);
     }
     return chosen;
 }
@@ -202,11 +199,10 @@ private:
     Eigen::MatrixXd shifted_softest(const CholeskyFactor& factor, const std::vector<bool>& pinned, Index count) const {
         Eigen::MatrixXd x = rows_where(random_matrix(matrix_.unknowns(), count, Draw::motions, options_.seed), pinned, false);
         for (int k = 0; k < shifted_iterations; ++k) {
-            const Eigen::HouseholderQR<Eigen::MatrixXd> qr(factor.solve(x));
-            x = qr.householderQ() * Eigen::MatrixXd::Identity(matrix_.unknowns(), count);
+            x = dense::orthonormal(factor.solve(x));
         }
-        const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(matrix_.apply(x), Eigen::ComputeThinV);
-        return x * svd.matrixV().rightCols((svd.singularValues().array() < no_stiffness).count());
+        const dense::SingularValues strains(matrix_.apply(x), dense::SingularValues::Vectors::right);
+        return x * strains.vectors.rightCols((strains.values.array() < no_stiffness).count());
     }
 
     /// The part R of the pinned columns that is orthogonal to all others tells how many of them are independent after all. Its rank
@@ -221,12 +217,12 @@ private:
                 rows_where(random_matrix(matrix_.unknowns(), sketch, Draw::sketch, options_.seed), space.pinned, true);
             relax(matrix_, *space.factor, space.pinned, x);
             const Eigen::MatrixXd residual = matrix_.apply(x);
-            const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(residual, Eigen::ComputeThinU);
+            const dense::SingularValues left(residual, dense::SingularValues::Vectors::left);
             const double zero = options_.tolerance * x.colwise().norm().maxCoeff();
-            const Index rank = (svd.singularValues().array() > zero).count();
+            const Index rank = (left.values.array() > zero).count();
             if (rank < sketch) {
                 if (rank > 0) {
-                    unpin(space, svd.matrixU().leftCols(rank));
+                    unpin(space, left.vectors.leftCols(rank));
                 }
                 return rank > 0;
             }

@@ -4,7 +4,8 @@
 #include "pair_histogram.hpp"
 #include "reduced_diagram.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace coagula::characterize {
 

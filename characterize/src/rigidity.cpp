@@ -9,8 +9,7 @@
 
 #include <coagula/characterize/coordination.hpp>
 #include <coagula/common/blas_threads.hpp>
-
-#include <Eigen/QR>
+#include <coagula/common/dense.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +90,7 @@ void count_modes(const Packing& packing, const ContactNetwork& contacts, const R
     result.unknowns = matrix.unknowns();
     result.constraints = matrix.constraints();
     result.self_stresses = result.constraints - result.rank;
-    result.rigid_motions = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(rigid_motions(packing, matrix)).rank();
+    result.rigid_motions = dense::PivotedQr(rigid_motions(packing, matrix)).rank;
     result.floppy_modes = result.unknowns - result.rank - result.rigid_motions;
     const Eigen::VectorXi left = prune_rattlers(contacts);
     result.rattlers = (left.array() < 0).count();

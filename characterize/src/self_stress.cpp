@@ -2,7 +2,7 @@
 
 #include "null_space.hpp"
 
-#include <Eigen/QR>
+#include <coagula/common/dense.hpp>
 
 #include <algorithm>
 
@@ -22,8 +22,7 @@ Eigen::MatrixXd orthonormal_states(const LoadMatrix& loads, const NullSpace& spa
         }
     }
     relax(loads, *space.factor, space.pinned, states);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(states);
-    return qr.householderQ() * Eigen::MatrixXd::Identity(states.rows(), states.cols());
+    return dense::orthonormal(states);
 }
 
 /// Takes from random motions what strains a contact; two passes, because of rounding.

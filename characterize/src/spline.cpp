@@ -1,6 +1,6 @@
 #include "spline.hpp"
 
-#include <Eigen/LU>
+#include <coagula/common/dense.hpp>
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ Eigen::MatrixXd second_derivatives(const Eigen::VectorXd& nodes, const Eigen::Ma
     }
     matrix.row(0).head(3) << step[1], -(step[0] + step[1]), step[0];
     matrix.row(last).tail(3) << step[last - 1], -(step[last - 2] + step[last - 1]), step[last - 2];
-    return matrix.partialPivLu().solve(right);
+    return dense::solve(matrix, right);
 }
 
 }  // namespace

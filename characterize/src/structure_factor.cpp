@@ -3,7 +3,8 @@
 #include "pair_histogram.hpp"
 #include "reduced_diagram.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <complex>

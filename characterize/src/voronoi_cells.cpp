@@ -2,10 +2,9 @@
 
 #include "shared_measurements.hpp"
 
+#include <coagula/common/special_functions.hpp>
+
 #include <Eigen/Geometry>
-#include <boost/math/special_functions/digamma.hpp>
-#include <boost/math/special_functions/gamma.hpp>
-#include <boost/math/special_functions/trigamma.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +100,7 @@ double kolmogorov_distance(Eigen::VectorXd x, double shape) {
     double distance = 0;
     const auto count = static_cast<double>(x.size());
     for (Index i = 0; i < x.size(); ++i) {
-        const double law = boost::math::gamma_p(shape, shape * x[i]);
+        const double law = gamma_p(shape, shape * x[i]);
         distance = std::max({distance, law - static_cast<double>(i) / count, static_cast<double>(i + 1) / count - law});
     }
     return distance;
@@ -172,8 +171,8 @@ double gamma_shape(double minus_mean_log) {
     }
     double k = 0.5 / minus_mean_log;
     for (int step = 0; step < 50; ++step) {
-        const double value = std::log(k) - boost::math::digamma(k) - minus_mean_log;
-        const double change = value / (1 - k * boost::math::trigamma(k));
+        const double value = std::log(k) - digamma(k) - minus_mean_log;
+        const double change = value / (1 - k * trigamma(k));
         k *= std::exp(std::clamp(-change, -1.0, 1.0));
         if (std::abs(change) < 1e-13) {
             break;

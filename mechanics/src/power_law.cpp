@@ -1,8 +1,8 @@
 #include <coagula/mechanics/power_law.hpp>
 
-#include <Eigen/Dense>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
+#include <coagula/common/special_functions.hpp>
+
+#include <Eigen/QR>
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
@@ -32,11 +32,11 @@ struct Judgement {
     double threshold(double confidence) const {
         const double quantile = (1 + confidence) / 2;
         if (errors_known) {
-            return least + std::pow(boost::math::quantile(boost::math::normal(), quantile), 2);
+            return least + std::pow(normal_quantile(quantile), 2);
         }
         // F with 1 and m degrees of freedom is the square of Student's t with m.
         const auto m = static_cast<double>(freedom);
-        return least * (1 + std::pow(boost::math::quantile(boost::math::students_t(m), quantile), 2) / m);
+        return least * (1 + std::pow(student_quantile(m, quantile), 2) / m);
     }
 
     double confidence(double squares) const {
@@ -48,7 +48,7 @@ struct Judgement {
             return excess == 0 ? 0 : 1;
         }
         const auto m = static_cast<double>(freedom);
-        return 1 - 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(m), std::sqrt(excess / least * m)));
+        return 1 - 2 * above_in_student(m, std::sqrt(excess / least * m));
     }
 };
 

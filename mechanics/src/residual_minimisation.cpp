@@ -1,6 +1,6 @@
 #include "residual_minimisation.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "stiffness_of_contacts.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <coagula/common/dense.hpp>
 
 #include <algorithm>
 
@@ -22,12 +22,6 @@ Ends second_end() {
     ends.block<3, 3>(0, 0) = Eigen::Matrix3d::Identity();
     ends.block<3, 3>(6, 3) = Eigen::Matrix3d::Identity();
     return ends;
-}
-
-/// Nearest positive semi-definite matrix to a symmetric one.
-Slope without_negative_directions(const Slope& matrix) {
-    const Eigen::SelfAdjointEigenSolver<Slope> modes(matrix);
-    return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() * modes.eigenvectors().transpose();
 }
 
 /// Blocks of the same column are added up.
@@ -111,7 +105,7 @@ Motion StiffnessOfContacts::gather(const Change& change_of) const {
 
 Slope StiffnessOfContacts::part_of(const Link& link, Convex convex) {
     const Slope part = 0.5 * (link.slope + link.slope.transpose());
-    return link.bonded && convex != Convex::all ? part : without_negative_directions(part);
+    return link.bonded && convex != Convex::all ? part : Slope(dense::nearest_semidefinite(part));
 }
 
 void StiffnessOfContacts::for_each_part(Convex convex, const std::function<void(Index, const Slope&)>& visit) const {

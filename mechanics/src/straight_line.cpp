@@ -1,7 +1,5 @@
 #include <coagula/mechanics/straight_line.hpp>
 
-#include <Eigen/Dense>
-
 #include <cmath>
 
 namespace coagula::mechanics {

@@ -126,15 +126,15 @@ bool UpdatedFactor::update(const ShearedNetwork& network, const Trial& trial) {
     add(network, trial, unknown);
     for (const auto& [contact, now] : changed) {
         if (Change* change = find_change(contact)) {
-            const ContactModes inverse = change->modes.completeOrthogonalDecomposition().pseudoInverse().transpose();
+            const Eigen::MatrixXd inverse = dense::pseudo_inverse(change->modes).transpose();
             const Index columns = inverse.cols();
             change->now = now;
             change_.block(change->column, change->column, columns, columns) =
-                inverse.transpose() * (now - factored_[static_cast<std::size_t>(contact)]) * inverse;
+                inverse.transpose() * Eigen::MatrixXd(now - factored_[static_cast<std::size_t>(contact)]) * inverse;
         }
     }
-    solver_.compute(Eigen::MatrixXd::Identity(rank_, rank_) +
-                    change_.topLeftCorner(rank_, rank_) * inner_.topLeftCorner(rank_, rank_));
+    solver_ = dense::LuFactors(Eigen::MatrixXd::Identity(rank_, rank_) +
+                               change_.topLeftCorner(rank_, rank_) * inner_.topLeftCorner(rank_, rank_));
     return true;
 }
 

@@ -5,8 +5,7 @@
 #include "stiffness_of_contacts.hpp"
 
 #include <coagula/common/cholesky_factor.hpp>
-
-#include <Eigen/Dense>
+#include <coagula/common/dense.hpp>
 
 #include <memory>
 #include <vector>
@@ -58,7 +57,7 @@ private:
     Eigen::MatrixXd compliance_;                      ///< A^-1 B
     Eigen::MatrixXd inner_;                           ///< B^T A^-1 B
     Eigen::MatrixXd change_;                          ///< D
-    Eigen::PartialPivLU<Eigen::MatrixXd> solver_;     ///< of 1 + D B^T A^-1 B
+    dense::LuFactors solver_;                         ///< of 1 + D B^T A^-1 B
     Index rank_ = 0;
     Index generation_ = 0;
     Index factorisations_ = 0;

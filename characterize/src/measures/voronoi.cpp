@@ -1,7 +1,6 @@
 // Measure: the distribution of the Voronoi volumes.
 #include <coagula/characterize/measure.hpp>
-
-#include <boost/math/special_functions/gamma.hpp>
+#include <coagula/common/special_functions.hpp>
 
 #include "distribution.hpp"
 
@@ -55,7 +54,7 @@ void add_distribution(const Eigen::VectorXd& volumes, const VoronoiDistribution&
     const Eigen::VectorXd x = (volumes.array() - smallest) / (found.mean - smallest);
     const Eigen::VectorXd middle = middles_of_bins(0, end, bins);
     const double k = found.shape;
-    const Eigen::VectorXd fit = middle.unaryExpr([k](double at) { return k * boost::math::gamma_p_derivative(k, k * at); });
+    const Eigen::VectorXd fit = middle.unaryExpr([k](double at) { return k * gamma_p_derivative(k, k * at); });
     result.add_vector("voronoi/free_volume", middle, "1", "x = (V - V_min) / (mean V - V_min), middles of the bins");
     result.add_vector("voronoi/density", density_in_bins(x, 0, end, bins), "1", "probability density of x");
     result.add_vector("voronoi/fit", fit, "1", "k^k / Gamma(k) x^(k-1) exp(-k x)");

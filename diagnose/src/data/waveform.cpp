@@ -2,7 +2,7 @@
 
 #include "table_cells.hpp"
 
-#include <Eigen/QR>
+#include <coagula/common/dense.hpp>
 
 #include <cmath>
 #include <complex>
@@ -58,11 +58,11 @@ std::optional<WaveformHarmonics> harmonics_of(const Measurement& waveform) {
         }
         signals.row(k) = sample.tail<2>().transpose();
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(waves);
-    if (factor.rank() < unknowns) {
+    const dense::LeastSquares fit(waves, signals);
+    if (fit.rank < unknowns) {
         return std::nullopt;
     }
-    const Eigen::MatrixXd coefficients = factor.solve(signals);
+    const Eigen::MatrixXd& coefficients = fit.solution;
     const Complex strain = amplitude(coefficients.col(0), 1);
     const Complex stress = amplitude(coefficients.col(1), 1);
     const Eigen::RowVectorXd largest = signals.cwiseAbs().colwise().maxCoeff();

@@ -1,6 +1,6 @@
 #include "departures.hpp"
 
-#include <Eigen/QR>
+#include <coagula/common/dense.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +80,7 @@ RowCorrelations correlations_by_base(const Forward& forward, const DataSet& data
 }
 
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(columns);
-    return factor.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), factor.rank());
+    return dense::PivotedQr(columns).basis;
 }
 
 }  // namespace coagula::diagnose

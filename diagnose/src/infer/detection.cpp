@@ -2,7 +2,7 @@
 
 #include "noise/weights.hpp"
 
-#include <boost/math/distributions/normal.hpp>
+#include <coagula/common/special_functions.hpp>
 
 #include <algorithm>
 #include <array>
@@ -298,13 +298,11 @@ Eigen::ArrayXd standardised(const Eigen::ArrayXd& values) {
     const auto tail = std::upper_bound(sorted.begin(), sorted.end(), threshold);
     const auto beyond = static_cast<double>(sorted.end() - tail);
     const double excess = std::accumulate(tail, sorted.end(), 0.0) / std::max(beyond, 1.0) - threshold;
-    using namespace boost::math;
-    const normal_distribution<double, policies::policy<policies::promote_double<false>>> normal;
     return values.unaryExpr([&](double value) {
         const auto larger = static_cast<double>(sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value));
         const double probability =
             value > threshold ? beyond / count * std::exp(std::max(-(value - threshold) / excess, -650.0)) : (larger - 0.5) / count;
-        return quantile(complement(normal, probability));
+        return upper_normal_quantile(probability);
     });
 }
 

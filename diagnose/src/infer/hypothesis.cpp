@@ -2,7 +2,7 @@
 
 #include "noise/weights.hpp"
 
-#include <boost/math/distributions/normal.hpp>
+#include <coagula/common/special_functions.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -206,7 +206,7 @@ Eigen::MatrixXd Inference::draws_from(const PosteriorGrid& grid, const std::vect
             below += probability[number++];
         }
         const double part = std::fmod((draw + 0.5) * std::numbers::phi, 1.0);  // apart from that of the node
-        const double departure = boost::math::quantile(boost::math::normal(), part);
+        const double departure = normal_quantile(part);
         draws(0, draw) = std::exp(grid.nodes[number].log_stiffness + grid.nodes[number].deviation * departure);
         for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
             const auto row = static_cast<Index>(axis);

@@ -3,9 +3,13 @@
 #include "hypothesis.hpp"
 #include "simulate/quiet_log.hpp"
 
-#include <ceres/ceres.h>
+#include <coagula/common/dense.hpp>
+
+#include <ceres/cost_function.h>
+#include <ceres/covariance.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -119,11 +123,11 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
 
-    ceres::Covariance::Options dense;
-    dense.algorithm_type = ceres::DENSE_SVD;
-    dense.null_space_rank = -1;  // what is not determined has no variance then
-    dense.min_reciprocal_condition_number = 1e-13;
-    ceres::Covariance covariance(dense);
+    ceres::Covariance::Options by_values;
+    by_values.algorithm_type = ceres::DENSE_SVD;
+    by_values.null_space_rank = -1;  // what is not determined has no variance then
+    by_values.min_reciprocal_condition_number = 1e-13;
+    ceres::Covariance covariance(by_values);
     Eigen::MatrixXd matrix(axes, axes);
     if (!summary.IsSolutionUsable() || !covariance.Compute(std::vector<const double*>{place.data()}, &problem) ||
         !covariance.GetCovarianceBlock(place.data(), place.data(), matrix.data())) {
@@ -132,7 +136,7 @@ std::optional<PosteriorGrid> Inference::grid_about_mode(const Hypothesis& hypoth
     // What the data hardly determine, the prior does.
     constexpr double variance_of_prior = 1.0 / 12;
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(axes, axes);
-    const Eigen::MatrixXd with_prior = (identity + matrix / variance_of_prior).partialPivLu().solve(matrix);
+    const Eigen::MatrixXd with_prior = dense::solve(identity + matrix / variance_of_prior, matrix);
     const Eigen::LLT<Eigen::MatrixXd> root(0.5 * (with_prior + with_prior.transpose()));
     if (root.info() != Eigen::Success || root.rcond() < 1e-13) {
         return std::nullopt;

@@ -4,9 +4,8 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/dense.hpp>
 #include <coagula/common/random.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -67,10 +66,10 @@ Eigen::MatrixXd errors_above(const std::vector<double>& spread, double mutual, d
     const Eigen::VectorXd deviation = ((1 + mutual) * all.col(0)).cwiseSqrt();
     const Eigen::VectorXd inverse = (deviation.array() > 0).select(deviation.cwiseInverse(), 0);
     const Eigen::MatrixXd covariance = all.middleCols<shell_count>(1) + mutual * all.rightCols<shell_count>();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * covariance * inverse.asDiagonal());
-    const Eigen::VectorXd above = (solver.eigenvalues().array() - least).max(0).sqrt();
+    const dense::SymmetricModes modes(inverse.asDiagonal() * covariance * inverse.asDiagonal());
+    const Eigen::VectorXd above = (modes.values.array() - least).max(0).sqrt();
     const Index some = (above.array() > 0).count();
-    return deviation.asDiagonal() * (solver.eigenvectors() * above.asDiagonal()).rightCols(some);
+    return deviation.asDiagonal() * (modes.vectors * above.asDiagonal()).rightCols(some);
 }
 
 }  // namespace

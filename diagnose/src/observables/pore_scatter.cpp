@@ -1,10 +1,9 @@
 #include "pore_scatter.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/dense.hpp>
 #include <coagula/common/surface_distance.hpp>
 #include <coagula/diagnose/simulator.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -123,9 +122,9 @@ Eigen::MatrixXd Simulator::pore_errors(const StructureChange& change, const std:
     constexpr Index axes = 6;  // the seventh has less than a thousandth of the variance
     const Eigen::MatrixXd covariance =
         over_changes(change, [](Simulator& other) { return Eigen::MatrixXd(other.pore_covariance()); });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-    const Eigen::VectorXd deviations = solver.eigenvalues().tail(axes).cwiseMax(0).cwiseSqrt();
-    const Eigen::MatrixXd at_nodes = solver.eigenvectors().rightCols(axes) * deviations.asDiagonal();
+    const dense::SymmetricModes modes(covariance);
+    const Eigen::VectorXd deviations = modes.values.tail(axes).cwiseMax(0).cwiseSqrt();
+    const Eigen::MatrixXd at_nodes = modes.vectors.rightCols(axes) * deviations.asDiagonal();
     Eigen::MatrixXd errors(static_cast<Index>(pore_radii.size()), axes);
     for (Index row = 0; row < errors.rows(); ++row) {
         const double radius = pore_radii[static_cast<std::size_t>(row)];

@@ -1,6 +1,6 @@
 #include "drag_scatter.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <coagula/common/dense.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -51,14 +51,13 @@ DragScatter drag_scatter(const ArrayXd& drags, double particles, const MatrixXd&
     const double mean_square = (logarithms.array().colwise() / scatter).square().sum() / nodes;
     const double variance = (stated_degrees + independent * mean_square) / (stated_degrees + degrees);
 
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(alike);
-    const ArrayXd shares = axes.eigenvalues().array() / axes.eigenvalues().maxCoeff();
+    const dense::SymmetricModes axes(alike);
+    const ArrayXd shares = axes.values.array() / axes.values.maxCoeff();
     const auto kept = std::count_if(shares.begin(), shares.end(), [](double share) { return share > least_share; });
     const ArrayXd of_mean = stated_scatter(drags, particles * static_cast<double>(averaged));
     const ArrayXd deviation = std::sqrt(variance) * of_mean;
     return {0.5 * of_mean.square(),
-            deviation.matrix().asDiagonal() * axes.eigenvectors().rightCols(kept) *
-                axes.eigenvalues().tail(kept).cwiseSqrt().asDiagonal(),
+            deviation.matrix().asDiagonal() * axes.vectors.rightCols(kept) * axes.values.tail(kept).cwiseSqrt().asDiagonal(),
             stated_degrees + degrees};
 }
 

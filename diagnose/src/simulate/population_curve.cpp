@@ -1,7 +1,8 @@
 #include "population_curve.hpp"
 
+#include <coagula/common/dense.hpp>
+
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -67,9 +68,9 @@ Smooth smooth(const ArrayXd& places, const ArrayXd& values, const ArrayXd& noise
     const Eigen::LLT<Eigen::MatrixXd> factor(all);
     const Eigen::VectorXd departure = (values - level).matrix();
     const Eigen::MatrixXd posterior = prior - prior * factor.solve(prior);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(0.5 * (posterior + posterior.transpose()));
-    const ArrayXd deviations = axes.eigenvalues().array().max(0).sqrt();
-    return {level + (prior * factor.solve(departure)).array(), axes.eigenvectors() * deviations.matrix().asDiagonal()};
+    const dense::SymmetricModes axes(0.5 * (posterior + posterior.transpose()));
+    const ArrayXd deviations = axes.values.array().max(0).sqrt();
+    return {level + (prior * factor.solve(departure)).array(), axes.vectors * deviations.matrix().asDiagonal()};
 }
 
 /// Their common level if they scatter about it by the noise and the smooth function.
