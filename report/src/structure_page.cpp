@@ -35,7 +35,7 @@ std::vector<double> numbers_of(const io::Dataset& dataset) {
     return {};
 }
 
-/// Of a vector for each particle its length.
+/// Length of the vector of each particle.
 std::vector<double> lengths_of(const std::vector<double>& values, std::size_t components) {
     std::vector<double> lengths(values.size() / components);
     for (std::size_t k = 0; k < lengths.size(); ++k) {
@@ -56,10 +56,12 @@ Json field_json(const io::Dataset& dataset, const Packing& packing, PageArrays& 
         return {};
     }
     const std::size_t components = values.size() / particles;
+    const bool is_arrow = components == 3 && dataset.unit == "m";  // a displacement, which the page can draw
     return {{"name", printable(name)},
             {"unit", printable(dataset.unit)},
             {"description", (components > 1 ? "length of the vector: " : "") + printable(dataset.description)},
-            {"values", arrays.reals(components > 1 ? lengths_of(values, components) : values)}};
+            {"components", is_arrow ? 3 : 1},
+            {"values", arrays.reals(components > 1 && !is_arrow ? lengths_of(values, components) : values)}};
 }
 
 /// Methods whose numbers for each bond refer to other bonds than those of the file.

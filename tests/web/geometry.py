@@ -19,25 +19,26 @@ class Spheres:
 
 
 def rays(camera, width, height, pixels):
-    """Unit vectors from the eye through pixels [n][2], counted from the upper left corner."""
+    """Origins and unit vectors of the rays through pixels [n][2], counted from the upper left corner; parallel ones without perspective."""
     eye, target, up = (numpy.array(camera[name]) for name in ("eye", "target", "up"))
     ahead = (target - eye) / numpy.linalg.norm(target - eye)
     right = numpy.cross(ahead, up)
     right /= numpy.linalg.norm(right)
     above = numpy.cross(right, ahead)
-    half = numpy.tan(numpy.radians(camera["fieldOfView"]) / 2)
+    half = camera["halfHeight"] if camera["parallel"] else numpy.tan(numpy.radians(camera["fieldOfView"]) / 2)
     x = (2 * (pixels[:, 0] + 0.5) / width - 1) * half * width / height
     y = (1 - 2 * (pixels[:, 1] + 0.5) / height) * half
-    directions = ahead + x[:, None] * right + y[:, None] * above
-    return directions / numpy.linalg.norm(directions, axis=1)[:, None]
+    aside = x[:, None] * right + y[:, None] * above
+    if camera["parallel"]:
+        return eye + aside, numpy.broadcast_to(ahead, aside.shape)
+    return numpy.broadcast_to(eye, aside.shape), (ahead + aside) / numpy.linalg.norm(ahead + aside, axis=1)[:, None]
 
 
 def first_hits(spheres, camera, width, height, pixels, slab=None):
     """For each pixel the particle that is seen there, or -1, and how far its edge is away in units of its radius.
     slab: (axis, lower, upper)."""
-    eye = numpy.array(camera["eye"])
     hits, margins = [], []
-    for direction in rays(camera, width, height, numpy.asarray(pixels, dtype=float)):
+    for eye, direction in zip(*rays(camera, width, height, numpy.asarray(pixels, dtype=float))):
         offset = spheres.centres - eye
         along = offset @ direction
         miss = numpy.linalg.norm(offset - along[:, None] * direction, axis=1)

@@ -8,7 +8,7 @@ import h5py
 import numpy
 
 from browser import Browser, needs_browser
-from geometry import Spheres, first_hits
+from geometry import Spheres, first_hits, rays
 from support import ProgramTest
 
 PIXELS = """
@@ -85,6 +85,9 @@ class StructurePage(ProgramTest):
             browser.run("coagula.views.stages[0].viewer.select(null)")  # the panel may lie over the next place
             browser.click_at(canvas, *map(int, pixels[k]))
             panel = browser.find(".picked")
+            at = browser.run("return document.elementFromPoint(arguments[0], arguments[1]).tagName",
+                             *(int(canvas.rect[side] + pixels[k][c]) - browser.run(f"return Math.round(scroll{'XY'[c]})") for c, side in enumerate("xy")))
+            self.assertEqual(at, "CANVAS", "the panel hides the particle that was picked")
             self.assertEqual(int(panel.get_attribute("data-particle")), hits[k])
             self.assertIn(f"Particle {hits[k]}", panel.text)
             self.assertRegex(panel.text, rf"coordination\s+{spheres.coordination[hits[k]]}\b")
@@ -109,6 +112,26 @@ class StructurePage(ProgramTest):
         greenness = (colours[seen, 1] - colours[seen, 2]) / colours[seen].sum(axis=1)
         self.assertGreater(numpy.corrcoef(greenness, spheres.coordination[hits[seen]])[0, 1], 0.9)
 
+    def check_cut_faces(self, browser, spheres, slab):
+        """A cut face has the colour that the legend gives its value."""
+        canvas = self.canvas_of(browser)
+        width, height = (int(canvas.rect[name]) for name in ("width", "height"))
+        legend = [tuple(map(int, colour.strip("rgb()").split(",")))
+                  for colour in browser.run("return [...document.querySelectorAll('.legend .steps i')].map((i) => getComputedStyle(i).backgroundColor)")]
+        pixels = numpy.random.default_rng(3).integers([0.2 * width, 0.2 * height], [0.8 * width, 0.8 * height], (1500, 2))
+        camera = self.camera(browser)
+        hits, _ = first_hits(spheres, camera, width, height, pixels, slab)
+        colours = browser.run(PIXELS, 0, pixels.tolist())
+        axis, low, high = slab
+        seen = 0
+        for colour, hit, eye, direction in zip(colours, hits, *rays(camera, width, height, pixels.astype(float))):
+            along = min((bound - eye[axis]) / direction[axis] for bound in (low, high))
+            away = numpy.linalg.norm(eye + along * direction - spheres.centres[hit]) / spheres.radii[hit]
+            if hit >= 0 and away < 0.9:  # inside its rim, which is darker
+                self.assertLessEqual(max(abs(a - b) for a, b in zip(colour, legend[spheres.coordination[hit]])), 1)
+                seen += 1
+        self.assertGreater(seen, 20)
+
     def test_spheres_are_where_geometry_says(self):
         page = self.make("packing.h5")
         spheres = Spheres(self.folder / "packing.h5")
@@ -126,6 +149,14 @@ class StructurePage(ProgramTest):
             slab = (0, 0.5 * spheres.lengths[0], 0.7 * spheres.lengths[0])
             self.check_drawing(browser, spheres, slab)
             self.check_picks(browser, spheres, slab)
+            browser.run("coagula.views.stages[0].viewer.select(null)")
+            self.check_cut_faces(browser, spheres, slab)
+            browser.run("coagula.views.change({parallel: true})")
+            self.check_drawing(browser, spheres, slab)
+            self.check_cut_faces(browser, spheres, slab)
+            browser.run("coagula.views.change({slab: {on: false, axis: 0, position: 0.6, thickness: 0.2}})")
+            self.check_drawing(browser, spheres)
+            self.check_picks(browser, spheres)
             self.check_console(browser)
 
     def test_keyboard_and_controls(self):
@@ -139,13 +170,108 @@ class StructurePage(ProgramTest):
             self.assertLess(numpy.linalg.norm(turned), numpy.linalg.norm(first))
             browser.press(canvas, "r")
             numpy.testing.assert_allclose(self.camera(browser)["eye"], first, rtol=1e-9)
+            for axis, key in enumerate("xyz"):
+                browser.press(canvas, key)
+                way = numpy.subtract(self.camera(browser)["eye"], self.camera(browser)["target"])
+                numpy.testing.assert_allclose(way / numpy.linalg.norm(way), numpy.eye(3)[axis], atol=1e-5)
+            browser.press(canvas, "r")
             for settings in ("colourBy: 'cluster'", "colourBy: 'nonaffinity', logarithmic: true", "colourBy: 'energy_share'", "colourBy: 'radius'",
-                             "bonds: 'normal_force', sphereScale: 0.3", "backboneOnly: true, plane: 'yz'", "images: 'layer', pores: 20",
+                             "bonds: 'normal_force', sphereScale: 0.3", "arrows: 'nonaffine_displacement'", "parallel: true", "parallel: false", "backboneOnly: true, plane: 'yz'", "images: 'layer', pores: 20",
                              "images: 'double'", "spheres: false"):
                 browser.run(f"coagula.views.change({{{settings}}})")
                 colours = {tuple(colour) for colour in browser.run(PIXELS, 0, [[x, y] for x in range(100, 500, 7) for y in range(100, 400, 7)])}
                 self.assertGreater(len(colours), 100, settings)
-            self.assertIn("normal force", browser.find(".legends").text)
+            legend = browser.find(".legends").text
+            for words in ("normal force per unit strain", "compression", "tension"):
+                self.assertIn(words, legend)
+            self.check_console(browser)
+
+    def test_values_are_selected_and_coloured_as_one_wants(self):
+        page = self.make("packing.h5")
+        spheres = Spheres(self.folder / "packing.h5")
+        drawn = "return coagula.views.stages[0].viewer.drawn.particle.length"
+        with Browser() as browser:
+            browser.open(page)
+            low, high = browser.find_all(".legend input.number")
+            low.send_keys("5", "\ue004")  # tabulator: goes on to the other end
+            browser.wait_for("return document.activeElement.getAttribute('aria-label') === 'Upper end of the colours of the particles'")
+            self.assertEqual(browser.find(".legend .steps").text.split()[0], "5")
+            browser.find(".legend input[type=checkbox]").click()
+            expected = int((spheres.coordination >= 5).sum())
+            browser.wait_for(f"{drawn} === {expected}")
+            self.assertIn(f"{expected} of 500 particles", browser.find(".legends").text)
+            browser.run("coagula.views.change({bonds: 'plain'})")
+            ends = browser.run("return coagula.views.stages[0].viewer.sticks.count")
+            with h5py.File(self.folder / "packing.h5") as file:
+                bonds = spheres.coordination[file["connectivity/bonds"][()]]
+            self.assertGreaterEqual(ends, (bonds >= 5).all(axis=1).sum())
+            self.assertLessEqual(ends, 2 * (bonds >= 5).all(axis=1).sum())  # those through the boundary are drawn in halves
+            browser.run("document.querySelector('.legend select').value = 'inferno'; document.querySelector('.legend select').dispatchEvent(new Event('change'))")
+            browser.wait_for("return document.querySelector('.legend button') !== null")
+            self.assertEqual(browser.find(".legend select").get_attribute("value"), "inferno")
+            browser.find(".legend button").click()
+            browser.wait_for(f"{drawn} === 500")
+            # Two boxes along each axis start whole inside the view.
+            browser.run("coagula.views.change({bonds: 'none', images: 'double'})")
+            camera = self.camera(browser)
+            eye, target = numpy.array(camera["eye"]), numpy.array(camera["target"])
+            ahead = (target - eye) / numpy.linalg.norm(target - eye)
+            right = numpy.cross(ahead, camera["up"])
+            right /= numpy.linalg.norm(right)
+            corners = numpy.stack(numpy.meshgrid(*([0, 2 * length] for length in spheres.lengths)), axis=-1).reshape(-1, 3) - eye
+            depth = corners @ ahead
+            half = numpy.tan(numpy.radians(camera["fieldOfView"]) / 2)
+            self.assertLess(numpy.max(numpy.abs(corners @ numpy.cross(right, ahead)) / (depth * half)), 1)
+            self.assertLess(numpy.max(numpy.abs(corners @ right) / (depth * half * camera["aspect"])), 1)
+            # What is picked is told once, with what it refers to.
+            browser.run("coagula.views.change({images: 'none'}); coagula.views.stages[0].viewer.select(7)")
+            names = [name.text for name in browser.find_all(".picked dt")]
+            self.assertEqual(len(names), len(set(names)), names)
+            self.assertIn("non-affine displacement per unit strain", names)
+            self.check_console(browser)
+
+    def test_no_value_vanishes_in_the_dark(self):
+        page = self.make("packing.h5")
+        contrast = """
+            const luminance = (text) => { const [r, g, b] = text.match(/\\d+/g).map((part) => part / 255).map((c) => c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+              return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+            const stage = luminance(getComputedStyle(document.querySelector('.stage')).backgroundColor);
+            return [...document.querySelectorAll('.legend .steps i')].map((i) => luminance(getComputedStyle(i).backgroundColor))
+              .map((one) => (Math.max(one, stage) + 0.05) / (Math.min(one, stage) + 0.05));"""
+        with Browser() as browser:
+            browser.prefer("dark")
+            browser.open(page)
+            for name in ("viridis", "inferno", "grey"):
+                browser.run(f"coagula.views.change({{particles: {{map: '{name}', low: null, high: null, within: false}}}})")
+                self.assertGreater(min(browser.run(contrast)), 2.2, name)
+
+    def test_headline_contents_and_words(self):
+        page = self.make("packing.h5")
+        with h5py.File(self.folder / "packing.h5") as file:
+            modulus, error = (file[f"mechanics/linear/storage_modulus/{name}"][()] for name in ("mean", "std"))
+        with Browser() as browser:
+            browser.open(page)
+            facts = dict(zip([name.text for name in browser.find_all(".facts dt")], [value.text.replace("\u00a0", " ") for value in browser.find_all(".facts dd")]))
+            self.assertEqual(facts["radius"], "250 nm")
+            value, spread = (float(part) for part in facts["G′"].removesuffix(" MPa").split(" ± "))
+            self.assertAlmostEqual(value, modulus / 1e6, delta=1e-3)
+            self.assertAlmostEqual(spread / (error / 1e6), 1, delta=0.06)
+            links = browser.run("return [...document.querySelectorAll('.contents a')].map((link) => [link.getAttribute('href'), link.textContent])")
+            self.assertTrue(all(browser.run("return document.querySelector(arguments[0]) !== null", href) for href, _ in links), links)
+            self.assertEqual({f"#{figure}" for figure in browser.run("return [...document.querySelectorAll('.figures figure')].map((figure) => figure.id)")},
+                             {href for href, _ in links} & {f"#{figure}" for figure in browser.run("return [...document.querySelectorAll('figure')].map((figure) => figure.id)")})
+            labels = browser.run("return [...document.querySelectorAll('.plot')].map((plot) => plot.getAttribute('aria-label'))")
+            self.assertFalse([label for label in labels if "000 m" in label or "[rad" in label or "_" in label], labels)
+            self.assertFalse([label for label in labels if label.lower().startswith("linear response, non affinity")], "six components are no curve")
+
+    def test_a_page_without_results_shows_the_structure_alone(self):
+        self.copy_of_packing("packing.h5")
+        self.succeed("report", "packing.h5", "-o", "report.html")
+        with Browser() as browser:
+            browser.open(self.folder / "report.html")
+            self.assertGreater(browser.run("return document.querySelector('.stage').clientWidth / document.body.clientWidth"), 0.9)
+            self.assertIn("holds no results yet", browser.find(".notes").text)
+            self.assertEqual(browser.find_all("#all-results, .contents, .figures"), [])
             self.check_console(browser)
 
     def test_backbone_hides_the_others(self):
@@ -168,7 +294,7 @@ class StructurePage(ProgramTest):
             browser.open(page)
             buttons = browser.find_all(".figures .csv")
             rows = list(csv.reader(io.StringIO(browser.download(buttons[0], self.folder, "pore-curve.csv"))))
-            self.assertEqual(rows[0], ["r / r₀", "exact", "fit"])
+            self.assertEqual(rows[0], ["distance from the surface r / r₀", "exact", "fit"])
             with h5py.File(self.folder / "packing.h5") as file:
                 curve = file["characterization/pore_curve"]
                 r0 = file["characterization/mean_radius"][()]
@@ -211,10 +337,11 @@ class StructurePage(ProgramTest):
 
     def test_two_structures_are_compared(self):
         self.copy_of_packing("b.h5")
-        self.succeed("characterize", "b.h5", "--contact-tolerance", "0.05")
+        measures = ["--only", "coordination,doh,bond_order"]
+        self.succeed("characterize", "b.h5", "--contact-tolerance", "0.05", *measures)
         self.succeed("shear", "b.h5", "--normal-stiffness", "200N/m", "--shear-stiffness", "20N/m")
         self.copy_of_packing("a.h5")
-        self.succeed("characterize", "a.h5")
+        self.succeed("characterize", "a.h5", *measures)
         self.succeed("shear", "a.h5")
         self.succeed("report", "a.h5", "b.h5", "-o", "report.html")
         with Browser() as browser:
@@ -225,6 +352,10 @@ class StructurePage(ProgramTest):
             next(label for label in browser.find_all("label.check") if label.text == "linked cameras").click()
             browser.drag(self.canvas_of(browser, 1), 80, 30)
             self.assertGreater(numpy.linalg.norm(numpy.subtract(self.camera(browser, 0)["eye"], self.camera(browser, 1)["eye"])), 1)
+            keys = browser.run("return [...document.querySelectorAll('figure')].find((figure) => figure.textContent.includes('Bond-orientational')).querySelectorAll('.key')")
+            self.assertEqual([key.text[2:] for key in keys], ["a.h5: q₄", "a.h5: q₆", "b.h5: q₄", "b.h5: q₆"])
+            looks = {(key.text[:2], key.find_element("css selector", "i").get_attribute("style")) for key in keys}
+            self.assertEqual(len(looks), 4, looks)  # colour and kind of line together tell the curves apart
             rows = {row.find_element("css selector", "th").text: row.text for row in browser.find_all(".differences tbody tr")}
             self.assertIn("+100 %", rows["mechanics / linear / storage modulus / mean"].replace("\u00a0", " "))
             self.assertNotIn("characterization / particles", rows)

@@ -26,6 +26,8 @@ export interface Field {
   unit: string;
   description: string;
   values: Numbers;
+  /** 3 for a vector of each particle: x, y, z of the first, then of the second ... */
+  components?: number;
 }
 
 export interface Stage {

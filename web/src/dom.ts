@@ -48,6 +48,21 @@ export function slider(
   return input;
 }
 
+/** A field for a number; empty means what the placeholder says. */
+export function numberInput(value: number | null, placeholder: string, name: string, change: (value: number | null) => void): HTMLInputElement {
+  const input = el("input", { type: "text", inputmode: "decimal", class: "number", size: 8, value: value === null ? "" : String(value), placeholder, "aria-label": name,
+    onchange: () => {
+      const text = input.value.trim().replace(",", ".").replace("−", "-");
+      const number = Number(text);
+      if (text === "" || Number.isFinite(number)) {
+        change(text === "" ? null : number);
+      } else {
+        input.value = "";
+      }
+    } });
+  return input;
+}
+
 export function select(
   options: { value: string; label: string }[],
   value: string,
@@ -62,6 +77,11 @@ export function select(
 const superscripts: Record<string, string> = {
   "-": "⁻", "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹",
 };
+
+/** Digits as a power. */
+export function raised(exponent: number): string {
+  return [...String(exponent)].map((digit) => superscripts[digit] ?? digit).join("");
+}
 
 /** Four digits, without an exponent where that is readable. */
 export function printed(value: number, digits = 4): string {
@@ -78,9 +98,8 @@ export function printed(value: number, digits = 4): string {
   if (exponent >= -3 && exponent < 6) {
     return value.toPrecision(Math.max(digits, exponent + 1)).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "").replace("-", "−");
   }
-  const power = [...String(exponent)].map((digit) => superscripts[digit] ?? digit).join("");
   const factor = (value / 10 ** exponent).toPrecision(digits).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "").replace("-", "−");
-  return `${factor} × 10${power}`;
+  return `${factor} × 10${raised(exponent)}`;
 }
 
 const prefixes = ["p", "n", "µ", "m", "", "k", "M", "G"];
@@ -101,6 +120,34 @@ export function prefixOf(value: number, unit: string): { factor: number; unit: s
   return { factor: 1000 ** power, unit: (prefixes[power + 4] ?? "") + printedUnit(unit) };
 }
 
+/** The unit in which a list up to `largest` is easy to read: lengths, their powers and pressures with a prefix, angles in degrees. */
+export function shownUnit(largest: number, unit: string): { factor: number; unit: string } {
+  if (unit === "rad") {
+    return { factor: Math.PI / 180, unit: "°" };
+  }
+  if (unit === "rad-1") {
+    return { factor: 180 / Math.PI, unit: "1/°" };
+  }
+  const inverse = /^m-([1-9])$/.exec(unit);
+  if (inverse && largest > 0) {
+    const n = Number(inverse[1]);
+    const power = Math.min(Math.max(Math.floor(Math.log10(largest) / (3 * n) + 1e-9), -1), 4);
+    return { factor: 1000 ** (power * n), unit: (prefixes[4 - power] ?? "") + printedUnit(unit) };
+  }
+  return prefixOf(largest, unit);
+}
+
+/** "1.36 ± 0.05 MPa": the error with two digits, the value as far as the error goes. */
+export function quantityWithError(value: number, error: number | null, unit: string): string {
+  if (error === null || !(error > 0) || !Number.isFinite(value)) {
+    return quantity(value, unit);
+  }
+  const prefix = prefixOf(Math.max(Math.abs(value), error), unit);
+  const decimals = Math.min(Math.max(1 - Math.floor(Math.log10(error / prefix.factor)), 0), 8);
+  const text = (number: number): string => (number / prefix.factor).toFixed(decimals).replace("-", "−");
+  return `${text(value)} ± ${text(error)}${prefix.unit ? `\u00a0${prefix.unit}` : ""}`;
+}
+
 /** "1.357 MPa" */
 export function quantity(value: number | null, unit: string, digits = 4): string {
   if (value === null || !Number.isFinite(value)) {
@@ -108,11 +155,6 @@ export function quantity(value: number | null, unit: string, digits = 4): string
   }
   const prefix = prefixOf(value, unit);
   return printed(value / prefix.factor, digits) + (prefix.unit ? `\u00a0${prefix.unit}` : "");
-}
-
-/** "nonaffine_displacement" as words. */
-export function words(name: string): string {
-  return name.replaceAll("_", " ");
 }
 
 /** Offers a file for download. */

@@ -111,7 +111,7 @@ export function differenceTable(structures: Structure[]): HTMLElement {
   const names = structures.map((structure) => structure.name);
   const csv = (): string[][] => [["data set", "unit", ...names, ...others.map((k) => `${names[k]} relative to ${names[0]}`)],
     ...all.map((row) => [row.path, row.unit, ...row.values.map((value) => String(value ?? "")), ...others.map((k) => String(relative(row.values, k) ?? ""))])];
-  return el("section", { class: "differences" }, el("h2", {}, "Differences"),
+  return el("section", { class: "differences" }, el("h2", { id: "differences" }, "Differences"),
     el("div", { class: "tools" },
       el("label", { class: "control check" }, el("input", { type: "checkbox", onchange: (event: Event) => { least = (event.target as HTMLInputElement).checked ? 0 : 0.01; show(least, sorted); } }), "also below 1 %"),
       el("label", { class: "control check" }, el("input", { type: "checkbox", onchange: (event: Event) => { sorted = (event.target as HTMLInputElement).checked; show(least, sorted); } }), "largest first"),

@@ -4,9 +4,17 @@ import uPlot from "uplot";
 import { download, el, printed } from "../dom";
 import { colour, onTheme } from "../theme";
 import { csvOf, described, joined, type ChartSpec, type Series, type Table } from "./chart_spec";
-import { logarithmicTicks } from "./ticks";
+import { logarithmicTicks, signedTicks, tickLabels } from "./ticks";
 
 let charts = 0;
+/** Kinds of line that tell curves of one colour apart, and how the legend shows them. */
+const dashes: { pattern: number[] | undefined; mark: string }[] = [
+  { pattern: undefined, mark: "━━" }, { pattern: [7, 5], mark: "╌╌" }, { pattern: [2, 4], mark: "┈┈" }, { pattern: [11, 4, 2, 4], mark: "━╌" },
+];
+
+function dashOf(series: Series): { pattern: number[] | undefined; mark: string } {
+  return dashes[(series.dash ?? (series.dashed ? 1 : 0)) % dashes.length]!;
+}
 
 export class Chart {
   readonly element: HTMLElement;
@@ -22,6 +30,8 @@ export class Chart {
   private width = 0;
   private logX: boolean;
   private logY: boolean;
+  /** Of an axis that shows both signs logarithmically, the value below which it is linear; else null. */
+  private threshold: number | null = null;
 
   constructor(private spec: ChartSpec) {
     this.logX = spec.x.logarithmic ?? false;
@@ -84,7 +94,7 @@ export class Chart {
     const names = [...new Set(this.spec.series.map((series) => series.name))];
     this.keys.replaceChildren(...names.map((name) => {
       const series = this.spec.series.find((one) => one.name === name)!;
-      const mark = series.kind === "points" ? (series.shape === "triangle" ? "▲" : "●") : series.kind === "bars" ? "■" : series.dashed ? "╌╌" : "━━";
+      const mark = series.kind === "points" ? (series.shape === "triangle" ? "▲" : "●") : series.kind === "bars" ? "■" : dashOf(series).mark;
       return el("button", { type: "button", class: "key", "aria-pressed": String(!this.hidden.has(name)), title: "Show or hide", onclick: () => {
         this.hidden.has(name) ? this.hidden.delete(name) : this.hidden.add(name);
         this.draw();
@@ -103,7 +113,8 @@ export class Chart {
       return;
     }
     const shown = this.spec.series.filter((series) => !this.hidden.has(series.name));
-    const positive = (values: (number | null)[]): (number | null)[] => (this.logY ? values.map((v) => (v !== null && v > 0 ? v : null)) : values);
+    this.threshold = this.logY ? thresholdOf(shown) : null;
+    const positive = (values: (number | null)[]): (number | null)[] => (this.logY && this.threshold === null ? values.map((v) => (v !== null && v > 0 ? v : null)) : values);
     const usable = this.logX ? shown.map((series) => keptAbove(series)) : shown;
     const table = joined(usable);
     const data = [table.x, ...table.columns.map(positive)] as uPlot.AlignedData;
@@ -120,10 +131,10 @@ export class Chart {
       cursor: { drag: { x: true, y: true, uni: 40 }, points: { size: 7 } },
       scales: {
         x: { time: false, distr: this.logX ? 3 : 1, range: (_, low, high) => widened(low, high, this.logX, bars > 0 ? 0.04 : 0.015) },
-        y: { distr: this.logY ? 3 : 1, range: (_, low, high) => this.rangeY(low, high, series, bars > 0) },
+        y: { distr: this.threshold !== null ? 4 : this.logY ? 3 : 1, asinh: this.threshold ?? 1, range: (_, low, high) => this.rangeY(low, high, series, bars > 0) },
       },
       padding: [10, 14, 0, 0],
-      axes: [axis(this.spec.x.label, 28, this.logX), axis(this.spec.y.label, 48, this.logY)],
+      axes: [axis(this.spec.x.label, 28, this.logX, null), axis(this.spec.y.label, 48, this.logY, this.threshold)],
       series: [{}, ...series.map((one) => seriesOptions(one, one.kind === "bars" ? { number: bar++, of: bars } : { number: 0, of: 1 }))],
       hooks: {
         drawClear: [(plot) => this.drawBand(plot)],
@@ -143,9 +154,12 @@ export class Chart {
         const value = one.y[k];
         if (error !== null && value !== null && value !== undefined && value >= low && value <= high) {
           to = Math.max(to, value + error);
-          from = Math.min(from, this.logY ? Math.max(value - error, 0.3 * value) : value - error); // a bar may reach beyond a logarithmic axis
+          from = Math.min(from, this.logY && this.threshold === null ? Math.max(value - error, 0.3 * value) : value - error); // a bar may reach beyond a logarithmic axis
         }
       });
+    }
+    if (this.threshold !== null) {
+      return [from < 0 ? 1.6 * from : -this.threshold, to > 0 ? 1.6 * to : this.threshold];
     }
     if (this.spec.zero) {
       const reach = Math.max(4, Math.abs(from), Math.abs(to)) * 1.08;
@@ -206,6 +220,17 @@ function keptAbove(series: Series): Series {
   return { ...series, x: kept(series.x), y: kept(series.y), error: series.error && kept(series.error), open: series.open && kept(series.open) };
 }
 
+/** Where measured values are not above zero, the smallest size that tells them apart on an axis of both signs; else null. */
+function thresholdOf(series: Series[]): number | null {
+  const measured = series.filter((one) => one.kind === "points").flatMap((one) => one.y).filter((value): value is number => value !== null);
+  if (!measured.some((value) => value <= 0)) {
+    return null;
+  }
+  const sizes = measured.map(Math.abs).filter((size) => size > 0);
+  const most = sizes.reduce((a, b) => Math.max(a, b), 0);
+  return most > 0 ? Math.max(sizes.reduce((a, b) => Math.min(a, b)), 1e-4 * most) : 1;
+}
+
 function nearest(series: Series, x: number, logarithmic: boolean): number {
   let best = -1;
   let distance = Infinity;
@@ -235,7 +260,7 @@ function fontFamily(): string {
   return getComputedStyle(document.body).fontFamily;
 }
 
-function axis(label: string, size: number, logarithmic: boolean): uPlot.Axis {
+function axis(label: string, size: number, logarithmic: boolean, threshold: number | null): uPlot.Axis {
   return {
     label, size, labelSize: 20, labelGap: 0, gap: 4, font: `12px ${fontFamily()}`, labelFont: `12.5px ${fontFamily()}`,
     stroke: () => colour("--ink"),
@@ -243,8 +268,9 @@ function axis(label: string, size: number, logarithmic: boolean): uPlot.Axis {
     ticks: { stroke: () => colour("--rule"), width: 1, size: 5 },
     border: { show: true, stroke: () => colour("--rule"), width: 1 },
     filter: (_, splits) => splits,
-    splits: logarithmic ? (_plot, _axis, low, high) => logarithmicTicks(low, high) : undefined,
-    values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : printed(tick, 3).replace(/^1 × /, ""))),
+    splits: threshold !== null ? (_plot, _axis, low, high) => signedTicks(low, high, threshold)
+      : logarithmic ? (_plot, _axis, low, high) => logarithmicTicks(low, high) : undefined,
+    values: (_, ticks) => tickLabels(ticks, logarithmic),
   };
 }
 
@@ -258,7 +284,7 @@ function seriesOptions(series: Series, bar: { number: number; of: number }): uPl
   if (series.kind === "points") {
     return { stroke, paths: () => null, points: { show: false } };
   }
-  return { stroke, width: series.width ?? 2, dash: series.dashed ? [7, 5] : undefined, spanGaps: true, points: { show: false } };
+  return { stroke, width: series.width ?? 2, dash: dashOf(series).pattern, spanGaps: true, points: { show: false } };
 }
 
 function drawPoints(plot: uPlot, series: Series[], table: Table): void {

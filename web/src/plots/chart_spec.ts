@@ -15,6 +15,8 @@ export interface Series {
   open?: boolean[];
   shape?: "circle" | "triangle";
   dashed?: boolean;
+  /** Number of the kind of line where curves of one colour differ by it; 0 is solid. */
+  dash?: number;
   width?: number;
   hidden?: boolean;
 }

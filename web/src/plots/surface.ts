@@ -4,7 +4,7 @@ import {
   AmbientLight, BufferAttribute, Color, DirectionalLight, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, SphereGeometry, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { colourAt } from "../colours";
+import { coloursOf } from "../colours";
 import type { Structure } from "../data";
 import { download, el, printed, quantity } from "../dom";
 import { colour, onTheme } from "../theme";
@@ -14,6 +14,8 @@ interface Surface {
   title: string;
   scene: Scene;
   note: string;
+  /** Sets the colours for the present background. */
+  paint: () => void;
 }
 
 export function stiffnessOf(structure: Structure): Matrix | null {
@@ -22,7 +24,7 @@ export function stiffnessOf(structure: Structure): Matrix | null {
     ? (found.value as Matrix) : null;
 }
 
-function surfaceMesh(value: (n: Vector) => number): { mesh: Mesh; least: number; most: number } {
+function surfaceMesh(value: (n: Vector) => number): { mesh: Mesh; least: number; most: number; paint: () => void } {
   const geometry = new SphereGeometry(1, 96, 64);
   const place = geometry.getAttribute("position");
   const values: number[] = [];
@@ -31,16 +33,22 @@ function surfaceMesh(value: (n: Vector) => number): { mesh: Mesh; least: number;
   }
   const most = Math.max(...values);
   const least = Math.min(...values);
-  const colours = new Float32Array(3 * place.count);
   values.forEach((modulus, k) => {
     const part = modulus / most;
     place.setXYZ(k, place.getX(k) * part, place.getY(k) * part, place.getZ(k) * part);
-    const paint = new Color().setRGB(...(colourAt("amount", most > least ? (modulus - least) / (most - least) : 1).map((c) => c / 255) as Vector), "srgb");
-    paint.toArray(colours, 3 * k);
   });
-  geometry.setAttribute("color", new BufferAttribute(colours, 3));
+  geometry.setAttribute("color", new BufferAttribute(new Float32Array(3 * place.count), 3));
   geometry.computeVertexNormals();
-  return { mesh: new Mesh(geometry, new MeshLambertMaterial({ vertexColors: true })), least, most };
+  const paint = (): void => {
+    const colours = geometry.getAttribute("color");
+    const colourOf = coloursOf("viridis");
+    values.forEach((modulus, k) => {
+      const rgb = colourOf(most > least ? (modulus - least) / (most - least) : 1);
+      new Color().setRGB(...(rgb.map((c) => c / 255) as Vector), "srgb").toArray(colours.array, 3 * k);
+    });
+    colours.needsUpdate = true;
+  };
+  return { mesh: new Mesh(geometry, new MeshLambertMaterial({ vertexColors: true })), least, most, paint };
 }
 
 function sceneOf(mesh: Mesh): Scene {
@@ -71,8 +79,8 @@ function surfacesOf(structure: Structure, several: boolean): { surfaces: Surface
   const mean = averages(stiffness, compliance);
   return {
     surfaces: [
-      { title: `${before}Young's modulus`, scene: sceneOf(young.mesh), note: range(young) },
-      { title: `${before}shear modulus`, scene: sceneOf(shear.mesh), note: range(shear) },
+      { title: `${before}Young's modulus`, scene: sceneOf(young.mesh), note: range(young), paint: young.paint },
+      { title: `${before}shear modulus`, scene: sceneOf(shear.mesh), note: range(shear), paint: shear.paint },
     ],
     sentence: `${before}bulk modulus ${quantity(mean.bulk.reuss, "Pa")} to ${quantity(mean.bulk.voigt, "Pa")} and shear modulus ` +
       `${quantity(mean.shear.reuss, "Pa")} to ${quantity(mean.shear.voigt, "Pa")} (Reuss to Voigt); universal anisotropy ${printed(mean.anisotropy, 3)}.`,
@@ -104,7 +112,7 @@ export function elasticFigure(structures: Structure[]): HTMLElement | null {
   }
   const surfaces = all.flatMap((one) => one.surfaces);
   const host = el("div", { class: "surfaces", style: `--columns: ${Math.min(2, surfaces.length)}; --rows: ${Math.ceil(surfaces.length / 2)}` });
-  const figure = el("figure", { class: "chart elastic" },
+  const figure = el("figure", { class: "chart elastic", id: "moduli-in-every-direction" },
     el("div", { class: "head" }, el("h3", {}, "Moduli in every direction"), el("div", { class: "tools" },
       el("button", { type: "button", class: "quiet csv", "aria-label": "Numbers of this figure as CSV", onclick: () => download("moduli-in-every-direction.csv", surfaceCsv(structures)) }, "CSV"))),
     host,
@@ -152,6 +160,7 @@ function drawSurfaces(host: HTMLElement, surfaces: Surface[]): void {
   };
   const theme = (): void => {
     renderer.setClearColor(new Color(colour("--paper")));
+    surfaces.forEach((one) => one.paint());
     draw();
   };
   controls.addEventListener("change", draw);

@@ -6,6 +6,7 @@ import { sphereFragment, sphereVertex, stickFragment, stickVertex } from "./shad
 
 /** What all kinds share; the slab is in the space of the eye and changes with the camera. */
 export interface SharedUniforms {
+  parallel: { value: boolean };
   slab: { value: Vector4 };
   slabRange: { value: Vector2 };
   haze: { value: Color };
@@ -15,6 +16,7 @@ export interface SharedUniforms {
 
 export function sharedUniforms(): SharedUniforms {
   return {
+    parallel: { value: false },
     slab: { value: new Vector4() },
     slabRange: { value: new Vector2() },
     haze: { value: new Color(1, 1, 1) },

@@ -8,8 +8,14 @@ export interface NamedField {
   label: string;
   unit: string;
   description: string;
-  /** Under each plane, or under "" for all. */
+  /** Per unit strain, where the label does not say so. */
+  perStrain: boolean;
+  /** What negative and positive values mean, where they mean different things. */
+  signs: [string, string] | null;
+  /** Under each plane, or under "" for all; of a vector its length. */
   values: Map<Plane | "", Numbers>;
+  /** Of a vector its components, likewise. */
+  vectors: Map<Plane | "", Numbers>;
 }
 
 export interface Bond {
@@ -17,6 +23,14 @@ export interface Bond {
   number: number;
   neighbour: number;
 }
+
+/** Which particles and bonds are drawn. */
+export interface Selection {
+  particle: (i: number) => boolean;
+  bond: (k: number) => boolean;
+}
+
+export const everything: Selection = { particle: () => true, bond: () => true };
 
 /** Range of boxes that are drawn, in lengths of the box: [0, 1] is the box itself. */
 export interface Extent {
@@ -29,8 +43,16 @@ const labels: Record<string, string> = {
   nonaffinity: "non-affinity",
   energy_share: "participation (share of the energy)",
   nonaffine_displacement: "non-affine displacement",
-  rotation: "rotation",
 };
+
+function lengthsOf(vectors: Numbers, components: number): Float32Array {
+  return Float32Array.from({ length: vectors.length / components }, (_, i) => Math.hypot(...vectors.subarray(components * i, components * (i + 1))));
+}
+
+/** The name of a field with what it refers to. */
+export function fullLabel(field: NamedField): string {
+  return field.label + (field.perStrain ? " per unit strain" : "");
+}
 
 export class Model {
   readonly fields = new Map<string, NamedField>();
@@ -45,7 +67,7 @@ export class Model {
     const metres = structure.lengthUnit;
     this.add(this.fields, { name: "radius", unit: "m", description: "radius of the particle",
       values: structure.radii.map((radius) => radius * metres) });
-    for (const field of structure.fields) {
+    for (const field of structure.fields.filter(({ name }) => name !== "cluster")) { // clusters are found below, for files without them, too
       this.add(this.fields, field);
     }
     for (const field of structure.bondFields) {
@@ -57,6 +79,8 @@ export class Model {
         values: Float32Array.from(this.neighbours, (bonds) => bonds.length) });
     }
     [this.cluster, this.clusterSizes] = this.findClusters();
+    this.add(this.fields, { name: "cluster", unit: "1", description: "number of the cluster by size, from 1; 0 for a particle without bonds",
+      values: Float32Array.from(this.cluster, (cluster) => cluster + 1) });
   }
 
   /** Values of a field under a plane; null where the file has none. */
@@ -65,16 +89,22 @@ export class Model {
     return field ? (field.values.get(plane) ?? field.values.get("") ?? null) : null;
   }
 
+  /** Components of a vector field under a plane; null where the file has none. */
+  vectors(name: string, plane: Plane): Numbers | null {
+    const field = this.fields.get(name);
+    return field ? (field.vectors.get(plane) ?? field.vectors.get("") ?? null) : null;
+  }
+
   bondField(name: string, plane: Plane): Numbers | null {
     const field = this.bondFields.get(name);
     return field ? (field.values.get(plane) ?? field.values.get("") ?? null) : null;
   }
 
-  /** Whether each particle and bond is to be drawn. */
-  shown(settings: Settings): { particle: (i: number) => boolean; bond: (k: number) => boolean } {
+  /** Particles and bonds of the backbone alone, if that is wanted. */
+  inBackbone(settings: Settings): Selection {
     const backbone = settings.backboneOnly ? this.bondField("backbone", settings.plane) : null;
     if (!backbone) {
-      return { particle: () => true, bond: () => true };
+      return everything;
     }
     const inside = new Uint8Array(this.structure.particles);
     const ends = this.structure.bonds!.ends;
@@ -87,6 +117,7 @@ export class Model {
     return { particle: (i) => inside[i] === 1, bond: (k) => backbone[k] === 1 };
   }
 
+  /** Lengths of the box that are drawn. */
   extent(settings: Settings): Extent {
     const layer = 0.2;
     if (!this.structure.periodic || settings.images === "none") {
@@ -122,9 +153,16 @@ export class Model {
       label: (fields === this.fields ? labels[name] : null) ?? name.replaceAll("_", " "),
       unit: field.unit,
       description: field.description.replace(/ under shear (xy|xz|yz)/, "").replace(/ (xy|xz|yz)( |$)/, "$2"),
+      perStrain: /per unit (shear )?strain/.test(field.description),
+      signs: /positive where it is pulled/.test(field.description) ? ["compression", "tension"] as [string, string] : null,
       values: new Map<Plane | "", Numbers>(),
+      vectors: new Map<Plane | "", Numbers>(),
     };
-    entry.values.set(plane, field.values);
+    const components = field.components ?? 1;
+    if (components === 3) {
+      entry.vectors.set(plane, field.values);
+    }
+    entry.values.set(plane, components > 1 ? lengthsOf(field.values, components) : field.values);
     fields.set(name, entry);
   }
 

@@ -1,9 +1,11 @@
-// Spheres and sticks as quads whose fragments find the true surface (impostors: Tarini, Cignoni and Montani 2006).
+// Spheres and sticks as quads whose fragments find the true surface (impostors: Tarini, Cignoni and Montani 2006), seen with perspective
+// from the eye in the origin or, where `parallel` is set, along -z.
 
 export const sphereVertex = `
 precision highp float;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
+uniform bool parallel;
 uniform float scale;
 in vec3 centre;
 in float radius;
@@ -20,6 +22,11 @@ void main() {
   size = radius * scale;
   paint = tint;
   marked = mark;
+  if (parallel) {
+    point = middle + vec3(corner * size, size);
+    gl_Position = projectionMatrix * vec4(point, 1.0);
+    return;
+  }
   float distance = length(middle);
   if (distance <= 1.001 * size) {  // the eye is inside
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
@@ -53,6 +60,7 @@ export const sphereFragment = `
 #endif
 precision highp float;
 uniform mat4 projectionMatrix;
+uniform bool parallel;
 uniform vec4 slab;       // unit normal in the space of the eye; w: whether there is a slab
 uniform vec2 slabRange;  // along the normal
 uniform vec3 haze;
@@ -68,9 +76,10 @@ layout(depth_greater) out highp float gl_FragDepth;
 #endif
 ${lighting}
 void main() {
-  vec3 direction = normalize(point);
-  float along = dot(direction, middle);
-  vec3 nearest = along * direction - middle;
+  vec3 origin = parallel ? vec3(point.xy, 0.0) : vec3(0.0);
+  vec3 direction = parallel ? vec3(0.0, 0.0, -1.0) : normalize(point);
+  float along = dot(direction, middle - origin);
+  vec3 nearest = origin + along * direction - middle;
   float inside = size * size - dot(nearest, nearest);
   if (inside < 0.0) discard;
   float half_chord = sqrt(inside);
@@ -79,14 +88,14 @@ void main() {
   bool cut = false;
   if (slab.w > 0.5) {
     float slope = dot(slab.xyz, direction);
-    vec2 crossing = slabRange / (abs(slope) > 1e-6 ? slope : 1e-6);
+    vec2 crossing = (slabRange - dot(slab.xyz, origin)) / (abs(slope) > 1e-6 ? slope : 1e-6);
     float first = min(crossing.x, crossing.y);
     cut = first > enter;
     enter = max(enter, first);
     leave = min(leave, max(crossing.x, crossing.y));
     if (enter > leave) discard;
   }
-  vec3 hit = enter * direction;
+  vec3 hit = origin + enter * direction;
   vec3 normal = (hit - middle) / size;
   vec4 clip = projectionMatrix * vec4(hit, 1.0);
   gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
@@ -94,12 +103,13 @@ void main() {
   float rim = 1.0 - abs(dot(normal, direction));
   colour = vec4(hazy(paint, -hit.z), cut ? 0.5 : 0.22 + 0.55 * rim * rim);
 #else
-  vec3 shade = cut ? mix(paint, haze, 0.25) * (length(hit - middle) > 0.93 * size ? 0.7 : 1.0) : lit(paint, normal, direction);
+  // A cut face has the very colour of the legend, without light and haze.
+  vec3 shade = cut ? paint * (length(hit - middle) > 0.93 * size ? 0.7 : 1.0) : hazy(lit(paint, normal, direction), -hit.z);
   if (marked > 0.5) {
     float rim = smoothstep(0.35, 0.75, 1.0 - abs(dot(normal, direction)));
     shade = mix(shade, marked > 1.5 ? vec3(1.0, 0.83, 0.1) : vec3(1.0), marked > 1.5 ? 0.35 + 0.65 * rim : rim);
   }
-  colour = vec4(hazy(shade, -hit.z), 1.0);
+  colour = vec4(shade, 1.0);
 #endif
 }`;
 
@@ -107,10 +117,12 @@ export const stickVertex = `
 precision highp float;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
+uniform bool parallel;
 uniform float scale;
 in vec3 start;
 in vec3 branch;
 in float width;
+in float taper;  // 1: a cone that ends in a point
 in vec3 tint;
 out vec3 point;
 out float across;
@@ -122,17 +134,18 @@ void main() {
   vec3 from = (modelViewMatrix * vec4(start, 1.0)).xyz;
   vec3 to = (modelViewMatrix * vec4(start + branch, 1.0)).xyz;
   vec3 axis = normalize(to - from);
-  vec3 toEye = normalize(-0.5 * (from + to));
+  vec3 toEye = parallel ? vec3(0.0, 0.0, 1.0) : normalize(-0.5 * (from + to));
   side = normalize(cross(axis, toEye));
   outward = cross(side, axis);
   across = corner.x;
   paint = tint;
-  point = mix(from, to, 0.5 + 0.5 * corner.y) + side * corner.x * width * scale;
+  point = mix(from, to, 0.5 + 0.5 * corner.y) + side * corner.x * width * scale * (corner.y > 0.0 ? 1.0 - taper : 1.0);
   gl_Position = projectionMatrix * vec4(point, 1.0);
 }`;
 
 export const stickFragment = `
 precision highp float;
+uniform bool parallel;
 uniform vec4 slab;
 uniform vec2 slabRange;
 uniform vec3 haze;
@@ -150,5 +163,5 @@ void main() {
     if (place < slabRange.x || place > slabRange.y) discard;
   }
   vec3 normal = side * across + outward * sqrt(max(0.0, 1.0 - across * across));
-  colour = vec4(hazy(lit(paint, normal, normalize(point)), -point.z), 1.0);
+  colour = vec4(hazy(lit(paint, normal, parallel ? vec3(0.0, 0.0, -1.0) : normalize(point)), -point.z), 1.0);
 }`;

@@ -1,13 +1,13 @@
 // One view on the page: canvas, colour bars, what was picked, keyboard.
 
-import { el, quantity } from "../dom";
-import type { Painter } from "./build";
-import type { Model } from "./model";
+import { el, prefixOf, printed, quantity } from "../dom";
+import { fullLabel, type Model, type NamedField } from "./model";
+import type { Paint } from "./paint";
 import type { Settings } from "./settings";
 import { Viewer } from "./viewer";
 
 const keysText = "Drag turns, the wheel or two fingers zoom, the right button shifts, a click picks a particle. Keys: arrows turn, " +
-  "Shift and arrows shift, + and − zoom, R shows all, Escape forgets the picked particle.";
+  "Shift and arrows shift, + and − zoom, X, Y and Z look along an axis, R shows all, Escape forgets the picked particle.";
 
 export class Stage {
   readonly element: HTMLElement;
@@ -15,25 +15,25 @@ export class Stage {
   readonly viewer: Viewer | null;
   private readonly picked = el("aside", { class: "picked", "aria-live": "polite" });
 
-  constructor(readonly model: Model, private settings: Settings, painter: Painter, named: boolean) {
+  constructor(readonly model: Model, private settings: Settings, paint: Paint, named: boolean) {
     const host = el("div", { class: "canvas" });
     this.element = el("section", { class: "stage" }, host, this.picked);
     if (named) {
       this.element.append(el("h2", {}, model.structure.name));
     }
-    this.viewer = this.makeViewer(host, painter);
+    this.viewer = this.makeViewer(host, paint);
   }
 
-  apply(settings: Settings, painter: Painter): void {
+  apply(settings: Settings, paint: Paint): void {
     this.settings = settings;
-    this.viewer?.apply(settings, painter);
+    this.viewer?.apply(settings, paint);
     this.showPicked(this.viewer?.selected ?? null);
   }
 
-  private makeViewer(host: HTMLElement, painter: Painter): Viewer | null {
+  private makeViewer(host: HTMLElement, paint: Paint): Viewer | null {
     let viewer: Viewer;
     try {
-      viewer = new Viewer(host, this.model, this.settings, painter);
+      viewer = new Viewer(host, this.model, this.settings, paint);
     } catch {
       host.replaceChildren(el("p", { class: "missing" }, "This browser does not offer WebGL 2, without which the view cannot be drawn. " +
         "The figures and tables below do not need it."));
@@ -46,7 +46,16 @@ export class Stage {
     viewer.canvas.title = keysText;
     viewer.canvas.addEventListener("keydown", (event) => this.key(viewer, event));
     viewer.onPick = (particle) => this.showPicked(particle);
+    viewer.onDraw = () => this.placePanel();
     return viewer;
+  }
+
+  /** The panel stands in the half of the view where the picked particle is not. */
+  private placePanel(): void {
+    const place = this.viewer?.pickedPlace();
+    if (place) {
+      this.picked.classList.toggle("left", place.x > 0.5);
+    }
   }
 
   private key(viewer: Viewer, event: KeyboardEvent): void {
@@ -61,10 +70,12 @@ export class Stage {
       "=": () => viewer.move({ nearer: 1 / 1.12 }),
       "-": () => viewer.move({ nearer: 1.12 }),
       r: () => viewer.reset(),
-      R: () => viewer.reset(),
+      x: () => viewer.reset(0),
+      y: () => viewer.reset(1),
+      z: () => viewer.reset(2),
       Escape: () => viewer.select(null),
     };
-    const action = actions[event.key];
+    const action = actions[event.key] ?? actions[event.key.toLowerCase()];
     if (action && !event.ctrlKey && !event.metaKey && !event.altKey) {
       event.preventDefault();
       action();
@@ -79,7 +90,9 @@ export class Stage {
     }
     const { structure } = this.model;
     const metres = structure.lengthUnit;
-    const place = [0, 1, 2].map((c) => quantity(structure.positions[3 * particle + c]! * metres, "m")).join(", ");
+    const centre = [0, 1, 2].map((c) => structure.positions[3 * particle + c]! * metres);
+    const prefix = prefixOf(Math.max(...centre.map(Math.abs)), "m");
+    const place = `${centre.map((value) => printed(value / prefix.factor)).join(", ")} ${prefix.unit}`;
     this.picked.dataset.particle = String(particle);
     const close = el("button", { type: "button", class: "quiet", "aria-label": "Forget this particle", onclick: () => this.viewer?.select(null) }, "×");
     this.picked.append(
@@ -96,9 +109,10 @@ export class Stage {
   }
 
   private fieldRows(particle: number): string[][] {
-    return [...this.model.fields].filter(([name]) => name !== "radius" && name !== "coordination").flatMap(([name, field]) => {
+    const above = ["radius", "coordination", "cluster"];
+    return [...this.model.fields].filter(([name]) => !above.includes(name)).flatMap(([name, field]) => {
       const values = this.model.field(name, this.settings.plane);
-      return values ? [[field.label.replace(/ \(.*/, ""), quantity(values[particle]!, field.unit)]] : [];
+      return values ? [[fullLabel(field), quantity(values[particle]!, field.unit)]] : [];
     });
   }
 
@@ -117,7 +131,13 @@ export class Stage {
     const rows = bonds.map(({ number, neighbour }) => el("tr", {},
       el("td", {}, el("button", { type: "button", class: "link", onclick: () => this.viewer?.select(neighbour) }, String(neighbour))),
       ...columns.map(({ field, values }) => el("td", {}, quantity(values[number]!, field.unit, 3)))));
-    const note = columns.length > 0 ? el("p", { class: "soft" }, `Forces per unit shear strain ${this.settings.plane}.`) : null;
-    return el("div", {}, el("table", {}, el("thead", {}, head), el("tbody", {}, ...rows)), note);
+    return el("div", {}, el("table", {}, el("thead", {}, head), el("tbody", {}, ...rows)), this.bondNote(columns.map(({ field }) => field)));
+  }
+
+  private bondNote(fields: NamedField[]): HTMLElement | null {
+    const signed = fields.find((field) => field.signs);
+    const perStrain = fields.some((field) => field.perStrain) ? `Forces per unit shear strain ${this.settings.plane}.` : "";
+    const signs = signed ? ` Positive: ${signed.signs![1]}; negative: ${signed.signs![0]}.` : "";
+    return perStrain || signs ? el("p", { class: "soft" }, perStrain + signs) : null;
   }
 }

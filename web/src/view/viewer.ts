@@ -1,15 +1,16 @@
 // One structure in three dimensions: camera, drawing on demand, picking.
 
-import {
-  BoxGeometry, BufferAttribute, BufferGeometry, Color, EdgesGeometry, LineBasicMaterial, LineSegments, PerspectiveCamera, Scene, Vector3,
-  WebGLRenderer,
-} from "three";
+import { BoxGeometry, Color, EdgesGeometry, LineBasicMaterial, LineSegments, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { el } from "../dom";
 import { colour, onTheme } from "../theme";
-import { bondInstances, particleInstances, poreInstances, type Painter, type ParticleInstances } from "./build";
+import { arrowInstances, bondInstances, particleInstances, poreInstances, type ParticleInstances } from "./build";
+import { Eye } from "./eye";
 import { Instances, sharedUniforms } from "./instances";
 import type { Model } from "./model";
 import { frontToBack } from "./order";
+import { drawOverlay } from "./overlay";
+import type { Paint } from "./paint";
 import { nearestHit, slabRangeOf } from "./pick";
 import type { Settings } from "./settings";
 
@@ -33,7 +34,6 @@ export interface CameraState {
   up: [number, number, number];
 }
 
-const fieldOfView = 32; // degrees
 const sortedAgain = Math.cos(0.2); // after a turn by this angle
 const slowFrame = 45; // ms between frames, from which on a moving view is drawn with fewer pixels
 const rest = 250; // ms without movement, after which it is drawn with all
@@ -45,20 +45,27 @@ export class Viewer {
   /** Called with the particle that was picked, or null. */
   onPick: (particle: number | null) => void = () => undefined;
 
+  /** Called after every drawing. */
+  onDraw: () => void = () => undefined;
+
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.1, 1000);
+  private readonly eye = new Eye(() => this.controls.target);
+  private readonly camera = this.eye.perspective;
   private readonly controls: OrbitControls;
+  private readonly overlay = el("canvas", { class: "overlay", "aria-hidden": "true" });
   private readonly shared = sharedUniforms();
   private readonly spheres = new Instances("spheres", this.shared);
   private readonly sticks = new Instances("sticks", this.shared);
+  private readonly arrows = new Instances("sticks", this.shared);
   private readonly pores = new Instances("translucent", this.shared);
   private readonly frame: LineSegments<EdgesGeometry, LineBasicMaterial>;
-  private readonly axes: LineSegments<BufferGeometry, LineBasicMaterial>;
   private readonly half: Vector3;
   private readonly size: number;
   private drawn: ParticleInstances | null = null;
   private picked: number | null = null;
+  /** The instance that was clicked. */
+  private hit: number | null = null;
   private pending = false;
   private sortedFrom = new Vector3();
   private resolution = 1;
@@ -67,7 +74,7 @@ export class Viewer {
   private quiet = false;
 
   /** Throws where the browser has no WebGL 2. */
-  constructor(readonly host: HTMLElement, readonly model: Model, private settings: Settings, private painter: Painter) {
+  constructor(readonly host: HTMLElement, readonly model: Model, private settings: Settings, private paint: Paint) {
     this.half = new Vector3(...model.structure.lengths).multiplyScalar(0.5);
     this.size = this.half.length();
     this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware(), alpha: false, powerPreference: "high-performance" });
@@ -75,10 +82,9 @@ export class Viewer {
     this.renderer.setPixelRatio(fullResolution());
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
-    host.prepend(this.canvas);
+    host.prepend(this.canvas, this.overlay);
     this.frame = new LineSegments(new EdgesGeometry(new BoxGeometry(...model.structure.lengths)), new LineBasicMaterial());
-    this.axes = this.makeAxes();
-    this.scene.add(this.frame, this.axes, this.spheres.mesh, this.sticks.mesh, this.pores.mesh);
+    this.scene.add(this.frame, this.spheres.mesh, this.sticks.mesh, this.arrows.mesh, this.pores.mesh);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.rotateSpeed = 0.9;
     this.controls.addEventListener("change", () => {
@@ -95,9 +101,9 @@ export class Viewer {
     this.rebuild();
   }
 
-  apply(settings: Settings, painter: Painter): void {
+  apply(settings: Settings, paint: Paint): void {
     this.settings = settings;
-    this.painter = painter;
+    this.paint = paint;
     this.rebuild();
   }
 
@@ -108,8 +114,13 @@ export class Viewer {
     this.draw();
   }
 
-  reset(): void {
-    this.setCamera({ position: [1.88, 1.42, 2.64], target: [0, 0, 0], up: [0, 1, 0] });
+  /** Shows all that is drawn, from the side of a corner or along an axis towards the eye. */
+  reset(axis?: 0 | 1 | 2): void {
+    const { low, high } = this.model.extent(this.settings);
+    const centre = this.half.clone().multiplyScalar((low + high - 1) / this.size);
+    const way = axis === undefined ? new Vector3(1.88, 1.42, 2.64) : new Vector3().setComponent(axis, 3.2);
+    const position = centre.clone().addScaledVector(way, high - low);
+    this.setCamera({ position: position.toArray(), target: centre.toArray(), up: [0, 1, 0] });
     this.onCamera(this.cameraState());
   }
 
@@ -129,10 +140,27 @@ export class Viewer {
   }
 
   /** What a test or a script needs to find out where a particle is on the screen; lengths in units of the mean radius, from the corner of the box. */
-  projection(): { eye: number[]; target: number[]; up: number[]; fieldOfView: number; aspect: number } {
+  projection(): { eye: number[]; target: number[]; up: number[]; fieldOfView: number; aspect: number; parallel: boolean; halfHeight: number } {
     const shift = (v: Vector3): number[] => v.clone().add(this.half).toArray();
     return { eye: shift(this.camera.position), target: shift(this.controls.target), up: this.camera.up.toArray(),
-      fieldOfView: this.camera.fov, aspect: this.camera.aspect };
+      fieldOfView: this.camera.fov, aspect: this.camera.aspect, parallel: this.eye.parallel, halfHeight: this.eye.halfHeight };
+  }
+
+  /** Where the picked particle is in the view, 0 to 1 from the upper left corner; null where none is picked. */
+  pickedPlace(): { x: number; y: number } | null {
+    const place = this.pickedInstance();
+    const at = place?.project(this.eye.camera);
+    return at ? { x: 0.5 + 0.5 * at.x, y: 0.5 - 0.5 * at.y } : null;
+  }
+
+  /** The centre of the image that was clicked, or of the first. */
+  private pickedInstance(): Vector3 | null {
+    if (this.picked === null || !this.drawn) {
+      return null;
+    }
+    const { particle, centres } = this.drawn;
+    const k = this.hit !== null && particle[this.hit] === this.picked ? this.hit : particle.indexOf(this.picked);
+    return k < 0 ? null : new Vector3().fromArray(centres, 3 * k);
   }
 
   /** Turns by angles, moves nearer by a factor, or shifts by parts of the view, for the keyboard. */
@@ -178,11 +206,23 @@ export class Viewer {
     return performance.now() - start;
   }
 
-  /** A PNG of the view. */
+  /** A PNG of the view with axes and scale bar. */
   picture(): string {
     this.setResolution(1);
     this.render();
-    return this.canvas.toDataURL("image/png");
+    const picture = el("canvas", { width: this.canvas.width, height: this.canvas.height });
+    const context = picture.getContext("2d")!;
+    context.drawImage(this.canvas, 0, 0);
+    this.drawOverlay(context);
+    return picture.toDataURL("image/png");
+  }
+
+  private drawOverlay(context: CanvasRenderingContext2D): void {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    const scale = fullResolution();
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    const metres = (2 * this.eye.halfHeight * this.model.structure.lengthUnit) / height;
+    drawOverlay(context, width, height, this.eye.camera, metres, this.eye.parallel);
   }
 
   private draw(): void {
@@ -199,9 +239,17 @@ export class Viewer {
   }
 
   private render(): void {
+    this.eye.parallel = this.shared.parallel.value = this.settings.parallel;
     this.sort();
     this.updateSlab();
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.render(this.scene, this.eye.camera);
+    if (this.host.clientHeight > 0) {
+      const context = this.overlay.getContext("2d")!;
+      context.resetTransform();
+      context.clearRect(0, 0, this.overlay.width, this.overlay.height);
+      this.drawOverlay(context);
+    }
+    this.onDraw();
   }
 
   private sort(): void {
@@ -241,27 +289,26 @@ export class Viewer {
     const { clientWidth: width, clientHeight: height } = this.host;
     if (width > 0 && height > 0) {
       this.renderer.setSize(width, height, true);
-      this.camera.aspect = width / height;
-      // A narrow view keeps the width of a square one.
-      this.camera.fov = this.camera.aspect >= 1 ? fieldOfView
-        : 2 * Math.atan(Math.tan(fieldOfView * Math.PI / 360) / this.camera.aspect) * 180 / Math.PI;
-      this.camera.updateProjectionMatrix();
+      this.overlay.width = Math.round(width * fullResolution());
+      this.overlay.height = Math.round(height * fullResolution());
+      this.eye.resize(width, height);
       this.draw();
     }
   }
 
   private rebuild(): void {
     const { settings, model } = this;
-    this.drawn = particleInstances(model, settings, this.painter, this.half);
+    this.drawn = particleInstances(model, settings, this.paint, this.half);
     this.spheres.set(this.drawn.attributes, this.drawn.particle.length);
     this.sortedFrom.set(0, 0, 0);
     this.spheres.setScale(settings.sphereScale);
-    const sticks = bondInstances(model, settings, this.painter, this.half);
+    const sticks = bondInstances(model, settings, this.paint, this.half);
     this.sticks.set(sticks.attributes, sticks.count);
+    const arrows = arrowInstances(model, settings, this.paint.selection, this.half);
+    this.arrows.set(arrows.attributes, arrows.count);
     const pores = poreInstances(model, settings, this.half);
     this.pores.set(pores.attributes, pores.count);
     this.frame.visible = settings.box;
-    this.axes.visible = settings.box;
     this.updateMarks();
     this.draw();
   }
@@ -276,19 +323,16 @@ export class Viewer {
 
   private updateSlab(): void {
     const { slab } = this.settings;
-    this.camera.updateMatrixWorld();
-    const normal = new Vector3().setComponent(slab.axis, 1).transformDirection(this.camera.matrixWorldInverse);
-    const centre = new Vector3().applyMatrix4(this.camera.matrixWorldInverse);
+    const reach = this.size * (this.settings.images === "double" ? 3 : this.settings.images === "layer" ? 1.4 : 1);
+    this.eye.update(2 * reach + this.size, 0.02 * this.size);
+    const view = this.eye.camera.matrixWorldInverse;
+    const normal = new Vector3().setComponent(slab.axis, 1).transformDirection(view);
+    const centre = new Vector3().applyMatrix4(view);
     const [low, high] = slabRangeOf(this.settings, this.half);
     const place = normal.dot(centre);
     this.shared.slab.value.set(normal.x, normal.y, normal.z, slab.on ? 1 : 0);
     this.shared.slabRange.value.set(place + low, place + high);
-    const distance = centre.length();
-    const reach = this.size * (this.settings.images === "double" ? 3 : this.settings.images === "layer" ? 1.4 : 1);
-    this.camera.near = Math.max(0.02 * this.size, distance - 1.5 * reach - this.size);
-    this.camera.far = distance + 2 * reach + this.size;
-    this.camera.updateProjectionMatrix();
-    this.shared.hazeRange.value.set(distance - 0.6 * this.size, distance + reach);
+    this.shared.hazeRange.value.set(-centre.z - 0.6 * this.size, -centre.z + reach);
   }
 
   private applyTheme(): void {
@@ -297,16 +341,6 @@ export class Viewer {
     this.shared.haze.value = background;
     this.frame.material.color.set(colour("--soft"));
     this.draw();
-  }
-
-  private makeAxes(): LineSegments<BufferGeometry, LineBasicMaterial> {
-    const { x, y, z } = this.half;
-    const length = 0.22 * Math.min(x, y, z);
-    const ends = [[length, 0, 0], [0, length, 0], [0, 0, length]];
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(Float32Array.from(ends.flatMap((end) => [-x, -y, -z, end[0]! - x, end[1]! - y, end[2]! - z])), 3));
-    geometry.setAttribute("color", new BufferAttribute(Float32Array.from([1, 0.2, 0.15, 1, 0.2, 0.15, 0.1, 0.65, 0.25, 0.1, 0.65, 0.25, 0.15, 0.4, 1, 0.15, 0.4, 1]), 3));
-    return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, depthTest: false }));
   }
 
   private watchPointer(): void {
@@ -326,8 +360,8 @@ export class Viewer {
     if (!this.drawn || !this.settings.spheres) {
       return;
     }
-    const direction = new Vector3(x, y, 0.5).unproject(this.camera).sub(this.camera.position).normalize();
-    const hit = nearestHit(this.drawn, this.camera.position, direction, this.settings, this.half);
-    this.select(hit === null ? null : this.drawn.particle[hit]!);
+    const { from, direction } = this.eye.ray(x, y);
+    this.hit = nearestHit(this.drawn, from, direction, this.settings, this.half);
+    this.select(this.hit === null ? null : this.drawn.particle[this.hit]!);
   }
 }

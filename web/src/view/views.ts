@@ -2,13 +2,12 @@
 
 import type { Structure } from "../data";
 import { checkbox, el, labelled, select, slider } from "../dom";
+import { onTheme } from "../theme";
 import { legendElement } from "./legend";
 import { Model } from "./model";
-import { bondColours, paint, particleColours, wantsLogarithm } from "./paint";
-import { defaults, planes, type Plane, type Settings } from "./settings";
+import { arrowFields, bondColours, paint, particleColours, wantsLogarithm, type Legend } from "./paint";
+import { automatic, axisNames, defaults, planes, type Plane, type Settings } from "./settings";
 import { Stage } from "./stage";
-
-const axisNames = ["x", "y", "z"];
 
 export class Views {
   readonly element = el("section", { class: "views", "aria-label": "Structures in three dimensions" });
@@ -31,13 +30,22 @@ export class Views {
     this.element.append(this.row, this.legends, this.controls);
     this.makeControls();
     this.makeStages();
+    onTheme(() => this.refresh());
   }
 
   /** The settings, for tests and scripts. */
   change(settings: Partial<Settings>): void {
+    const reached = this.settings.images;
     Object.assign(this.settings, settings);
     this.makeControls();
     this.refresh();
+    if (this.settings.images !== reached) {
+      this.showAll();
+    }
+  }
+
+  private showAll(axis?: 0 | 1 | 2): void {
+    this.stages.forEach((stage) => stage.viewer?.reset(axis));
   }
 
   private get drawn(): Model[] {
@@ -45,11 +53,11 @@ export class Views {
   }
 
   private makeStages(): void {
-    const { painters } = paint(this.drawn, this.settings);
+    const { paints } = paint(this.drawn, this.settings);
     this.row.replaceChildren();
     this.stages = [];
     this.drawn.forEach((model, k) => {
-      const stage = new Stage(model, this.settings, painters[k]!, this.models.length > 1);
+      const stage = new Stage(model, this.settings, paints[k]!, this.models.length > 1);
       this.stages.push(stage);
       this.row.append(stage.element);
     });
@@ -66,9 +74,19 @@ export class Views {
   }
 
   private refresh(): void {
-    const { painters, legends } = paint(this.drawn, this.settings);
-    this.stages.forEach((stage, k) => stage.apply(this.settings, painters[k]!));
-    this.legends.replaceChildren(...(this.stages.some((stage) => stage.viewer) ? legends.map(legendElement) : []));
+    const { paints, legends } = paint(this.drawn, this.settings);
+    this.stages.forEach((stage, k) => stage.apply(this.settings, paints[k]!));
+    const focused = this.legends.contains(document.activeElement) ? document.activeElement!.getAttribute("aria-label") : null;
+    this.legends.replaceChildren(...(this.stages.some((stage) => stage.viewer) ? legends.map((legend) => this.editable(legend)) : []));
+    if (focused) {
+      this.legends.querySelector<HTMLElement>(`[aria-label="${focused}"]`)?.focus();
+    }
+  }
+
+  private editable(legend: Legend): HTMLElement {
+    const key = legend.of === "particles" ? "particles" : "bondColours";
+    // What is changed by leaving a field is drawn after the next one has the focus.
+    return legendElement(legend, this.settings[key], (colouring) => window.setTimeout(() => this.change({ [key]: colouring })));
   }
 
   private adjust(): void {
@@ -94,6 +112,7 @@ export class Views {
     const logarithm = checkbox("logarithmic", settings.logarithmic, (on) => { settings.logarithmic = on; this.refresh(); });
     const colours = select(particleColours(this.models), settings.colourBy, "Colour of the particles", (value) => {
       settings.colourBy = value;
+      settings.particles = automatic;
       settings.logarithmic = wantsLogarithm(this.models, settings);
       logarithm.querySelector("input")!.checked = settings.logarithmic;
       this.refresh();
@@ -110,10 +129,8 @@ export class Views {
     const { settings } = this;
     const bonds = select(bondColours(this.models), settings.bonds, "Bonds", (value) => {
       settings.bonds = value;
-      if (value !== "none" && settings.sphereScale === 1) {
-        settings.sphereScale = 0.35; // or the spheres would hide them
-        this.makeControls();
-      }
+      settings.bondColours = automatic;
+      this.uncover(value);
       this.refresh();
     });
     const plane = select(planes.map((name) => ({ value: name, label: name })), settings.plane, "Shear plane", (value) => {
@@ -121,12 +138,39 @@ export class Views {
       this.refresh();
       this.onPlane(settings.plane);
     });
-    const controls = [labelled("bonds", bonds), labelled("shear plane", plane, "of forces, backbone, non-affinity and participation")];
+    const controls: HTMLElement[] = [labelled("bonds", bonds), labelled("shear plane", plane, "of forces, backbone, non-affinity and participation")];
     if (hasBackbone) {
       controls.push(checkbox("only the backbone", settings.backboneOnly, (on) => { settings.backboneOnly = on; this.refresh(); },
         "the fewest bonds that store 90 % of the energy under this shear"));
     }
+    controls.push(...this.arrowControls());
     return controls;
+  }
+
+  /** Spheres would hide what is drawn between their centres. */
+  private uncover(drawn: string): void {
+    if (drawn !== "none" && this.settings.sphereScale === 1) {
+      this.settings.sphereScale = 0.35;
+      this.makeControls();
+    }
+  }
+
+  private arrowControls(): HTMLElement[] {
+    const { settings } = this;
+    const fields = arrowFields(this.models);
+    if (fields.length === 1) {
+      return [];
+    }
+    const arrows = select(fields, settings.arrows, "Arrows", (value) => {
+      settings.arrows = value;
+      this.uncover(value);
+      this.refresh();
+    });
+    return [labelled("arrows", arrows, "displacements of the particles under the chosen shear, enlarged"),
+      labelled("length", slider({ min: 0.1, max: 5, step: 0.1, value: settings.arrowLength, name: "Length of the arrows" }, (value) => {
+        settings.arrowLength = value;
+        this.refresh();
+      }), "of the root mean square displacement, in mean radii")];
   }
 
   private spaceControls(): HTMLElement[] {
@@ -151,6 +195,7 @@ export class Views {
         { value: "double", label: "2 × 2 × 2 boxes" }], settings.images, "Periodic images", (value) => {
         settings.images = value as Settings["images"];
         this.refresh();
+        this.showAll();
       })));
     }
     return controls;
@@ -160,7 +205,10 @@ export class Views {
     const { settings } = this;
     const controls: HTMLElement[] = [
       checkbox("box", settings.box, (on) => { settings.box = on; this.refresh(); }),
-      el("button", { type: "button", onclick: () => this.stages.forEach((stage) => stage.viewer?.reset()) }, "Show all"),
+      checkbox("orthographic", settings.parallel, (on) => { settings.parallel = on; this.refresh(); }, "without perspective: equal lengths look equal"),
+      el("span", { class: "control", role: "group", "aria-label": "View along an axis" }, "along", ...axisNames.map((name, axis) =>
+        el("button", { type: "button", class: "quiet", "aria-label": `View along ${name}`, onclick: () => this.showAll(axis as 0 | 1 | 2) }, name))),
+      el("button", { type: "button", onclick: () => this.showAll() }, "Show all"),
       el("button", { type: "button", onclick: () => this.savePictures() }, "Save PNG"),
     ];
     if (this.shown.length > 1) {
