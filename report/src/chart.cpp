@@ -1,8 +1,10 @@
 #include <coagula/report/chart.hpp>
 
 #include <coagula/report/gnuplot.hpp>
+#include <coagula/report/printable.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace coagula::report {
@@ -11,7 +13,16 @@ namespace {
 
 constexpr double inch = 0.0254;  // m
 constexpr double point = inch / 72;
-const std::string font = "font 'Arial,8'";
+
+/// Throws InputError for a name that is none of a font.
+std::string font_of(const PictureSize& size) {
+    const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == ' ' || c == '-' || c >= 0x80; };
+    if (size.font.empty() || !std::all_of(size.font.begin(), size.font.end(), fits)) {
+        throw InputError("--font: '" + printable(size.font) +
+                         "' is no name of a font; it may have letters, digits, blanks and hyphens");
+    }
+    return "font '" + size.font + "," + to_text(size.font_size) + "'";
+}
 
 std::string pair_text(double first, double second, const std::string& unit) {
     return to_text(first) + unit + "," + to_text(second) + unit;
@@ -19,6 +30,7 @@ std::string pair_text(double first, double second, const std::string& unit) {
 
 /// gnuplot counts PNG in pixels: 8 points at 300 dots per inch are 33 of them.
 std::string terminal(PictureFormat format, const PictureSize& size) {
+    const std::string font = font_of(size);
     if (format == PictureFormat::svg) {
         return "set terminal svg enhanced fixed size " + pair_text(size.width / point, size.height / point, "") + " " + font +
                " linewidth 0.7 background rgb 'white'\n";
@@ -44,8 +56,8 @@ std::string finished_svg(std::string svg, const PictureSize& size) {
         svg.replace(width, box - width,
                     "width=\"" + to_text(1000 * size.width) + "mm\" height=\"" + to_text(1000 * size.height) + "mm\"\n ");
     }
-    const std::string face = "font-family=\"Arial\"";
-    const std::string faces = "font-family=\"Arial, Helvetica, sans-serif\"";
+    const std::string face = "font-family=\"" + size.font + "\"";
+    const std::string faces = "font-family=\"" + size.font + (size.font == "Arial" ? "" : ", Arial") + ", Helvetica, sans-serif\"";
     for (std::size_t place = 0; (place = svg.find(face, place)) != std::string::npos; place += faces.size()) {
         svg.replace(place, face.size(), faces);
     }
@@ -98,7 +110,7 @@ std::string draw(const Drawing& drawing, PictureFormat format, const PictureSize
                              (chart.x.logarithmic || chart.y.logarithmic ? " above zero, as a logarithmic axis needs" : ""));
         }
     }
-    const GnuplotOutput output = run_gnuplot(terminal(format, size) + gnuplot_commands(drawing) + "unset output\n");
+    const GnuplotOutput output = run_gnuplot(terminal(format, size) + gnuplot_commands(drawing, size) + "unset output\n");
     if (!output.problem.empty()) {
         throw std::runtime_error("the picture is not drawn: " + output.problem);
     }
@@ -109,7 +121,7 @@ std::vector<std::vector<std::string>> chart_rows(const Drawing& drawing) {
     std::vector<std::vector<std::string>> rows;
     for (const Chart& chart : drawing.panels) {
         for (const Series& series : chart.series) {
-            if (series.mark == Mark::discs || series.mark == Mark::arrow) {
+            if (series.mark == Mark::discs || series.mark == Mark::arrow || series.key_only) {
                 continue;
             }
             const ChartAxis& y = series.second_axis ? chart.second_y : chart.y;

@@ -15,10 +15,15 @@ struct SettledAxis {
     std::string unit;  ///< as shown; empty: a pure number
     double low = 0;    ///< as shown
     double high = 1;
+    bool powers = false;  ///< the numbers of a logarithmic axis are powers of ten
 };
 
+/// Throws InputError where the ends that are asked for leave no range, or one that is not above zero on a logarithmic axis.
 /// @param values all that the axis must hold, in the unit of the data.
 SettledAxis settle(const ChartAxis& axis, const std::vector<double>& values);
+
+/// Whether the numbers of a logarithmic axis are easier to read as powers of ten.
+bool wants_powers(const SettledAxis& axis);
 
 /// Range, scale, ticks and label of axis "x", "y" or "y2".
 std::string axis_commands(const SettledAxis& axis, const std::string& name);

@@ -15,13 +15,10 @@ constexpr std::array filled = {7, 5, 9, 13, 11};  // circle, square, triangle, d
 constexpr std::array hollow = {6, 4, 8, 12, 10};
 constexpr double bar_share = 0.8;  // of the distance between neighbours
 
-const std::string style = R"(set encoding utf8
-set border 15 linewidth 0.8
-set tics in scale 0.7,0.35 font ',7'
-set mxtics 2
-set mytics 2
-set style fill solid 1.0 noborder
-)";
+std::string style(const PictureSize& size) {
+    return "set encoding utf8\nset border 15 linewidth 0.8\nset tics in scale 0.7,0.35 font '," + to_text(small_font(size)) +
+           "'\nset mxtics 2\nset mytics 2\nset style fill solid 1.0 noborder\n";
+}
 
 std::size_t number_of(int colour, std::size_t count) {
     return static_cast<std::size_t>(std::max(colour, 0)) % count;
@@ -69,7 +66,10 @@ ChartAxes settle_axes(const Chart& chart) {
             }
         }
     }
-    return {settle(chart.x, x), settle(chart.y, y), settle(chart.second_y, second), !second.empty()};
+    ChartAxes axes{settle(chart.x, x), settle(chart.y, y), settle(chart.second_y, second), !second.empty()};
+    const bool powers = wants_powers(axes.x) || wants_powers(axes.y) || (axes.has_second && wants_powers(axes.second));
+    axes.x.powers = axes.y.powers = axes.second.powers = powers;  // the numbers of all axes are written alike
+    return axes;
 }
 
 /// The numbers of a series as a data block of gnuplot.
@@ -125,8 +125,12 @@ std::string look_of(const Series& series) {
     return {};
 }
 
-/// The plot of one series, its error bars below its points.
-std::string plot_of(const Series& series, const std::string& block) {
+std::string title_of(const std::string& name) {
+    return name.empty() ? " notitle" : " title (" + quoted_text(name) + ") noenhanced";
+}
+
+/// The plot of one series, its error bars below its points. @param name as the legend has it.
+std::string plot_of(const Series& series, const std::string& name, const std::string& block) {
     const std::string axis = series.second_axis ? " axes x1y2" : "";
     const std::string columns = series.mark == Mark::discs ? "1:2:3:4" : is_bar(series) ? "1:2:3" : "1:2";
     std::string plot;
@@ -134,22 +138,22 @@ std::string plot_of(const Series& series, const std::string& block) {
         plot = block + " using 1:3:(0):4" + axis + " with vectors heads size graph 0.008,90 linewidth 0.8 " + colour_of(series) +
                " notitle, ";
     }
-    const std::string title = series.name.empty() ? " notitle" : " title (" + quoted_text(series.name) + ") noenhanced";
-    return plot + block + " using " + columns + axis + " " + look_of(series) + title;
+    return plot + block + " using " + columns + axis + " " + look_of(series) + title_of(name);
 }
 
 /// Lines below the legend's corner: at the same side, in the other half.
-std::string note_commands(const Chart& chart) {
+std::string note_commands(const Chart& chart, const PictureSize& size) {
     std::string commands;
     for (std::size_t k = 0; k < chart.notes.size(); ++k) {
         commands += "set label " + std::to_string(k + 1) + " (" + quoted_text(chart.notes[k]) + ")" + " at graph 0.96, graph " +
-                    to_text(0.62 - 0.075 * static_cast<double>(k)) + " right noenhanced font ',7' front\n";
+                    to_text(0.62 - 0.075 * static_cast<double>(k)) + " right noenhanced font '," + to_text(small_font(size)) +
+                    "' front\n";
     }
     return commands;
 }
 
-std::string frame_commands(const Chart& chart, const ChartAxes& axes) {
-    std::string commands = "reset\n" + style + axis_commands(axes.x, "x") + axis_commands(axes.y, "y");
+std::string frame_commands(const Chart& chart, const ChartAxes& axes, const PictureSize& size) {
+    std::string commands = "reset\n" + style(size) + axis_commands(axes.x, "x") + axis_commands(axes.y, "y");
     if (chart.picture) {
         return commands + "set size ratio -1\nunset border\nunset tics\nunset xlabel\nunset ylabel\nset margins 0,0,0,0\n";
     }
@@ -159,18 +163,25 @@ std::string frame_commands(const Chart& chart, const ChartAxes& axes) {
     return commands;
 }
 
-std::string chart_commands(const Chart& chart) {
+/// @param panels beside each other in the picture.
+std::string chart_commands(const Chart& chart, const PictureSize& size, std::size_t panels) {
     ChartAxes axes = settle_axes(chart);
-    const std::string legend = place_legend(chart, axes);
+    const Frame frame = frame_of(size, panels);
+    const std::string legend = place_legend(chart, axes, frame);
     const auto bars = static_cast<double>(std::count_if(chart.series.begin(), chart.series.end(), is_bar));
     const double width = bar_share * bar_distance(chart) / std::max(bars, 1.0);
     double bar = 0;
-    std::string commands = frame_commands(chart, axes) + legend + note_commands(chart);
+    std::string commands = frame_commands(chart, axes, size) + legend + note_commands(chart, size);
     std::string plots;
     for (std::size_t k = 0; k < chart.series.size(); ++k) {
         const Series& series = chart.series[k];
         if (series.mark == Mark::arrow) {
             commands += arrow_command(axes, series, k);
+            continue;
+        }
+        const std::string name = fitted_name(series.name, frame);
+        if (series.key_only) {
+            plots += (plots.empty() ? "plot NaN " : ", NaN ") + look_of(series) + title_of(name);
             continue;
         }
         if (shown_places(chart, series).empty()) {
@@ -179,7 +190,7 @@ std::string chart_commands(const Chart& chart) {
         const std::string block = "$series" + std::to_string(k);
         const double shift = is_bar(series) ? (bar++ - (bars - 1) / 2) * width : 0;
         commands += block_of(chart, axes, series, block, shift, width);
-        plots += (plots.empty() ? "plot " : ", ") + plot_of(series, block);
+        plots += (plots.empty() ? "plot " : ", ") + plot_of(series, name, block);
     }
     return commands + plots + "\n";
 }
@@ -197,10 +208,10 @@ std::vector<std::size_t> shown_places(const Chart& chart, const Series& series) 
     return places;
 }
 
-std::string gnuplot_commands(const Drawing& drawing) {
+std::string gnuplot_commands(const Drawing& drawing, const PictureSize& size) {
     std::string commands = "set multiplot layout 1," + std::to_string(drawing.panels.size()) + "\n";
     for (const Chart& chart : drawing.panels) {
-        commands += chart_commands(chart);
+        commands += chart_commands(chart, size, drawing.panels.size());
     }
     return commands + "unset multiplot\n";
 }

@@ -9,10 +9,11 @@ namespace coagula::report {
 namespace {
 
 constexpr std::size_t entries_inside = 4;
-// Of the standard size, 85 mm x 64 mm, in parts of the frame.
-constexpr double line_height = 0.075;
-constexpr double character_width = 0.026;
-constexpr double sample_width = 0.2;
+constexpr double point = 0.0254 / 72;  // m
+constexpr double digit_width =
+    0.556;  // of Arial and its like, in heights of the font, as all widths here; gnuplot takes it for every letter
+constexpr double sample_width = 5.5;  // of a line with its margins
+constexpr double line_height = 1.5;
 
 struct Corner {
     bool top;
@@ -29,6 +30,45 @@ double part_of(const SettledAxis& axis, double value) {
     const double shown = value / axis.scale;
     return axis.axis.logarithmic ? std::log(shown / axis.low) / std::log(axis.high / axis.low)
                                  : (shown - axis.low) / (axis.high - axis.low);
+}
+
+/// Width of a letter as in Arial, not less.
+double letter_width(char32_t letter) {
+    static const std::u32string narrow = U" !',./:;I[\\]fijlt|()-";
+    static const std::u32string widest = U"mwMW@%";
+    constexpr char32_t ideographs = 0x2e80;
+    return letter >= ideographs                          ? 1.0
+           : narrow.find(letter) != std::u32string::npos ? 0.33
+           : widest.find(letter) != std::u32string::npos ? 0.944
+           : (letter >= U'A' && letter <= U'Z')          ? 0.722
+                                                         : digit_width;
+}
+
+/// The letters of a text in UTF-8.
+std::vector<std::string> letters_of(const std::string& text) {
+    std::vector<std::string> letters;
+    for (const char byte : text) {
+        constexpr unsigned continuing = 0x80;
+        if (letters.empty() || (static_cast<unsigned char>(byte) & 0xc0U) != continuing) {
+            letters.emplace_back();
+        }
+        letters.back() += byte;
+    }
+    return letters;
+}
+
+/// First bytes tell ideographs (three bytes from U+2E80 on, or four) well enough.
+char32_t code_of(const std::string& letter) {
+    const auto first = static_cast<unsigned char>(letter.front());
+    return letter.size() == 1 ? first : first >= 0xe3 ? 0x3000 : 0xe9;
+}
+
+double text_width(const std::vector<std::string>& letters) {
+    double width = 0;
+    for (const std::string& letter : letters) {
+        width += letter_width(code_of(letter));
+    }
+    return width;
 }
 
 bool has_line(const Series& series) {
@@ -73,6 +113,9 @@ Corner preferred(Legend legend) {
 }
 
 void make_room_above(SettledAxis& axis, double part) {
+    if (std::isfinite(axis.axis.high)) {
+        return;  // it ends where the reader wants it to
+    }
     if (axis.axis.logarithmic) {
         axis.high *= std::pow(axis.high / axis.low, part / (1 - part));
     } else {
@@ -82,24 +125,57 @@ void make_room_above(SettledAxis& axis, double part) {
 
 }  // namespace
 
-std::string place_legend(const Chart& chart, ChartAxes& axes) {
+double small_font(const PictureSize& size) {
+    return 0.875 * size.font_size;
+}
+
+Frame frame_of(const PictureSize& size, std::size_t panels) {
+    const double axis = 5.5 * size.font_size * point;  // its numbers and label
+    return {.width = std::max(0.2 * size.width, size.width / static_cast<double>(panels) - axis - 0.005),
+            .height = std::max(0.2 * size.height, size.height - axis),
+            .font_size = small_font(size)};
+}
+
+std::string fitted_name(const std::string& name, const Frame& frame) {
+    std::vector<std::string> letters = letters_of(name);
+    const double room = 0.95 * frame.width / (frame.font_size * point) - sample_width;
+    if (text_width(letters) <= room) {
+        return name;
+    }
+    while (letters.size() > 2 && text_width(letters) + 1 > room) {
+        letters.erase(letters.begin() + static_cast<std::ptrdiff_t>(letters.size() / 2));
+    }
+    letters.insert(letters.begin() + static_cast<std::ptrdiff_t>((letters.size() + 1) / 2), "…");
+    std::string fitted;
+    for (const std::string& letter : letters) {
+        fitted += letter;
+    }
+    return fitted;
+}
+
+std::string place_legend(const Chart& chart, ChartAxes& axes, const Frame& frame) {
     std::size_t entries = 0;
-    std::size_t longest = 0;
+    std::size_t most_letters = 0;
+    double widest = 0;
     const bool alone = chart.series.size() == 1 && chart.series.front().per_structure;  // its one name says nothing new
     for (const Series& series : chart.series) {
+        const std::vector<std::string> letters = letters_of(fitted_name(series.name, frame));
         entries += series.name.empty() ? 0 : 1;
-        longest = std::max(longest, series.name.size());
+        most_letters = std::max(most_letters, letters.size());
+        widest = std::max(widest, text_width(letters));
     }
     if (entries == 0 || alone) {
         return "unset key\n";
     }
-    const std::string look =
-        " Left reverse samplen 1.8 spacing 1.1 font ',7' width " + to_text(-0.15 * static_cast<double>(longest)) + "\n";
+    // gnuplot takes all letters to be as wide as digits.
+    const std::string look = " Left reverse samplen 1.8 spacing 1.1 font '," + to_text(frame.font_size) + "' width " +
+                             to_text(widest / digit_width - static_cast<double>(most_letters)) + "\n";
     if (entries > entries_inside) {
         return "set key above horizontal" + look;
     }
-    const double width = std::min(0.95, sample_width + character_width * static_cast<double>(longest));
-    const double height = 0.04 + line_height * static_cast<double>(entries);
+    const double em = frame.font_size * point;
+    const double width = std::min(1.0, (sample_width + widest) * em / frame.width);
+    const double height = (0.5 + line_height * static_cast<double>(entries)) * em / frame.height;
     const std::vector<InFrame> places = drawn_places(chart, axes);
     std::array<Corner, 5> corners{{preferred(chart.legend), {true, true}, {true, false}, {false, true}, {false, false}}};
     const auto free = std::find_if(corners.begin(), corners.end(), [&](const Corner& corner) {

@@ -57,11 +57,6 @@ struct Shown {
     std::vector<double> places = {};     ///< in the unit of the axis
 };
 
-double factor_of(const Shown& shown, const std::vector<diagnose::SampleEffect>& effects, const std::string& sample) {
-    const auto found = std::find_if(effects.begin(), effects.end(), [&](const auto& effect) { return effect.sample == sample; });
-    return found == effects.end() || !shown.pair.scales() ? 1.0 : 1 + found->effect;
-}
-
 Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& diagnosis, const Pair& pair) {
     const diagnose::Column* column = diagnose::axis_of(table);
     Shown shown{.pair = pair, .x = axis_named(pair.of_neighbours() ? "distance" : column == nullptr ? "" : column->name)};
@@ -90,7 +85,7 @@ PageAxis value_axis(const Shown& shown, const Diagnosis& diagnosis) {
                                         : PageAxis{.label = shown.pair.label, .unit = shown.pair.unit};
     for (const std::size_t k : shown.rows) {
         const PredictedRow& row = diagnosis.rows[k];
-        for (const double value : {row.measured, row.base}) {
+        for (const double value : {row.measured, row.base_fitted}) {
             if (!shown.pair.scales() || value > 0) {
                 y.include(value);
             }
@@ -133,8 +128,8 @@ Json points(const Shown& shown, const Diagnosis& diagnosis, std::size_t part) {
     return {{"kind", "points"}, {"shape", part == 0 ? "circle" : "triangle"}, {"open", std::move(open)}};
 }
 
-/// Lines of the models below, what was measured above.
-Json data_chart(const Measurement& table, const Shown& shown, const Diagnosis& diagnosis, const std::string& cause) {
+/// Lines of the models as fitted below, what was measured above.
+Json data_chart(const Shown& shown, const Diagnosis& diagnosis, const std::string& cause) {
     static constexpr std::array colours = {"--third", "--fourth", "--fifth", "--sixth"};
     const PageAxis y = value_axis(shown, diagnosis);
     Json series = Json::array();
@@ -142,22 +137,19 @@ Json data_chart(const Measurement& table, const Shown& shown, const Diagnosis& d
         if (!has(shown, diagnosis, part)) {
             continue;
         }
-        const auto line = [&](const std::string& name, const std::string& colour, double factor, const auto& value) {
+        const auto line = [&](const std::string& name, const std::string& colour, const auto& value) {
             return joined({{"name", name}, {"kind", "line"}, {"colour", colour}},
-                          curve(shown, diagnosis, part, [&](std::size_t k) { return factor * value(k) / y.unit; }));
+                          curve(shown, diagnosis, part, [&](std::size_t k) { return value(k) / y.unit; }));
         };
-        const auto factor = [&](const auto& effects) { return factor_of(shown, effects, table.sample); };
-        series.push_back(joined(
-            line("base model", "--base", factor(diagnosis.base_effects), [&](std::size_t k) { return diagnosis.rows[k].base; }),
-            {{"dashed", true}}));
+        series.push_back(
+            joined(line("base model", "--base", [&](std::size_t k) { return diagnosis.rows[k].base_fitted; }), {{"dashed", true}}));
         if (!cause.empty()) {
-            series.push_back(line("with " + cause, "--extended", factor(diagnosis.extended_effects),
-                                  [&](std::size_t k) { return diagnosis.rows[k].extended; }));
+            series.push_back(line("with " + cause, "--extended", [&](std::size_t k) { return diagnosis.rows[k].extended_fitted; }));
         }
         for (std::size_t other = 0; other < diagnosis.others.size(); ++other) {
             const diagnose::OtherPrediction& prediction = diagnosis.others[other];
-            series.push_back(joined(line("with " + prediction.cause, colours.at(other % colours.size()), factor(prediction.effects),
-                                         [&](std::size_t k) { return prediction.values[k]; }),
+            series.push_back(joined(line("with " + prediction.cause, colours.at(other % colours.size()),
+                                         [&](std::size_t k) { return prediction.fitted[k]; }),
                                     {{"hidden", true}}));
         }
     }
@@ -264,7 +256,7 @@ std::string table_charts(Charts& charts, const Measurement& table, std::size_t n
     for (const Pair& pair : pairs) {
         const Shown shown = rows_of(table, number, diagnosis, pair);
         if (!shown.rows.empty()) {
-            html += "<div class=\"pair\">\n" + charts.place(data_chart(table, shown, diagnosis, cause)) +
+            html += "<div class=\"pair\">\n" + charts.place(data_chart(shown, diagnosis, cause)) +
                     charts.place(residual_chart(shown, diagnosis, cause)) + "</div>\n";
         }
     }

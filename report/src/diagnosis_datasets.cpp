@@ -92,6 +92,9 @@ void add_predictions(Results& results, const Diagnosis& found) {
     numbers("standard_deviation", &PredictedRow::standard_deviation, "Pa", "standard deviation of the error of the row");
     numbers("base", &PredictedRow::base, "Pa", "prediction of the base model, without the effect of the sample");
     numbers("extended", &PredictedRow::extended, "Pa", "prediction with the best cause, without the effect of the sample");
+    const std::string fitted = " as fitted: with the effect of the sample and the errors of the simulated structures";
+    numbers("base_fitted", &PredictedRow::base_fitted, "Pa", "prediction of the base model" + fitted);
+    numbers("extended_fitted", &PredictedRow::extended_fitted, "Pa", "prediction with the best cause" + fitted);
     numbers("base_residual", &PredictedRow::base_residual, "1", "standardised residual without the effects of the samples");
     numbers("extended_residual", &PredictedRow::extended_residual, "1", "standardised residual without the effects of the samples");
     for (const diagnose::OtherPrediction& other : found.others) {
@@ -227,7 +230,11 @@ void add_provenance(Results& results, const io::Provenance& provenance, const st
 Results datasets_of(const DiagnosisRecord& record) {
     const Diagnosis& found = record.diagnosis;
     Results results;
-    results.push_back(io::text(group + "verdict", diagnose::name_of(found.verdict), verdict_sentence(found)));
+    std::string verdict;
+    for (const std::string& sentence : verdict_sentences(found)) {
+        verdict += (verdict.empty() ? "" : " ") + sentence;
+    }
+    results.push_back(io::text(group + "verdict", diagnose::name_of(found.verdict), verdict));
     const auto itself = [](const std::string& name) { return name; };
     results.push_back(io::text(group + "credible_set", lines(found.credible_set, itself),
                                "smallest set of causes with 95 % of the posterior, one per line"));

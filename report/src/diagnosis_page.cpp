@@ -43,8 +43,11 @@ std::string header(const DiagnosisRecord& record) {
     std::string html = "<header>\n<div class=\"title\" id=\"title\"><h1>" + escaped(title) + "</h1></div>\n";
     const std::string sample = record.experiment.sample.name;
     html += paragraph((sample.empty() ? "" : escaped(sample) + " · ") + "diagnosis by coagula · " + record.provenance.time, "soft");
-    html += std::string("<div class=\"verdict ") + diagnose::name_of(found.verdict) + "\"><p>" + escaped(verdict_sentence(found)) +
-            "</p></div>\n<dl class=\"facts\">\n";
+    html += std::string("<div class=\"verdict ") + diagnose::name_of(found.verdict) + "\">";
+    for (const std::string& sentence : verdict_sentences(found)) {
+        html += paragraph(escaped(sentence));
+    }
+    html += "</div>\n<dl class=\"facts\">\n";
     const auto fact = [&](const std::string& name, const std::string& value) {
         html += "<div><dt>" + name + "</dt><dd>" + value + "</dd></div>\n";
     };
@@ -100,18 +103,17 @@ std::string detection(const DiagnosisRecord& record, Charts& charts) {
                                       chance_text(found) + "; the test decides at " + printed(100 * record.level) + " %.");
 }
 
-/// Numbers that a logarithmic axis cannot show.
-std::string not_shown(const Diagnosis& found, std::size_t table) {
-    std::size_t measured = 0;
+/// What a logarithmic axis shows of numbers that are not above zero: with measured ones among them both signs, else nothing.
+std::string below_zero(const Diagnosis& found, std::size_t table) {
+    bool measured = false;
     bool base = false;
     for (const diagnose::PredictedRow& row : found.rows) {
-        measured += row.measurement == table && row.observable.ends_with("_modulus") && row.measured <= 0 ? 1 : 0;
+        measured = measured || (row.measurement == table && row.observable.ends_with("_modulus") && row.measured <= 0);
         base = base || (row.measurement == table && row.observable == "loss_modulus" && row.base <= 0);
     }
-    return (base ? " The base model has no loss: its G'' = 0 is not on a logarithmic axis." : "") +
-           (measured > 0 ? " " + std::to_string(measured) + (measured == 1 ? " modulus" : " moduli") +
-                               " not above zero cannot be shown on a logarithmic axis."
-                         : std::string{});
+    return measured ? " Moduli below zero are shown: a logarithmic axis is linear about zero."
+           : base   ? " The base model has no loss: its G'' = 0 is not on a logarithmic axis."
+                    : "";
 }
 
 std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
@@ -134,15 +136,14 @@ std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
         html += table_charts(charts, table, k, found, extended);
         html += paragraph(
             "Circles show the elastic part or the quantity itself, triangles the viscous part or neighbours along z; open symbols "
-            "are held out for the "
-            "gain, and bars are one standard deviation. " +
+            "are held out for the gain, and bars are one standard deviation. Models are drawn as they were fitted, with the errors "
+            "of the simulated structures" +
                 (effect == found.base_effects.end() || effect->effect == 0
                      ? std::string{}
-                     : "Moduli of the models include the effect of the sample, " + signed_percent(effect->effect) +
-                           " by the fit of the base model. ") +
-                "The residual is the measured less the predicted value, without the effect of the sample; the grey band is two "
-                "standard deviations wide on each side." +
-                not_shown(found, k),
+                     : " and the effect of the sample, " + signed_percent(effect->effect) + " for the base model") +
+                ". The residual is the measured less the fitted value over the standard deviation, freed from the correlation of "
+                "neighbouring rows; the grey band is two standard deviations wide on each side." +
+                below_zero(found, k),
             "soft");
     }
     return html;
@@ -260,14 +261,6 @@ std::string made(const DiagnosisRecord& record) {
     return html + "</dl>\n";
 }
 
-std::string next_sentence(const diagnose::Proposal& proposal) {
-    constexpr double hardly = 0.1;
-    return proposal.resolution >= hardly
-               ? " To decide, measure " + proposal.what + "."
-               : " None of the measurements considered here is likely to decide alone; the most informative is " + proposal.what +
-                     ".";
-}
-
 std::string gained(const diagnose::Gain& gain) {
     return gain.held_out == 0 ? std::string{}
                               : " On rows held out from the fit its error is " + percent(gain.rmse_extended) + " instead of " +
@@ -318,14 +311,29 @@ std::string verdict_sentence(const Diagnosis& found) {
                                                             " (p = " + print_number(found.extended_p_value) + ")."
                                                       : ", and no cause of the catalogue explains the deviation.");
     }
-    const std::string next = found.proposals.empty() ? "" : next_sentence(found.proposals.front());
     if (found.verdict == Verdict::tied) {
-        return fails + tied_sentence(found) + next;
+        return fails + tied_sentence(found);
     }
     const Cause& cause = found.causes.front();
     return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + probability_text(cause.posterior) +
-           ")." + (found.remainder.detected ? " A deviation remains: " + found.remainder.where + "." : std::string{}) +
-           gained(found.gain);
+           ")." + gained(found.gain);
+}
+
+std::vector<std::string> verdict_sentences(const Diagnosis& found) {
+    constexpr double hardly = 0.1;
+    std::vector<std::string> sentences{verdict_sentence(found)};
+    if (const Cause* best = extended_cause(found); best != nullptr && found.remainder.detected) {
+        sentences.push_back("The best cause, " + best->name + ", leaves " +
+                            (found.remainder.most ? "most of the misfit: " : "a deviation: ") + found.remainder.where + ".");
+    }
+    if (!found.proposals.empty()) {
+        const diagnose::Proposal& first = found.proposals.front();
+        sentences.push_back(first.resolution >= hardly
+                                ? "To decide, measure " + first.what + "."
+                                : "None of the measurements considered here is likely to decide alone; the most informative is " +
+                                      first.what + ".");
+    }
+    return sentences;
 }
 
 std::string diagnosis_page(const DiagnosisRecord& record) {

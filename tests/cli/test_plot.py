@@ -84,6 +84,33 @@ class Plot(ProgramTest):
         self.assertIn("shear modulus G′ (MPa)", self.texts_of("a.svg"))
         self.assertEqual(found["series"][0]["y"]["unit"], "Pa")
 
+    def test_font_and_limits(self):
+        path = self.copy_of_measured("a.h5")
+        plot = ["plot", path, "--force", "-o", "a.svg", "--figure"]
+        self.succeed(*plot, "pore-curve", "--font", "DejaVu Sans", "--size", "12", "--x-range", "0:3", "--y-range", ":2")
+        picture = (self.folder / "a.svg").read_text()
+        self.assertIn('font-family="DejaVu Sans, Arial, Helvetica, sans-serif"', picture)
+        self.assertIn('font-size="12.00"', picture)
+        texts = self.texts_of("a.svg")
+        self.assertTrue({"3", "2"} <= set(texts) and "3.5" not in texts, texts)
+        self.succeed(*plot, "pair-correlation", "--x-range", "0.4um:900nm")  # in the unit of the axis
+        self.assertTrue({"0.4", "0.9"} & set(self.texts_of("a.svg")) or {"400", "900"} & set(self.texts_of("a.svg")), self.texts_of("a.svg"))
+        for words, says in ((["pore-curve", "--x-range", "5"], "LOW:HIGH"), (["pore-curve", "--x-range", ":"], "LOW:HIGH"),
+                            (["pore-curve", "--x-range", "1s:2s"], "--x-range"), (["pore-curve", "--y-range", "2:1"], "upper end"),
+                            (["pair-correlation", "--y-range", "0:5"], "above zero"), (["packing", "--x-range", "0:1"], "no axes"),
+                            (["pore-curve", "--font", "x' ; system"], "--font"), (["pore-curve", "--size", "0"], "--size")):
+            self.fail_with(2, *plot, *words, says=says)
+
+    def test_what_files_share_has_one_neutral_key(self):
+        for name in ("a.h5", "b.h5"):
+            self.copy_of_packing(name)
+            self.succeed("characterize", name, "--only", "bond_order")
+        found = self.succeed_json("plot", "a.h5", "b.h5", "--figure", "bond-order", "-o", "a.svg")
+        self.assertEqual([series["name"] for series in found["series"]], ["a", "b", "", ""])
+        texts = self.texts_of("a.svg")
+        for name in ("a", "b", "q6", "q4"):
+            self.assertEqual(texts.count(name), 1, texts)
+
     def test_every_format(self):
         path = self.copy_of_measured("a.h5")
         for name, begin in (("a.svg", b"<?xml"), ("a.png", b"\x89PNG"), ("a.pdf", b"%PDF")):

@@ -2,8 +2,13 @@
 
 import csv
 import io
+import json
 import math
+import re
 import unittest
+
+import h5py
+import numpy
 
 from browser import Browser, needs_browser
 from support import VEM, ProgramTest
@@ -74,7 +79,9 @@ class DiagnosisPage(ProgramTest):
             switches["with " + best].click()
             self.assertEqual(browser.run(INK, 0, colour), drawn)
 
-            rows = list(csv.DictReader(io.StringIO(browser.download(charts[0].find_element("css selector", ".csv"), self.folder, "moduli.csv"))))
+            text = browser.download(charts[0].find_element("css selector", ".csv"), self.folder, "moduli.csv")
+            rows = list(csv.DictReader(io.StringIO(text)))
+            self.check_fitted(list(csv.reader(io.StringIO(text))))
             storage = [row for row in found["rows"] if row["observable"] == "storage_modulus"]
             self.assertEqual(len(rows), len(storage))
             unit = next(iter(rows[0]))
@@ -102,6 +109,34 @@ class DiagnosisPage(ProgramTest):
             browser.find("#theme").click()
             self.assertEqual(browser.run("return document.documentElement.dataset.theme"), "dark")
             self.assertEqual(browser.console(), [])
+            self.check_below_zero(browser)
+
+    def check_fitted(self, rows):
+        """The curve of the base model is that from which its residuals and the sentences are."""
+        with h5py.File(self.folder / "results" / "diagnosis.h5") as file:
+            entries = file["diagnosis/rows"]
+            storage = entries["loss"][()] == 0
+            fitted = entries["base_fitted"][storage]
+            self.assertFalse(numpy.allclose(fitted, entries["base"][storage], rtol=1e-6), "this sample has no effect")
+        column = rows[0].index("base model")  # of G', that of G'' comes later
+        drawn = numpy.array([float(row[column]) for row in rows[1:]])
+        numpy.testing.assert_allclose(drawn * fitted[0] / drawn[0], fitted, rtol=1e-9)
+
+    def check_below_zero(self, browser):
+        """Where some measured moduli are negative, as raw ones of a heavy tool, all of them are drawn on the logarithmic axis."""
+        text = (self.folder / "results" / "report.html").read_text(encoding="utf-8")
+        data = json.loads(re.search(r'id="data">(.*?)</script>', text, re.DOTALL).group(1))
+        points = next(series for series in data["charts"][0]["series"] if series["kind"] == "points")
+        data["charts"][0]["y"]["logarithmic"] = True
+        for sign in (1, -1):
+            points["y"] = [sign * abs(value) if k % 2 else abs(value) for k, value in enumerate(points["y"])]
+            points["colour"] = "--good"  # of nothing else
+            self.write("signed.html", re.sub(r'(id="data">).*?(</script>)', lambda part: part.group(1) + json.dumps(data).replace("<", "\\u003c") + part.group(2), text, flags=re.DOTALL))
+            browser.open(self.folder / "signed.html")
+            colour = browser.run("return getComputedStyle(document.documentElement).getPropertyValue('--good').trim().slice(1)")
+            drawn = browser.run(INK, 0, colour)
+            whole = drawn if sign == 1 else whole
+            self.assertGreater(drawn, 0.8 * whole)
 
 
 if __name__ == "__main__":

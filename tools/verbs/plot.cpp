@@ -7,6 +7,7 @@
 
 #include <coagula/io/atomic_file.hpp>
 #include <coagula/io/table.hpp>
+#include <coagula/io/units.hpp>
 #include <coagula/report/figures.hpp>
 #include <coagula/report/result_folder.hpp>
 
@@ -74,7 +75,40 @@ PictureSize size_of(const Arguments& arguments, const Drawing& drawing) {
     size.width = arguments.optional_quantity("width").value_or(size.width);
     size.height = arguments.optional_quantity("height").value_or(arguments.has("width") ? shape * size.width : size.height);
     size.resolution = static_cast<int>(arguments.count("resolution"));
+    size.font = arguments.text("font");
+    size.font_size = arguments.quantity("size");
     return size;
+}
+
+/// Sets the ends "LOW:HIGH" of an axis; an end that is left out follows from the data.
+void set_range(const std::string& text, ChartAxis& axis) {
+    const std::size_t middle = text.find(':');
+    if (middle == std::string::npos || text.size() == 1) {
+        throw InputError("'" + text + "' is no range LOW:HIGH; one end may be left out, as in 0: or :5");
+    }
+    const std::string low = text.substr(0, middle);
+    const std::string high = text.substr(middle + 1);
+    axis.low = low.empty() ? axis.low : io::parse_quantity(low, axis.unit);
+    axis.high = high.empty() ? axis.high : io::parse_quantity(high, axis.unit);
+}
+
+void set_ranges(const Arguments& arguments, Drawing& drawing) {
+    for (const auto& [name, axis] : {std::pair("x-range", &Chart::x), std::pair("y-range", &Chart::y)}) {
+        if (!arguments.has(name)) {
+            continue;
+        }
+        if (drawing.panels.front().picture && drawing.panels.size() == 1) {
+            throw InputError(std::string("--") + name + ": this figure has no axes");
+        }
+        for (Chart& chart : drawing.panels) {
+            if (!chart.picture) {
+                arguments.parsed(name, [&](const std::string& text) {
+                    set_range(text, chart.*axis);
+                    return 0;
+                });
+            }
+        }
+    }
 }
 
 /// Which axes --log names; nothing when it is not given.
@@ -105,7 +139,7 @@ Json series_json(const Drawing& drawing) {
     Json list = Json::array();
     for (const Chart& chart : drawing.panels) {
         for (const Series& series : chart.series) {
-            if (series.mark == report::Mark::arrow) {
+            if (series.mark == report::Mark::arrow || series.key_only) {
                 continue;
             }
             Json json = {{"name", series.name},
@@ -125,7 +159,7 @@ Json series_json(const Drawing& drawing) {
 void append_series(Table& table, const Drawing& drawing) {
     for (const Chart& chart : drawing.panels) {
         for (const Series& series : chart.series) {
-            if (series.name.empty()) {
+            if (series.name.empty() || series.key_only) {
                 continue;
             }
             table.emplace_back(series.name, std::to_string(report::shown_places(chart, series).size()) + " points");
@@ -150,6 +184,7 @@ Printed plot_figure(const Arguments& arguments) {
     const report::Figure& figure = report::figure_named(arguments.text("figure"));
     Drawing drawing = report::draw_figure(figure, read_sources(arguments), arguments.flag("published"));
     set_logarithmic(arguments, drawing);
+    set_ranges(arguments, drawing);
     const PictureSize size = size_of(arguments, drawing);
     const std::string picture = report::draw(drawing, format, size);
     if (arguments.has("data")) {
@@ -188,7 +223,7 @@ std::string captions_text(const std::vector<report::PaperFigure>& figures, const
 }
 
 Printed plot_paper(const Arguments& arguments) {
-    for (const char* name : {"figure", "data", "log", "published"}) {
+    for (const char* name : {"figure", "data", "log", "published", "x-range", "y-range"}) {
         if (arguments.has(name)) {
             throw InputError(std::string("--paper and --") + name +
                              " exclude each other: --paper draws all figures with the published points and writes their data");
@@ -279,6 +314,9 @@ Verb plot_verb() {
                          "names of the files in the legend, such as 'slow,fast'; files with the same name form one series"),
                     flag("published", "add the published points, where there are some"),
                     choice("log", {"none", "x", "y", "xy"}, "logarithmic axes; those of the figure when not given", ""),
+                    text("x-range", "LOW:HIGH", "ends of the x axis, such as 0.1Hz:100Hz or 0: ; those of the data when not given"),
+                    text("y-range", "LOW:HIGH", "ends of the y axis, likewise"), text("font", "NAME", "font of the text", "Arial"),
+                    quantity("size", "1", "size of the text in points", "8", within(4, 40)),
                     quantity("width", "m", "width of the picture; 85mm, or 170mm for two charts, when not given", "",
                              picture_length),
                     quantity("height", "m", "height of the picture; in proportion to the width when not given", "", picture_length),

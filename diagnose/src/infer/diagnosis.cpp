@@ -64,7 +64,7 @@ std::vector<SampleEffect> effects_of(const ErrorModel& errors, const Prediction&
     const Eigen::VectorXd values = errors.effects(prediction);
     std::vector<SampleEffect> effects;
     for (std::size_t k = 0; k < errors.data().sample_names.size(); ++k) {
-        effects.push_back({errors.data().sample_names[k], std::expm1(values[static_cast<Index>(k)])});
+        effects.push_back({errors.data().sample_names[k], values[static_cast<Index>(k)]});
     }
     return effects;
 }
@@ -88,14 +88,16 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
     const Eigen::VectorXd deviation = data.noise.marginal_deviation();
     diagnosis.base_effects = effects_of(errors, by_base);
     diagnosis.extended_effects = effects_of(errors, by_extended);
+    const Eigen::VectorXd base_fitted = inference.as_fitted(by_base);
+    const Eigen::VectorXd extended_fitted = inference.as_fitted(by_extended);
     by_base.values = inference.fitted(by_base);
     by_extended.values = inference.fitted(by_extended);
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);
         diagnosis.rows.push_back({observation.measurement, observation.row, observable_of(observation), observation.value,
-                                  deviation[i], by_base.values[i], by_extended.values[i], in_any(folds, k), base_residual[i],
-                                  extended_residual[i], observation.distance});
+                                  deviation[i], by_base.values[i], by_extended.values[i], base_fitted[i], extended_fitted[i],
+                                  in_any(folds, k), base_residual[i], extended_residual[i], observation.distance});
     }
 }
 
@@ -107,7 +109,8 @@ void predict_others(const Inference& inference, const std::string& best, Diagnos
         if (is_model && diagnosis.others.size() < most) {
             const Prediction prediction = inference.prediction(cause.model);
             const Eigen::VectorXd values = inference.fitted(prediction);
-            diagnosis.others.push_back({cause.name, {values.begin(), values.end()}, effects_of(inference.errors(), prediction)});
+            const Eigen::VectorXd fitted = inference.as_fitted(prediction);
+            diagnosis.others.push_back({cause.name, {values.begin(), values.end()}, {fitted.begin(), fitted.end()}});
         }
     }
 }

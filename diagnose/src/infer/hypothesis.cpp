@@ -267,4 +267,16 @@ Eigen::MatrixXd Inference::jacobian(const Fit& fit, const Eigen::MatrixXd& furth
     return all;
 }
 
+Eigen::VectorXd Inference::as_fitted(const Prediction& prediction) const {
+    const DataSet& data = errors_.data();
+    const Eigen::VectorXd effects = errors_.effects(prediction);
+    Eigen::VectorXd values =
+        prediction.without_errors() + prediction.errors.changes * effects.tail(prediction.errors.changes.cols());
+    for (Index row = 0; row < values.size(); ++row) {
+        const Index sample = data.sample[static_cast<std::size_t>(row)];
+        values[row] += sample < 0 ? 0.0 : prediction.level_slope[row] * effects[sample];
+    }
+    return values;
+}
+
 }  // namespace coagula::diagnose

@@ -92,6 +92,10 @@ public:
         return shown(prediction, errors_.effects(prediction).tail(prediction.errors.about.size()));
     }
 
+    /// The prediction as the fit has it and residuals are measured from: with the most probable effects of the samples and errors
+    /// of the prediction.
+    Eigen::VectorXd as_fitted(const Prediction& prediction) const;
+
     const Forward& forward() const { return forward_; }
     const ErrorModel& errors() const { return errors_; }
 

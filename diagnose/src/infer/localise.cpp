@@ -242,7 +242,7 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
 std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection) {
     const std::vector<Observation>& observations = inference.errors().data().observations;
     const Prediction fitted = inference.prediction(base.model);
-    const Eigen::VectorXd prediction = inference.fitted(fitted);
+    const Eigen::VectorXd prediction = inference.as_fitted(fitted);  // that of the residuals, and of the curve that the page draws
     const Eigen::VectorXd residual = inference.errors().residual(fitted);
     std::vector<const MisfitStatistic*> along;
     for (const MisfitStatistic& statistic : detection.statistics) {
@@ -277,7 +277,7 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
         }
     }
     add_departures_of_level(inference, base, fitted, failures);
-    add_departures_of_images(observations, prediction, failures);
+    add_departures_of_images(observations, inference.fitted(fitted), failures);
     if (failures.empty() && !along.empty()) {
         add(*along.front());
     }

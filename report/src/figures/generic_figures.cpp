@@ -13,6 +13,11 @@ bool is_there(const FigureSource& source, const std::string& path) {
     return !path.empty() && source.find(path) != nullptr;
 }
 
+/// A line of the legend that says what a kind of line is in all files.
+Series key_of(const std::string& name, Mark mark) {
+    return {.name = name, .mark = mark, .colour = -1, .key_only = true};
+}
+
 /// As many numbers as the curve has abscissae.
 std::vector<double> numbers_beside(const FigureSource& source, const CurveFigure& figure, const std::string& path) {
     std::vector<double> numbers = source.numbers(path);
@@ -63,13 +68,15 @@ std::function<Drawing(const Sources&)> curve(CurveFigure figure) {
         std::vector<Series> others;
         for (std::size_t k = 0; k < sources.size(); ++k) {
             const FigureSource& source = sources[k];
+            const bool has_other = is_there(source, figure.other);
             Series series{.name = legend_name(sources, k), .mark = figure.mark, .colour = static_cast<int>(k)};
+            series.name = series.name.empty() && has_other ? figure.name : series.name;
             series.x = source.numbers(figure.x);
             series.y = numbers_beside(source, figure, figure.y);
             chart.x.unit = source.unit(figure.x);
             chart.y.unit = source.unit(figure.y);
-            if (is_there(source, figure.other)) {
-                Series other{.name = k == 0 ? figure.other_name : "",
+            if (has_other) {
+                Series other{.name = sources.size() > 1 ? "" : figure.other_name,
                              .mark = Mark::dashed_line,
                              .colour = sources.size() > 1 ? series.colour : -1};
                 other.x = series.x;
@@ -80,6 +87,10 @@ std::function<Drawing(const Sources&)> curve(CurveFigure figure) {
                 series.error = numbers_beside(source, figure, figure.y_error);
             }
             chart.series.push_back(std::move(series));
+        }
+        if (sources.size() > 1 && !others.empty()) {
+            others.push_back(key_of(figure.name, figure.mark));
+            others.push_back(key_of(figure.other_name, Mark::dashed_line));
         }
         std::move(others.begin(), others.end(), std::back_inserter(chart.series));
         return Drawing{.panels = {chart}, .caption = figure.caption};

@@ -47,7 +47,8 @@ CurveFigure structure_factor() {
             .caption = "Structure factor of the centres from wave vectors, with standard errors; dashed: from g(r).",
             .y_error = measured("structure_factor/direct_stderr"),
             .other = measured("structure_factor/transformed"),
-            .other_name = "from g(r)"};
+            .other_name = "from g(r)",
+            .name = "from wave vectors"};
 }
 
 CurveFigure bond_angles() {
@@ -77,7 +78,8 @@ CurveFigure bond_order() {
                 "Distribution of the bond-orientational order q6 over the particles, facets of the Voronoi cells weighted by "
                 "area; dashed: q4.",
             .other = measured("bond_order/q4_density"),
-            .other_name = "q4"};
+            .other_name = "q4",
+            .name = "q6"};
 }
 
 CurveFigure voronoi() {
@@ -87,7 +89,8 @@ CurveFigure voronoi() {
             .y_axis = density(),
             .caption = "Distribution of the Voronoi volumes less the smallest possible one, over the mean; dashed: gamma law.",
             .other = measured("voronoi/fit"),
-            .other_name = "gamma"};
+            .other_name = "gamma law",
+            .name = "measured"};
 }
 
 CurveFigure density_fluctuations() {

@@ -90,5 +90,38 @@ TEST_F(Detected, AFallAlongStrainIsNoneAlongFrequency) {
     }
 }
 
+/// Two samples, the second softer by a third: what is told of a departure, its residuals and the curve of the base model on the
+/// page refer to one prediction, that with the effect of the sample.
+TEST(Localise, DeparturesAreFromTheModelAsFitted) {
+    Experiment experiment = both_sweeps();
+    experiment.measurements.erase(experiment.measurements.begin());
+    experiment.measurements.push_back(experiment.measurements.front());
+    experiment.measurements.back().sample = "B";
+    for (double& value : experiment.measurements.back().columns.back().values) {
+        value *= 0.66;
+    }
+    const DataSet data = data_set_of(experiment, {.sample = 0.3});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const Fit base = inference.fit({});
+    const Prediction prediction = inference.prediction(base.model);
+    const Eigen::VectorXd fitted = inference.as_fitted(prediction);
+    EXPECT_LT((errors.whiten(data.values - fitted) - errors.residual(prediction)).cwiseAbs().maxCoeff(), 1e-8);
+
+    std::vector<Failure> failures = localise(inference, base, detect(inference, base, {}, 1, 99));
+    std::erase_if(failures, [](const Failure& failure) { return failure.axis != "strain"; });
+    ASSERT_FALSE(failures.empty());
+    double sum = 0;
+    double count = 0;
+    for (Index k = 0; k < data.size(); ++k) {
+        const Observation& one = data.observations[static_cast<std::size_t>(k)];
+        const double strain = experiment.measurements[one.measurement].columns[0].values[one.row];
+        sum += strain >= failures.front().from ? one.value / fitted[k] - 1 : 0;
+        count += strain >= failures.front().from ? 1 : 0;
+    }
+    EXPECT_NEAR(failures.front().departure, sum / count, 1e-9);
+}
+
 }  // namespace
 }  // namespace coagula::diagnose

@@ -2,6 +2,7 @@
 #include "chart_legend.hpp"
 
 #include <coagula/report/chart.hpp>
+#include <coagula/report/printable.hpp>
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,21 @@ Chart chart_of(Series series) {
 
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
+}
+
+/// What stands at the ticks of a logarithmic axis.
+std::vector<std::string> numbers_at_ticks(const std::string& commands) {
+    const std::size_t begin = commands.find("tics (");
+    const std::string ticks = commands.substr(begin, commands.find("\nset", begin) - begin);
+    std::vector<std::string> numbers;
+    for (std::size_t open = 0; (open = ticks.find('"', open)) != std::string::npos;) {
+        const std::size_t close = ticks.find('"', open + 1);
+        if (close > open + 1) {
+            numbers.push_back(ticks.substr(open + 1, close - open - 1));
+        }
+        open = close + 1;
+    }
+    return numbers;
 }
 
 TEST(Charts, LeaveOutWhatAnAxisCannotShow) {
@@ -49,8 +65,9 @@ TEST(Charts, AxesShowInverseLengthsOverALengthWithPrefix) {
     EXPECT_EQ(shown("m-3", 1e19).unit, "1/µm3");
     EXPECT_DOUBLE_EQ(shown("m-3", 1e19).scale, 1e18);
     EXPECT_EQ(shown("m-2", 0.5).unit, "1/km2");
-    EXPECT_EQ(shown("rad-1", 3).unit, "1/rad");
-    EXPECT_DOUBLE_EQ(shown("rad-1", 3).scale, 1);
+    EXPECT_EQ(shown("rad-1", 3).unit, "1/°");
+    EXPECT_DOUBLE_EQ(shown("rad", 3).scale * shown("rad-1", 3).scale, 1);
+    EXPECT_NEAR(shown("rad", 3.14159265).high, 180 * 1.06, 1e-6);
 }
 
 TEST(Charts, LengthsTakeTheirPrefix) {
@@ -62,13 +79,85 @@ TEST(Charts, LengthsTakeTheirPrefix) {
 }
 
 TEST(Charts, LogarithmicAxesHaveTicksHoweverNarrow) {
-    for (const auto& [low, high] : {std::pair(1.2, 1.4), std::pair(1.2, 30.0)}) {
-        const std::string commands = axis_commands(settle({.logarithmic = true}, {low, high}), "x");
-        const std::size_t begin = commands.find("tics (");
-        ASSERT_NE(begin, std::string::npos);
-        EXPECT_GE(std::count(commands.begin() + static_cast<std::ptrdiff_t>(begin), commands.end(), ','), 2) << commands;
+    for (const auto& [low, high] : {std::pair(1.2, 1.4), std::pair(1.2, 30.0), std::pair(1e-6, 4e7)}) {
+        const std::vector<std::string> numbers = numbers_at_ticks(axis_commands(settle({.logarithmic = true}, {low, high}), "x"));
+        EXPECT_GE(numbers.size(), 3U) << low;
+        EXPECT_LE(numbers.size(), 10U) << low;
     }
-    EXPECT_TRUE(contains(axis_commands(settle({.logarithmic = true}, {1, 1e4}), "x"), "10^{%T}"));
+}
+
+TEST(Charts, LogarithmicAxesOfOneFigureWriteTheirNumbersAlike) {
+    Chart chart = chart_of({.name = "a", .x = {0.1, 1e5}, .y = {600, 2500}, .mark = Mark::line});
+    chart.x.logarithmic = chart.y.logarithmic = true;
+    const std::string commands = gnuplot_commands({.panels = {chart}, .caption = ""});
+    EXPECT_TRUE(contains(commands, "\"10^{4}\" 10000"));
+    EXPECT_TRUE(contains(commands, "\"2⋅10^{3}\" 2000"));
+    chart.series[0].x = {2, 50};  // two short axes are easier to read without powers
+    const std::string plain = gnuplot_commands({.panels = {chart}, .caption = ""});
+    EXPECT_TRUE(contains(plain, "\"2000\" 2000") && contains(plain, "\"20\" 20"));
+    EXPECT_FALSE(contains(plain, "10^"));
+}
+
+TEST(Charts, AnAxisIsNeverNarrowerThanAMillionth) {
+    for (const double value : {0.37, -5e6, 3e-9}) {
+        const SettledAxis axis = settle({}, {value, value * (1 + 1e-15)});
+        EXPECT_GE(axis.high - axis.low, 0.99e-6 * std::abs(value)) << value;
+        EXPECT_LE(axis.high - axis.low, 0.3 * std::abs(value)) << value;
+    }
+    const SettledAxis narrow = settle({}, {0.4, 0.4 * (1 + 3e-6)});
+    EXPECT_TRUE(contains(axis_commands(narrow, "x"), "'%.8h'")) << axis_commands(narrow, "x");  // neighbouring ticks differ
+}
+
+TEST(Charts, EndsThatAreAskedForAreKept) {
+    const SettledAxis axis = settle({.unit = "m", .low = 0, .high = 2e-6}, {5e-7, 9e-7});
+    EXPECT_EQ(axis.unit, "µm");
+    EXPECT_DOUBLE_EQ(axis.low, 0);
+    EXPECT_DOUBLE_EQ(axis.high, 2);
+    const SettledAxis half = settle({.low = 0.2}, {0.5, 1});
+    EXPECT_DOUBLE_EQ(half.low, 0.2);
+    EXPECT_GT(half.high, 1);
+    EXPECT_THROW(settle({.low = 3}, {0.5, 1}), InputError);
+    EXPECT_THROW(settle({.low = 1, .high = 1 + 1e-9}, {0.5, 1}), InputError);
+    EXPECT_THROW(settle({.logarithmic = true, .low = 0}, {0.5, 1}), InputError);
+}
+
+TEST(Charts, NamesFitTheFrameOfTheirLegend) {
+    const Frame frame = frame_of({}, 1);
+    EXPECT_EQ(fitted_name("gamma law", frame), "gamma law");
+    for (const std::string& name : {std::string(200, 'W'), std::string(90, 'i') + std::string(90, 'm'),
+                                    std::string("vem-") + std::string(99, '0') + "-seed-7"}) {
+        const std::string fitted = fitted_name(name, frame);
+        EXPECT_TRUE(contains(fitted, "…"));
+        EXPECT_EQ(fitted.front(), name.front());
+        EXPECT_EQ(fitted.back(), name.back());
+        EXPECT_LT(fitted.size(), name.size());
+    }
+    std::string umlauts;
+    for (int k = 0; k < 99; ++k) {
+        umlauts += "ü";
+    }
+    EXPECT_TRUE(is_utf8(fitted_name(umlauts, frame)));
+    // Wide letters take more room than gnuplot thinks, narrow ones less.
+    Chart chart = chart_of({.name = "WWWWWWWW", .x = {0, 1}, .y = {1, 0}, .mark = Mark::line});
+    ChartAxes axes{settle(chart.x, {0, 1}), settle(chart.y, {0, 1}), {}};
+    EXPECT_FALSE(contains(place_legend(chart, axes), "width -"));
+    chart.series[0].name = "illllill";
+    EXPECT_TRUE(contains(place_legend(chart, axes), "width -"));
+}
+
+TEST(Charts, AKindOfLineThatAllFilesHaveHasANeutralKey) {
+    Chart chart = chart_of({.name = "file", .x = {0, 1}, .y = {1, 0}, .mark = Mark::line, .colour = 0});
+    chart.series.push_back({.name = "fit", .mark = Mark::dashed_line, .colour = -1, .key_only = true});
+    const std::string commands = gnuplot_commands({.panels = {chart}, .caption = ""});
+    EXPECT_TRUE(contains(commands, "NaN with lines linewidth 1.2 dashtype (16,10) linecolor rgb '#000000' title (\"fit\")"));
+    EXPECT_EQ(chart_rows({.panels = {chart}, .caption = ""}).size(), 3U);
+}
+
+TEST(Charts, AFontIsNoCommand) {
+    const Chart chart = chart_of({.name = "a", .x = {1, 2}, .y = {1, 2}});
+    for (const std::string font : {"Arial' ; system", "", "a,12", "x\ny"}) {
+        EXPECT_THROW(draw({.panels = {chart}, .caption = ""}, PictureFormat::svg, {.font = font}), InputError) << font;
+    }
 }
 
 TEST(Charts, TextsAreQuotedForGnuplot) {

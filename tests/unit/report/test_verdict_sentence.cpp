@@ -41,5 +41,35 @@ TEST(VerdictSentence, ACauseWithOneOfTwoOthers) {
         "solvent-drag or phase-offset.");
 }
 
+TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
+    diagnose::Diagnosis found;
+    found.detected = true;
+    found.p_value = 0.001;
+    found.base.name = "base";
+    for (const char* name : {"wall-slip", "gap-error"}) {
+        diagnose::Cause cause;
+        cause.name = name;
+        cause.parameters.emplace_back();
+        found.causes.push_back(cause);
+    }
+    found.credible_set = {"wall-slip", "gap-error"};
+    found.remainder = {.detected = true, .where = "G' lies above the model by up to 9 % of |G*|"};
+    found.proposals = {{.what = "an oil", .information = 1, .resolution = 0.9}};
+    for (const diagnose::Verdict verdict :
+         {diagnose::Verdict::tied, diagnose::Verdict::none_of_catalogue, diagnose::Verdict::named}) {
+        found.verdict = verdict;
+        const Names sentences = verdict_sentences(found);
+        ASSERT_EQ(sentences.size(), 3U);
+        EXPECT_EQ(sentences[0], verdict_sentence(found));
+        EXPECT_EQ(sentences[1], "The best cause, wall-slip, leaves something over: G' lies above the model by up to 9 % of |G*|.");
+        EXPECT_EQ(sentences[2], "To decide, measure an oil.");
+    }
+    found.remainder.most = true;
+    EXPECT_NE(verdict_sentences(found)[1].find("leaves most of the misfit: "), std::string::npos);
+    found.remainder.detected = false;
+    found.proposals.clear();
+    EXPECT_EQ(verdict_sentences(found).size(), 1U);
+}
+
 }  // namespace
 }  // namespace coagula::report

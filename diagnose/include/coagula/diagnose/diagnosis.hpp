@@ -134,8 +134,10 @@ struct PredictedRow {
     std::string observable;
     double measured = 0;
     double standard_deviation = 0;  ///< of a row
-    double base = 0;
+    double base = 0;                ///< without the effect of its sample
     double extended = 0;
+    double base_fitted = 0;  ///< with the most probable effect of its sample and errors of the prediction, as residuals have it
+    double extended_fitted = 0;
     bool held_out = false;
     double base_residual =
         0;  ///< measured less predicted, sample effects taken out, over the standard deviation (and decorrelated)
@@ -146,8 +148,8 @@ struct PredictedRow {
 /// Prediction of a cause other than the best, to compare with the data.
 struct OtherPrediction {
     std::string cause;
-    std::vector<double> values;         ///< of each of Diagnosis::rows, without the effect of the sample
-    std::vector<SampleEffect> effects;  ///< most probable, as Diagnosis::extended_effects
+    std::vector<double> values;  ///< of each of Diagnosis::rows, without the effect of the sample
+    std::vector<double> fitted;  ///< as PredictedRow::extended_fitted
 };
 
 struct Diagnosis {

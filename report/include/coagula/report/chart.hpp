@@ -34,6 +34,7 @@ struct Series {
     bool second_axis = false;         ///< y belongs to the axis at the right
     std::vector<double> radius = {};  ///< of discs, in the unit of x
     std::vector<int> rgb = {};        ///< of discs, red in the highest byte
+    bool key_only = false;            ///< an entry of the legend for a kind of line that all files have; it has no places
     bool per_structure = false;       ///< one place per structure, so that mean and standard error over structures mean something
 };
 
@@ -70,9 +71,11 @@ struct Drawing {
 enum class PictureFormat { svg, png, pdf };
 
 struct PictureSize {
-    double width = 0.085;   ///< [m]
-    double height = 0.064;  ///< [m]
-    int resolution = 300;   ///< of PNG, dots per inch
+    double width = 0.085;        ///< [m]
+    double height = 0.064;       ///< [m]
+    int resolution = 300;        ///< of PNG, dots per inch
+    std::string font = "Arial";  ///< letters, digits, blanks and hyphens
+    double font_size = 8;        ///< of the labels of the axes [pt]; numbers and legends are an eighth smaller
 };
 
 /// Width of a column and of a page, in the shape that suits the number of panels.
@@ -90,7 +93,7 @@ std::vector<std::size_t> shown_places(const Chart& chart, const Series& series);
 std::string draw(const Drawing& drawing, PictureFormat format, const PictureSize& size);
 
 /// The commands that draw it, without the terminal.
-std::string gnuplot_commands(const Drawing& drawing);
+std::string gnuplot_commands(const Drawing& drawing, const PictureSize& size = {});
 
 /// Rows of a table of all series: a head, then panel, series, x, y and error of each place shown, in the unit of the data.
 std::vector<std::vector<std::string>> chart_rows(const Drawing& drawing);

@@ -26,6 +26,9 @@ struct DiagnosisRecord {
 /// The verdict in a sentence or two.
 std::string verdict_sentence(const diagnose::Diagnosis& found);
 
+/// That, then what the best cause leaves over and what to measure next, where there is such.
+std::vector<std::string> verdict_sentences(const diagnose::Diagnosis& found);
+
 /// HTML.
 std::string diagnosis_page(const DiagnosisRecord& record);
 

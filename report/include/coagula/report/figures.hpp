@@ -81,6 +81,7 @@ struct CurveFigure {
     std::string y_error = {};  ///< path of the error of y; empty or not in the file: none
     std::string other = {};    ///< path of a second y, dashed, such as a fit; empty or not in the file: none
     std::string other_name = {};
+    std::string name = {};  ///< of y in the legend, where there is a second one
 };
 std::function<Drawing(const std::vector<FigureSource>&)> curve(CurveFigure figure);
 
