@@ -72,7 +72,8 @@ def _structure(packing, bonds=None, time=0.0, entries=(), history=(), frames=())
 @documented("import", replaced=["output", "force"], returns="Structure", common=False, first=[
     ("path", "str | PathLike[str]", REQUIRED, "An HDF5 file of coagula (.h5), or a file of another program.")])
 def read(path, **options):
-    """Reads an HDF5 file of coagula, too: with its results, and without options. Returns a coagula.Structure.
+    """Reads an HDF5 file of coagula, too: with its results, and without options. With options an HDF5 file is H5MD of another program.
+    Returns a coagula.Structure.
 
     Raises coagula.MissingFileError (also a FileNotFoundError) when there is no such file, and coagula.InputError (also a ValueError) for
     one that cannot be read.
@@ -80,11 +81,9 @@ def read(path, **options):
     name = os.fspath(path)
     given = words("import", options)
     try:
-        if not name.lower().endswith((".h5", ".hdf5", ".h5md")):
+        if given or not name.lower().endswith((".h5", ".hdf5", ".h5md")):
             packing, bonds, time, frames = _coagula.import_structure([name, "--output=none", *given])
             return _structure(packing, bonds, time, frames=frames)
-        if given:
-            raise TypeError(f"an HDF5 file says all that itself: {', '.join(given)} is for files of other programs")
         return _structure(*_coagula.read_file(name))
     except _coagula.InputError as error:
         if not os.path.lexists(name):

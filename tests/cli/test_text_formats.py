@@ -39,6 +39,44 @@ class RoundTrip(ProgramTest):
         self.assertEqual([round(length * 1e9) for length in one["box"]], [10000, 12000, 14000])
 
 
+class Plausible(ProgramTest):
+    """What a wrong pixel size or radius makes of a packing is printed with a warning."""
+
+    def imported(self, unit, radius="0.25um", edge=1.0):
+        cells = range(4)
+        centres = [(a + x, b + y, c + z) for a in cells for b in cells for c in cells for x, y, z in ((0, 0, 0), (0.5, 0.5, 0), (0.5, 0, 0.5), (0, 0.5, 0.5))]
+        self.write("fcc.csv", "x,y,z\n" + "".join(f"{x},{y},{z}\n" for x, y, z in centres))
+        length = 4 * edge * float(unit[:-2])
+        return self.succeed_json("import", "fcc.csv", "--length-unit", unit, "--radius", radius, "--box", f"{length}um", "-o", "a.h5", "--force")
+
+    def test_a_packing_is_no_surprise(self):
+        touching = 0.5 * 2**0.5  # um, the edge of the cell
+        found = self.imported(f"{touching}um")
+        self.assertEqual((found["contacts"], found["coordination"], found["warnings"]), (256 * 6, 12, []))
+        self.assertAlmostEqual(found["nearest_distance"]["smallest"], 1, delta=1e-9)
+        self.assertAlmostEqual(found["nearest_distance"]["median"], 1, delta=1e-9)
+        self.assertAlmostEqual(found["volume_fraction"], 0.7404805, delta=1e-6)
+
+    def test_wrong_units(self):
+        touching = 0.5 * 2**0.5
+        for factor, says in ((8.7, "do not touch"), (1.2, "do not touch"), (0.95, "densest packing"), (0.91, "densest packing")):
+            found = self.imported(f"{factor * touching}um")
+            self.assertAlmostEqual(found["nearest_distance"]["median"], factor, delta=1e-9)
+            self.assertTrue(any(says in warning for warning in found["warnings"]), found["warnings"])
+        self.assertIn("warning ", self.succeed("import", "fcc.csv", "--length-unit", "1um", "--radius", "0.1um", "--box", "4um", "-o", "b.h5"))
+
+    def test_twice_the_same_and_flat(self):
+        self.write("a.csv", "x [um],y [um],z [um]\n1,1,1\n2,1,1\n3,1,1\n4,1,1\n1.1,1,1\n")
+        words = ["import", "a.csv", "--radius", "0.5um", "-o", "a.h5", "--force"]
+        self.assertIn("0.1 diameters apart", "".join(self.succeed_json(*words, "--open")["warnings"]))
+        self.assertIn("two-dimensional", "".join(self.succeed_json(*words, "--box", "8um,8um,1um", "--wrap")["warnings"]))
+
+    def test_a_single_sphere(self):
+        self.write("a.csv", "x [um],y [um],z [um]\n1,1,1\n")
+        found = self.succeed_json("import", "a.csv", "--radius", "0.5um", "--open", "-o", "a.h5")
+        self.assertEqual((found["contacts"], found["nearest_distance"], found["warnings"]), (0, {"smallest": None, "median": None}, []))
+
+
 class FreeSurface(ProgramTest):
     def test_face_centred_cubic_block(self):
         # 7 x 7 x 7 cubic cells, touching spheres: 12 contacts inside, solid fraction pi / (3 sqrt 2).

@@ -78,11 +78,20 @@ void run_export(const Arguments& arguments) {
         throw InputError("--trajectory: the format " + format.name + " holds one frame; many go into " +
                          list_of(format_names(true)));
     }
+    if (arguments.flag("dump-units") && format.name != "dump") {
+        throw InputError("--dump-units: the format " + format.name + " is no LAMMPS dump");
+    }
     const std::string beside = std::filesystem::path(arguments.input()).replace_extension(format.endings.front()).string();
     const std::string output = arguments.text("output", beside);
     const io::Structure structure = all_frames ? io::read_trajectory(arguments.input()) : io::read_structure(arguments.input());
-    check_output(output, arguments.flag("force"));
-    format.write(output, structure, arguments.flag("force"));
+    const bool force = arguments.flag("force");
+    check_output(output, force);
+    if (arguments.flag("dump-units")) {
+        io::write_text(output, io::TextFormat::lammps_dump, structure.packing, structure.bonds, force, structure.earlier,
+                       structure.time, true);
+    } else {
+        format.write(output, structure, force);
+    }
     const std::size_t frames = structure.earlier.size() + 1;
     Json json = {{"output", output}, {"format", format.name}, {"particles", structure.packing.size()}, {"frames", frames}};
     Table table = {{"particles", std::to_string(structure.packing.size())}, {"written to", output}};
@@ -107,6 +116,9 @@ Verb export_verb() {
                                "file with the bonds",
                                ""),
                         flag("trajectory", "write all frames of the file, oldest first, instead of the last one"),
+                        flag("dump-units",
+                             "name units and times in a LAMMPS dump, as dump_modify units yes time yes does; MDAnalysis cannot read "
+                             "these"),
                         output("file to write; by default beside the input"), flag("force", "replace an existing file")},
             .run = run_export};
 }

@@ -6,35 +6,39 @@
 #include "cli/verbs.hpp"
 #include "stages.hpp"
 
+#include <coagula/characterize/plausibility.hpp>
 #include <coagula/common/spelling.hpp>
 #include <coagula/io/gsd_file.hpp>
+#include <coagula/io/h5md_file.hpp>
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/text_formats.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace coagula::tools {
 
 namespace {
 
-/// GSD is binary; the others are text.
-bool is_gsd(const Arguments& arguments) {
+/// The name of the format, or the ending of the file that stands for it.
+io::Structure read_any_format(const Arguments& arguments, const io::ImportOptions& options) {
+    const std::string& path = arguments.input();
     const std::string name = arguments.text("format", "");
-    return name == "gsd" || (name.empty() && std::filesystem::path(arguments.input()).extension() == ".gsd");
-}
-
-io::TextFormat chosen_format(const Arguments& arguments) {
-    const std::string name = arguments.text("format", "");
-    if (name.empty()) {
-        return io::format_from_name(arguments.input());
+    const std::string ending = name.empty() ? std::filesystem::path(path).extension().string() : "";
+    if (name == "gsd" || ending == ".gsd") {
+        return io::read_gsd(path, options);
     }
-    return name == "csv"      ? io::TextFormat::csv
-           : name == "extxyz" ? io::TextFormat::extended_xyz
-           : name == "dump"   ? io::TextFormat::lammps_dump
-                              : io::TextFormat::lammps_data;
+    if (name == "h5md" || ending == ".h5md" || ending == ".h5" || ending == ".hdf5") {
+        return io::read_h5md(path, options);
+    }
+    static const std::map<std::string, io::TextFormat> text_formats = {{"csv", io::TextFormat::csv},
+                                                                       {"extxyz", io::TextFormat::extended_xyz},
+                                                                       {"lammps", io::TextFormat::lammps_data},
+                                                                       {"dump", io::TextFormat::lammps_dump}};
+    return io::read_frames(path, name.empty() ? io::format_from_name(path) : text_formats.at(name), options);
 }
 
 /// "U" for all lengths, "UX,UY,UZ" for the axes, "UX,UY,UZ,UR" with that of the radius, each with its unit.
@@ -128,6 +132,7 @@ io::ImportOptions import_options(const Arguments& arguments) {
     if (arguments.has("frame")) {
         options.frame = arguments.parsed("frame", parse_frame);
     }
+    options.atom_style = arguments.text("atom-style", "");
     options.open = arguments.flag("open");
     options.wrap = arguments.flag("wrap");
     if (arguments.has("box")) {
@@ -137,6 +142,55 @@ io::ImportOptions import_options(const Arguments& arguments) {
         throw InputError("--open excludes --box and --wrap: a set with a free surface has no periodic box");
     }
     return options;
+}
+
+/// A single particle has no distance to another; JSON has no NaN.
+Json json_of_distance(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+/// The values that show a wrong length unit, and a warning for each that no packing has.
+Table plausibility_rows(const characterize::Plausibility& found) {
+    Table rows = {{"volume fraction", with_unit(found.volume_fraction, "1")}};
+    if (std::isfinite(found.smallest)) {
+        rows.push_back(
+            {"nearest centres", with_unit(found.smallest, "1") + " diameters apart, median " + with_unit(found.median, "1")});
+    }
+    rows.push_back({"contacts", std::to_string(found.contacts) + ", " + with_unit(found.coordination, "1") +
+                                    " per particle   (within 1.01 diameters)"});
+    for (const std::string& warning : found.warnings) {
+        rows.push_back({"warning", warning});
+    }
+    return rows;
+}
+
+void report_import(const Arguments& arguments, const io::Structure& structure, const characterize::Plausibility& found) {
+    const Packing& packing = structure.packing;
+    const Eigen::Vector3d box = packing.cell.lengths();
+    const std::size_t frames = structure.earlier.size() + 1;
+    const std::string output = arguments.text("output");
+    const Json json = {
+        {"particles", packing.size()},
+        {"frames", frames},
+        {"box", {box.x(), box.y(), box.z()}},
+        {"periodic", packing.cell.is_periodic()},
+        {"volume_fraction", found.volume_fraction},
+        {"radius_mean", mean_radius(packing)},
+        {"contacts", found.contacts},
+        {"coordination", found.coordination},
+        {"nearest_distance", {{"smallest", json_of_distance(found.smallest)}, {"median", json_of_distance(found.median)}}},
+        {"warnings", found.warnings},
+        {"output", output}};
+    Table table = {{"particles", std::to_string(packing.size())}};
+    if (frames > 1) {
+        table.emplace_back("frames", std::to_string(frames));
+    }
+    table.emplace_back("box", describe(packing.cell));
+    table.emplace_back("mean radius", with_unit(mean_radius(packing), "m"));
+    const Table rows = plausibility_rows(found);
+    table.insert(table.end(), rows.begin(), rows.end());
+    table.emplace_back("written to", output);
+    report(arguments, json, table);
 }
 
 void run_import(const Arguments& arguments) {
@@ -150,31 +204,14 @@ void run_import(const Arguments& arguments) {
     progress.update("writing", 1.0);
     io::write_structure(output, structure, {}, {}, describe_call(arguments, nullptr, clock), force);
 
-    const Eigen::Vector3d box = packing.cell.lengths();
-    const std::size_t frames = structure.earlier.size() + 1;
-    const Json json = {{"particles", packing.size()},
-                       {"frames", frames},
-                       {"box", {box.x(), box.y(), box.z()}},
-                       {"periodic", packing.cell.is_periodic()},
-                       {"volume_fraction", volume_fraction(packing)},
-                       {"radius_mean", mean_radius(packing)},
-                       {"output", output}};
-    Table table = {{"particles", std::to_string(packing.size())},
-                   {"box", describe(packing.cell)},
-                   {"mean radius", with_unit(mean_radius(packing), "m")},
-                   {"written to", output}};
-    if (frames > 1) {
-        table.insert(table.begin() + 1, {"frames", std::to_string(frames)});
-    }
-    report(arguments, json, table);
+    report_import(arguments, structure, characterize::judge_plausibility(packing));
 }
 
 }  // namespace
 
 io::Structure import_structure(const Arguments& arguments) {
     const io::ImportOptions options = import_options(arguments);
-    io::Structure structure = is_gsd(arguments) ? io::read_gsd(arguments.input(), options)
-                                                : io::read_frames(arguments.input(), chosen_format(arguments), options);
+    io::Structure structure = read_any_format(arguments, options);
     check(structure.packing, arguments.input());
     return structure;
 }
@@ -182,20 +219,22 @@ io::Structure import_structure(const Arguments& arguments) {
 Verb import_verb() {
     return {
         .name = "import",
-        .summary = "take over coordinates from CSV, extended XYZ, LAMMPS data or dump, or GSD",
+        .summary = "take over coordinates from CSV, extended XYZ, LAMMPS data or dump, GSD or H5MD",
         .input = "FILE",
         .options =
             {required(output("HDF5 file to write")), flag("force", "replace an existing file"),
-             choice("format", {"csv", "extxyz", "lammps", "dump", "gsd"}, "format of the file; by its ending when not given", ""),
+             choice("format", {"csv", "extxyz", "lammps", "dump", "gsd", "h5md"},
+                    "format of the file; by its ending when not given", ""),
              particle_radius("radius of every particle; a column of the file when not given"),
              text("box", "L|LX,LY,LZ", "edge lengths of the periodic box [unit m; range " + physical::length.text() + "]"),
              flag("open", "the set has a free surface: no periodic box"),
              text("length-unit", "U|UX,UY,UZ[,UR]",
                   "length that 1 stands for in columns without a unit or in pixels: one for all, or one for each axis and the "
-                  "radius, "
-                  "such as 0.1um,0.1um,0.3um [unit m; range " +
+                  "radius, such as 0.1um,0.1um,0.3um [unit m; range " +
                       physical::length.text() + "]"),
              text("columns", "NAME=HEADING,...", "columns of a CSV file: x, y, z, radius, diameter, frame"),
+             text("atom-style", "STYLE",
+                  "atom style of LAMMPS data that name none, such as full, or 'hybrid sphere bond' where they name hybrid only"),
              text("frame", "N|first|last|all",
                   "frame of a trajectory: the value in the column frame of a CSV file, which has no default; otherwise counted "
                   "from 0, the last when not given; all: the whole trajectory"),

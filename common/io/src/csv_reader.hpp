@@ -1,4 +1,4 @@
-// A CSV file with a header: its columns by name, its lines as fields.
+// A table in a text file: its columns by name, its lines as fields. Columns are separated by commas, semicolons, tabs or blanks.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,8 @@ namespace coagula::io {
 
 class CsvReader {
 public:
-    /// Reads up to the header: the first line that is filled and does not begin with #. Throws InputError when there is none.
+    /// Reads up to the header: the first line that is filled and does not begin with #. Where that line has numbers only, the
+    /// header is a comment above it with as many headings, if there is one. Throws InputError for a file without lines.
     explicit CsvReader(LineReader& file);
 
     /// A column of the header, such as "x [um]" or "radius (nm)".
@@ -30,14 +31,18 @@ public:
 
     /// Moves to the next filled line; false at the end. Throws InputError when it has not as many fields as the header.
     bool next();
-    /// The field as a finite number.
-    double number(const Column& column) const { return file_->number_in(fields_[column.index], column.name); }
+    /// The field as a finite number, with a decimal comma where the numbers of the file have one and commas do not separate.
+    double number(const Column& column);
     std::string_view text(const Column& column) const { return fields_[column.index]; }
     const LineReader& file() const { return *file_; }
 
 private:
+    void read_header();
+
     LineReader* file_;
     char separator_ = ',';
+    bool commas_ = false;  ///< whether numbers have had decimal commas
+    bool points_ = false;  ///< the same of decimal points
     std::vector<Column> columns_;
     std::vector<std::string_view> fields_;
 };

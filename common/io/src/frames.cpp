@@ -91,6 +91,15 @@ std::string RawPacking::place(const std::string& path, std::size_t particle) con
     return path + (lines.empty() ? ", particle " + std::to_string(particle) : ", line " + std::to_string(lines[particle])) + ": ";
 }
 
+void refuse_options_of_other_formats(const std::string& path, const ImportOptions& options, std::optional<TextFormat> format) {
+    if (format != TextFormat::csv && (options.axis_units || !options.columns.empty())) {
+        throw InputError(path + " is no CSV file: --columns and units of single axes are for these");
+    }
+    if (format != TextFormat::lammps_data && !options.atom_style.empty()) {
+        throw InputError(path + " is no LAMMPS data: --atom-style is for these");
+    }
+}
+
 void sort_by_number(const std::string& path, const std::vector<std::size_t>& numbers, RawPacking& raw) {
     std::vector<std::size_t> order(numbers.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -109,7 +118,9 @@ void sort_by_number(const std::string& path, const std::vector<std::size_t>& num
         if (!raw.radii.empty()) {
             sorted.radii.push_back(raw.radii[i]);
         }
-        sorted.lines.push_back(raw.lines[i]);
+        if (!raw.lines.empty()) {
+            sorted.lines.push_back(raw.lines[i]);
+        }
     }
     raw = std::move(sorted);
 }

@@ -84,7 +84,7 @@ std::optional<ScaledColumn> find_radius(const CsvReader& table, const ImportOpti
 }
 
 /// The number of the frame of the present line.
-std::int64_t frame_in(const CsvReader& table, const CsvReader::Column& column) {
+std::int64_t frame_in(CsvReader& table, const CsvReader::Column& column) {
     const double value = table.number(column);
     if (value != std::nearbyint(value) || std::abs(value) > 1e15) {
         table.file().fail("column " + column.name + " has the frame " + to_text(value) + ", which is not a whole number");

@@ -1,4 +1,4 @@
-#include <array>
+#include <algorithm>
 #include <map>
 
 #include "text_reader.hpp"
@@ -7,20 +7,58 @@ namespace coagula::io {
 
 namespace {
 
-std::string_view without_quotes(std::string_view text) {
-    return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+/// A value of the comment line from `begin` on: in quotes of either kind, in brackets, or up to a blank. `begin` moves behind it.
+std::string take_value(const LineReader& file, std::string_view line, std::size_t& begin) {
+    const char first = begin < line.size() ? line[begin] : ' ';
+    std::string value;
+    if (first == '"' || first == '\'') {
+        for (++begin; begin < line.size() && line[begin] != first; ++begin) {
+            begin += line[begin] == '\\' && begin + 1 < line.size() ? 1 : 0;  // what follows is meant as it stands
+            value += line[begin];
+        }
+        if (begin++ >= line.size()) {
+            file.fail(std::string("the comment line has a quotation mark ") + first + " that does not end");
+        }
+        return value;
+    }
+    int depth = 0;
+    for (; begin < line.size() && (depth > 0 || (line[begin] != ' ' && line[begin] != '\t')); ++begin) {
+        depth += line[begin] == '[' || line[begin] == '{' ? 1 : 0;
+        depth -= line[begin] == ']' || line[begin] == '}' ? 1 : 0;
+        value += line[begin];
+    }
+    if (depth > 0) {
+        file.fail("the comment line has a bracket that does not end");
+    }
+    return value;
 }
 
-/// The key=value pairs of the comment line; keys in lower case.
-std::map<std::string, std::string> parse_comment(std::string_view line) {
+/// The pairs of the comment line, key=value with blanks around the sign or without; keys in lower case.
+std::map<std::string, std::string> parse_comment(const LineReader& file) {
+    const std::string_view line = file.line();
+    const auto behind_blanks = [&](std::size_t place) { return std::min(line.find_first_not_of(" \t", place), line.size()); };
     std::map<std::string, std::string> pairs;
-    for (const std::string_view word : split_words(line)) {
-        const std::size_t equals = word.find('=');
-        if (equals != std::string_view::npos) {
-            pairs[lower_case(word.substr(0, equals))] = without_quotes(word.substr(equals + 1));
+    std::size_t place = behind_blanks(0);
+    while (place < line.size()) {
+        const std::size_t end = std::min(line.find_first_of("= \t", place), line.size());
+        const std::size_t sign = behind_blanks(end);
+        if (sign == line.size() || line[sign] != '=') {
+            place = sign;  // a word without a value
+            continue;
         }
+        const std::string key = lower_case(line.substr(place, end - place));
+        place = behind_blanks(sign + 1);
+        pairs[key] = take_value(file, line, place);
+        place = behind_blanks(place);
     }
     return pairs;
+}
+
+/// The entries of an array: "T T T", "[T, T, T]", "{1 0 0}", "[[8, 0, 0], [0, 9, 0], [0, 0, 10]]".
+std::vector<std::string_view> entries_of(std::string& array) {
+    std::replace_if(
+        array.begin(), array.end(), [](char c) { return std::string_view("[]{},").find(c) != std::string_view::npos; }, ' ');
+    return split_words(array);
 }
 
 std::string value_of(const std::map<std::string, std::string>& pairs, const std::string& key) {
@@ -79,25 +117,23 @@ Layout parse_properties(const LineReader& file, const std::string& properties) {
     return layout;
 }
 
-bool parse_periodicity(const LineReader& file, const std::string& text) {
-    const auto flags = split_words(text);
-    if (flags.empty()) {
-        return true;
-    }
+bool parse_periodicity(const LineReader& file, std::string text) {
+    bool periodic = true;
+    const auto flags = entries_of(text);
     for (const std::string_view flag : flags) {
-        if (flags.size() != 3 || (flag != "T" && flag != "F") || flag != flags[0]) {
+        const std::string word = lower_case(flag);
+        const bool is_true = word == "t" || word == "true" || word == "1";
+        const bool is_false = word == "f" || word == "false" || word == "0";
+        periodic = &flag == flags.data() ? is_true : periodic;
+        if ((flags.size() != 3 && flags.size() != 1) || is_true == is_false || is_true != periodic) {
             file.fail("pbc must be \"T T T\" or \"F F F\": coagula knows boxes that are periodic along all axes or along none");
         }
     }
-    return flags[0] == "T";
+    return periodic;
 }
 
-std::optional<Cell> parse_cell(const LineReader& file, const std::map<std::string, std::string>& pairs, double divisor) {
-    const std::string lattice = value_of(pairs, "lattice");
-    const auto entries = split_words(lattice);
-    if (entries.empty()) {
-        return std::nullopt;
-    }
+/// Edge lengths of the box; the entries of Lattice are its three vectors one after the other.
+Eigen::Vector3d parse_lengths(const LineReader& file, const std::vector<std::string_view>& entries, double divisor) {
     if (entries.size() != 9) {
         file.fail("Lattice must have nine numbers");
     }
@@ -110,28 +146,50 @@ std::optional<Cell> parse_cell(const LineReader& file, const std::map<std::strin
             file.fail("Lattice is a sheared box, which coagula does not read");
         }
     }
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-    const std::string origin_text = value_of(pairs, "origin");
-    const auto coordinates = split_words(origin_text);
-    for (std::size_t axis = 0; axis < 3 && coordinates.size() == 3; ++axis) {
-        origin[static_cast<Index>(axis)] = file.number_in(coordinates[axis], "Origin") / divisor;
-    }
-    if (parse_periodicity(file, value_of(pairs, "pbc"))) {
-        if (!origin.isZero(0)) {
-            file.fail("a periodic box must begin at the origin");
-        }
-        return Cell::periodic(lengths);
-    }
-    return Cell::open(origin, lengths);
+    return lengths;
 }
 
-void read_particle(const LineReader& file, const Layout& layout, double divisor, RawPacking& raw) {
+/// The lower corner of the box.
+Eigen::Vector3d parse_origin(const LineReader& file, std::string text, double divisor) {
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    const auto coordinates = entries_of(text);
+    if (!coordinates.empty() && coordinates.size() != 3) {
+        file.fail("Origin must have three numbers");
+    }
+    for (std::size_t axis = 0; axis < coordinates.size(); ++axis) {
+        origin[static_cast<Index>(axis)] = file.number_in(coordinates[axis], "Origin") / divisor;
+    }
+    return origin;
+}
+
+/// The box as it stands in the file, periodic or not.
+struct Box {
+    std::optional<Cell> cell;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of a periodic one, from which positions count
+};
+
+Box parse_box(const LineReader& file, const std::map<std::string, std::string>& pairs, double divisor) {
+    std::string lattice = value_of(pairs, "lattice");
+    const auto entries = entries_of(lattice);
+    if (entries.empty()) {
+        return {};
+    }
+    const Eigen::Vector3d lengths = parse_lengths(file, entries, divisor);
+    const Eigen::Vector3d origin = parse_origin(file, value_of(pairs, "origin"), divisor);
+    if (parse_periodicity(file, value_of(pairs, "pbc"))) {
+        return {Cell::periodic(lengths), origin};
+    }
+    return {Cell::open(origin, lengths), Eigen::Vector3d::Zero()};
+}
+
+void read_particle(const LineReader& file, const Layout& layout, const Eigen::Vector3d& origin, double divisor, RawPacking& raw) {
     const auto words = split_words(file.line());
     if (words.size() < layout.width) {
         file.fail("there are " + std::to_string(words.size()) + " columns, but " + std::to_string(layout.width) + " are expected");
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        raw.coordinates.push_back(file.number_in(words[*layout.position + axis], "a coordinate") / divisor);
+        const double coordinate = file.number_in(words[*layout.position + axis], "a coordinate") / divisor;
+        raw.coordinates.push_back(coordinate - origin[static_cast<Index>(axis)]);
     }
     if (layout.radius) {
         raw.radii.push_back((layout.is_diameter ? 0.5 : 1.0) * file.number_in(words[*layout.radius], "the radius") / divisor);
@@ -144,11 +202,12 @@ RawPacking read_frame(LineReader& file, const ImportOptions& options) {
     if (!file.next()) {
         file.fail("the comment line is missing");
     }
-    const auto pairs = parse_comment(file.line());
+    const auto pairs = parse_comment(file);
     const double divisor = per_metre(file, "the comment line", value_of(pairs, "length_unit"), options);
     const Layout layout = parse_properties(file, value_of(pairs, "properties"));
     RawPacking raw;
-    raw.cell = parse_cell(file, pairs, divisor);
+    const Box box = parse_box(file, pairs, divisor);
+    raw.cell = box.cell;
     if (const std::string time = value_of(pairs, "time"); !time.empty()) {
         raw.time = file.number_in(time, "Time");
     }
@@ -156,7 +215,7 @@ RawPacking read_frame(LineReader& file, const ImportOptions& options) {
         if (!file.next()) {
             file.fail("the file ends after " + std::to_string(particle) + " of " + std::to_string(particles) + " particles");
         }
-        read_particle(file, layout, divisor, raw);
+        read_particle(file, layout, box.origin, divisor, raw);
     }
     return raw;
 }

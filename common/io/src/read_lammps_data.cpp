@@ -1,41 +1,13 @@
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 
+#include "atom_styles.hpp"
 #include "text_reader.hpp"
 
 namespace coagula::io {
 
 namespace {
-
-/// Columns of the section Atoms for one atom style (LAMMPS manual, read_data).
-struct Layout {
-    std::size_t position;
-    std::optional<std::size_t> diameter;
-    std::size_t width;  ///< without image flags
-};
-
-Layout layout_of(const LineReader& file, const std::string& style) {
-    static const std::map<std::string, Layout> layouts{
-        {"atomic", {2, std::nullopt, 5}}, {"bond", {3, std::nullopt, 6}},    {"sphere", {4, 2, 7}},
-        {"hybrid sphere", {2, 5, 7}},     {"hybrid sphere bond", {2, 5, 8}}, {"hybrid bond sphere", {2, 6, 8}},
-    };
-    const auto found = layouts.find(style);
-    if (found == layouts.end()) {
-        file.fail("the atom style '" + style + "' is not one of sphere, atomic, bond, hybrid sphere, hybrid sphere bond");
-    }
-    return found->second;
-}
-
-std::string style_by_width(const LineReader& file, std::size_t width) {
-    for (const auto& [style, columns] : {std::pair{"atomic", 5U}, {"bond", 6U}, {"sphere", 7U}}) {
-        if (width == columns || width == columns + 3) {
-            return style;
-        }
-    }
-    file.fail("the section Atoms names no atom style (\"Atoms # sphere\")");
-}
 
 /// The text behind "key = " in the first line, up to a comma.
 std::string value_in_title(const std::string& title, const std::string& key) {
@@ -68,6 +40,9 @@ void read_header_line(const LineReader& file, Header& header) {
             header.lower[axis] = file.number_in(words[0], words[2]);
             header.upper[axis] = file.number_in(words[1], words[3]);
         }
+    }
+    if (words.size() == 4 && (words[3] == "avec" || words[3] == "bvec" || words[3] == "cvec")) {
+        file.fail("the box is a general triclinic one, which coagula does not read");
     }
     if (words.size() == 6 && words[3] == "xy") {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -104,28 +79,97 @@ std::optional<Cell> cell_of(const LineReader& file, const Header& header, double
     return Cell::open(header.lower / divisor, lengths);
 }
 
-void read_atoms(LineReader& file, const Header& header, std::string style, double divisor, RawPacking& raw) {
+/// The words of the next atom, of `atoms` in all.
+std::vector<std::string_view> next_atom(LineReader& file, std::size_t atom, std::size_t atoms) {
+    if (!file.next_filled()) {
+        file.fail("the file ends after " + std::to_string(atom) + " of " + std::to_string(atoms) + " atoms");
+    }
+    return split_words(without_comment(file.line()));
+}
+
+/// The style that the user or the file names; for neither an empty text.
+std::string named_style(const LineReader& file, const Header& header, const std::string& chosen) {
+    const std::string_view line = file.line();
+    const std::size_t hash = line.find('#');
+    std::string found(hash == std::string_view::npos ? "" : trim(line.substr(hash + 1)));
+    if (found == "hybrid") {
+        const std::string in_title = value_in_title(header.title, "atom_style");
+        found = in_title.empty() ? found : in_title;
+    }
+    const auto in_file = find_atom_style(found);
+    const auto in_call = find_atom_style(chosen);
+    const bool differ =
+        in_file ? in_call && in_call->columns() != in_file->columns() : found == "hybrid" && !chosen.starts_with(found);
+    if (!chosen.empty() && differ) {
+        file.fail("the section Atoms has the style '" + found + "', but --atom-style says '" + chosen + "'");
+    }
+    return chosen.empty() ? found : chosen;
+}
+
+AtomStyle style_of_name(const LineReader& file, const std::string& name) {
+    if (name == "hybrid") {
+        file.fail("the style hybrid needs the names of its sub-styles: give them as in --atom-style 'hybrid sphere bond'");
+    }
+    const std::optional<AtomStyle> style = find_atom_style(name);
+    if (!style) {
+        file.fail("the atom style '" + name + "' is none that coagula knows; if it is not that of the file, give --atom-style");
+    }
+    return *style;
+}
+
+std::string names_of(const std::vector<AtomStyle>& styles) {
+    std::vector<std::string> names;
+    for (const AtomStyle& style : styles) {
+        names.push_back(style.name());
+    }
+    return list_of(names);
+}
+
+/// The usual style whose columns hold in all lines; the reader is where it was then. All that hold must give the same spheres.
+AtomStyle style_of_columns(LineReader& file, std::size_t atoms) {
+    const LineReader::Place begin = file.place();
+    std::vector<AtomStyle> styles = usual_atom_styles();
+    const std::string usual = names_of(styles);
+    for (std::size_t atom = 0; atom < atoms; ++atom) {
+        const auto words = next_atom(file, atom, atoms);
+        std::erase_if(styles, [&](const AtomStyle& style) { return !style.has_width(words.size()) || style.contradicted(words); });
+        if (styles.empty()) {
+            file.fail("the section Atoms names no atom style, and its columns are those of none of " + usual +
+                      ": give --atom-style");
+        }
+    }
+    file.return_to(begin);
+    if (atoms > 0 &&
+        !std::all_of(styles.begin(), styles.end(), [&](const AtomStyle& style) { return style.reads_like(styles[0]); })) {
+        file.fail("the section Atoms names no atom style, and its columns can be those of " + names_of(styles) +
+                  ": give --atom-style");
+    }
+    return styles[0];
+}
+
+void require_columns(const LineReader& file, const AtomStyle& style, const std::vector<std::string_view>& words) {
+    if (!style.has_width(words.size())) {
+        file.fail("there are " + std::to_string(words.size()) + " columns, but atom style " + style.name() + " has " +
+                  std::to_string(style.columns().size()) + " (and three image flags)");
+    }
+    if (const auto column = style.contradicted(words)) {
+        const bool is_flag = *column >= style.columns().size();
+        file.fail("'" + std::string(words[*column]) + "' cannot be " + (is_flag ? "an image flag" : style.columns()[*column]) +
+                  " of an atom of style " + style.name());
+    }
+}
+
+void read_atoms(LineReader& file, std::size_t atoms, const AtomStyle& style, double divisor, RawPacking& raw) {
     std::vector<std::size_t> numbers;
-    std::optional<Layout> layout;
-    while (numbers.size() < header.atoms.value_or(0)) {
-        if (!file.next_filled()) {
-            file.fail("the file ends after " + std::to_string(numbers.size()) + " of " + std::to_string(*header.atoms) + " atoms");
-        }
-        const auto words = split_words(without_comment(file.line()));
-        if (!layout) {
-            style = style.empty() ? style_by_width(file, words.size()) : style;
-            layout = layout_of(file, style);
-        }
-        if (words.size() != layout->width && words.size() != layout->width + 3) {
-            file.fail("there are " + std::to_string(words.size()) + " columns, but atom style " + style + " has " +
-                      std::to_string(layout->width) + " (and three image flags)");
-        }
+    for (std::size_t atom = 0; atom < atoms; ++atom) {
+        const auto words = next_atom(file, atom, atoms);
+        require_columns(file, style, words);
         numbers.push_back(file.count_in(words[0], "the number of the atom"));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            raw.coordinates.push_back(file.number_in(words[layout->position + axis], "a coordinate") / divisor);
+            raw.coordinates.push_back(file.number_in(words[style.position() + axis], "a coordinate") / divisor);
         }
-        if (layout->diameter) {
-            raw.radii.push_back(0.5 * file.number_in(words[*layout->diameter], "the diameter") / divisor);
+        if (style.diameter()) {
+            raw.radii.push_back(0.5 * file.number_in(words[*style.diameter()], "the diameter") / divisor);
         }
         raw.lines.push_back(file.number());
     }
@@ -146,16 +190,15 @@ std::vector<RawPacking> read_lammps_data(LineReader& file, const ImportOptions& 
     if (!header.atoms) {
         throw InputError(file.path() + ": the header names no number of atoms");
     }
-    const std::string_view line = file.line();
-    const std::size_t hash = line.find('#');
-    std::string style = hash == std::string_view::npos ? "" : std::string(trim(line.substr(hash + 1)));
-    if (style == "hybrid") {
-        style = value_in_title(header.title, "atom_style");
-    }
+    const std::string name = named_style(file, header, options.atom_style);
     const double divisor = per_metre(file, "the file", length_unit_of(value_in_title(header.title, "units")), options);
+    const AtomStyle style = name.empty() ? style_of_columns(file, *header.atoms) : style_of_name(file, name);
+    if (!style.shape().empty()) {
+        file.fail("atoms of the style '" + style.name() + "' are " + style.shape() + ", but coagula reads spheres");
+    }
     RawPacking raw;
     raw.cell = cell_of(file, header, divisor);
-    read_atoms(file, header, style, divisor, raw);
+    read_atoms(file, *header.atoms, style, divisor, raw);
     const bool periodic = value_in_title(header.title, "boundary") != "f f f";
     if (raw.cell && periodic && !options.open) {
         for (std::size_t i = 0; i < raw.coordinates.size(); ++i) {

@@ -2,13 +2,10 @@
 
 #include <coagula/io/trajectory_file.hpp>
 
-#include <coagula/io/units.hpp>
-
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "child_process.hpp"
+#include "h5md_elements.hpp"
 #include "layout.hpp"
 #include "packed.hpp"
 #include "results.hpp"
@@ -17,139 +14,20 @@ namespace coagula::io {
 
 namespace {
 
+using h5md::Element;
+using h5md::find_element;
+using h5md::number_of_particles;
+using h5md::read_lengths;
+using h5md::require_shape;
 using hdf5::File;
 using hdf5::Shape;
-
-std::string shape_text(const Shape& shape) {
-    std::string text;
-    for (const std::size_t length : shape) {
-        text.append("[").append(std::to_string(length)).append("]");
-    }
-    return shape.empty() ? "of a single number" : text;
-}
-
-void require_shape(const File& file, const std::string& object, const Shape& expected) {
-    const Shape found = file.shape(object);
-    if (found != expected) {
-        file.fail(object, "has the shape " + shape_text(found) + ", but " + shape_text(expected) + " is expected");
-    }
-}
-
-/// How many of the unit of a dataset are in a metre.
-double per_metre(const File& file, const std::string& object) {
-    const std::string unit = file.attribute(object, "unit");
-    if (unit.empty()) {
-        file.fail(object, "carries no unit");
-    }
-    try {
-        return unit_factor("m", unit == "A" ? "angstrom" : unit);  // H5MD files name the angstrom so; UDUNITS means the ampere
-    } catch (const std::exception&) {
-        file.fail(object, "has the unit '" + unit + "', which is not a length");
-    }
-}
-
-/// An H5MD element: `object`/value with one slice per frame where it depends on time, otherwise `object` itself.
-struct Element {
-    std::string data;
-    bool has_frames;
-};
-
-Element find_element(const File& file, const std::string& object) {
-    const bool has_frames = file.is_group(object);
-    return {has_frames ? object + "/value" : object, has_frames};
-}
-
-/// `step` and `time` hold one number per frame (or the increment).
-void require_frames(const File& file, const std::string& object, std::size_t frames) {
-    for (const char* name : {"/step", "/time"}) {
-        if (file.has(object + name) && !file.shape(object + name).empty()) {
-            require_shape(file, object + name, {frames});
-        }
-    }
-}
-
-/// The last frame of an element whose slice has the shape `slice`, or all of them one after the other, in metres.
-std::vector<double> read_lengths(const File& file, const std::string& object, const Shape& slice, bool all_frames = false) {
-    const Element element = find_element(file, object);
-    Shape expected = slice;
-    if (element.has_frames) {
-        const Shape found = file.shape(element.data);
-        if (found.empty() || found[0] == 0) {
-            file.fail(element.data, "has no frame");
-        }
-        expected.insert(expected.begin(), found[0]);
-        require_frames(file, object, found[0]);
-    }
-    require_shape(file, element.data, expected);
-    const bool last = element.has_frames && !all_frames;
-    std::vector<double> values = last ? file.read_last<double>(element.data) : file.read<double>(element.data);
-    const double divisor = per_metre(file, element.data);
-    for (double& value : values) {
-        value /= divisor;
-    }
-    return values;
-}
-
-std::size_t number_of_particles(const File& file, const std::string& position) {
-    const Element element = find_element(file, position);
-    const Shape shape = file.shape(element.data);
-    const std::size_t rank = element.has_frames ? 3 : 2;
-    if (shape.size() != rank || shape.back() != 3) {
-        file.fail(element.data, "has the shape " + shape_text(shape) + ", but [frames][particles][3] is expected");
-    }
-    if (shape[rank - 2] == 0) {
-        file.fail(element.data, "has no particles");
-    }
-    if (shape[rank - 2] > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-        file.fail(element.data, "has more than 2^31 - 1 particles");
-    }
-    return shape[rank - 2];
-}
-
-bool read_periodicity(const File& file, const std::string& box) {
-    const auto boundary = file.texts_attribute(box, "boundary");
-    if (boundary.size() != 3) {
-        file.fail(box, "must have an attribute 'boundary' of three texts");
-    }
-    for (const std::string& axis : boundary) {
-        if ((axis != "periodic" && axis != "none") || axis != boundary[0]) {
-            file.fail(
-                box, "has the boundary '" + axis + "': coagula reads boxes that are 'periodic' along all axes or 'none' along all");
-        }
-    }
-    return boundary[0] == "periodic";
-}
-
-/// Edge lengths from a vector or a diagonal matrix.
-Eigen::Vector3d read_edges(const File& file, const std::string& edges) {
-    const Element element = find_element(file, edges);
-    const std::size_t rank = file.shape(element.data).size() - (element.has_frames ? 1 : 0);
-    if (rank == 1) {
-        const auto lengths = read_lengths(file, edges, {3});
-        return Eigen::Vector3d::Map(lengths.data());
-    }
-    const auto values = read_lengths(file, edges, {3, 3});
-    const Eigen::Matrix3d matrix = Eigen::Matrix3d::Map(values.data());
-    if (!matrix.allFinite()) {
-        file.fail(element.data, "has an edge that is not a finite number");
-    }
-    if (!matrix.isDiagonal(0)) {
-        file.fail(element.data, "is a sheared box, which coagula does not read");
-    }
-    return matrix.diagonal();
-}
 
 Cell read_cell(const File& file, const std::string& box) {
     if (!file.is_group(box)) {
         file.fail(box, "is missing");
     }
-    const bool periodic = read_periodicity(file, box);
-    const Eigen::Vector3d lengths = read_edges(file, box + "/edges");
-    for (const double length : lengths) {
-        if (!(std::isfinite(length) && length > 0)) {
-            file.fail(box + "/edges", "has an edge of " + to_text(length) + " m, but edges must be finite and positive");
-        }
-    }
+    const bool periodic = h5md::read_periodicity(file, box);
+    const Eigen::Vector3d lengths = h5md::read_edges(file, box + "/edges").back();
     if (periodic) {
         return Cell::periodic(lengths);
     }
@@ -165,7 +43,8 @@ std::string radius_object(const File& file, const std::string& group) {
             return group + name;
         }
     }
-    file.fail(group + "/radius", "is missing: without radii this is not a packing of spheres");
+    file.fail(group + "/radius",
+              "is missing: without radii this is not a packing of spheres; coagula import takes them from --radius");
 }
 
 Packing read_packing(const File& file, const std::string& group) {
@@ -208,7 +87,7 @@ std::optional<ContactNetwork> read_bonds(const File& file, const Packing& packin
     }
     const Shape shape = file.shape(layout::bonds);
     if (shape.size() != 2 || shape[1] != 2) {
-        file.fail(layout::bonds, "has the shape " + shape_text(shape) + ", but [bonds][2] is expected");
+        file.fail(layout::bonds, "has the shape " + h5md::shape_text(shape) + ", but [bonds][2] is expected");
     }
     const auto ends = file.read<std::int64_t>(layout::bonds);
     ContactNetwork bonds;
@@ -223,21 +102,6 @@ std::optional<ContactNetwork> read_bonds(const File& file, const Packing& packin
     }
     bonds.branch = read_branches(file, packing, bonds);
     return bonds;
-}
-
-/// Times of the frames [s]; their numbers where the file has no times in seconds.
-std::vector<double> read_times(const File& file, const std::string& position, std::size_t frames) {
-    std::vector<double> times;
-    const std::string object = position + "/time";
-    if (file.is_dataset(object) && file.shape(object) == Shape{frames} && file.attribute(object, "unit") == "s") {
-        times = file.read<double>(object);
-    }
-    const bool usable = !times.empty() && std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
-    for (std::size_t frame = 0; !usable && frame < frames; ++frame) {
-        times.resize(frames);
-        times[frame] = static_cast<double>(frame);
-    }
-    return times;
 }
 
 void require_same_boxes(const File& file, const std::string& edges, std::size_t frames) {
@@ -265,7 +129,7 @@ void read_earlier(const File& file, const std::string& group, Structure& structu
     const std::vector<double> values = read_lengths(file, position, {static_cast<std::size_t>(particles), 3}, true);
     const std::size_t frames = values.size() / static_cast<std::size_t>(3 * particles);
     require_same_boxes(file, group + "/box/edges", frames);
-    const std::vector<double> times = read_times(file, position, frames);
+    const std::vector<double> times = h5md::read_times(file, position, frames);
     for (std::size_t frame = 0; frame + 1 < frames; ++frame) {
         const double* first = values.data() + frame * static_cast<std::size_t>(3 * particles);
         structure.earlier.push_back({times[frame], Eigen::Matrix3Xd::Map(first, 3, particles)});

@@ -61,7 +61,8 @@ std::string extended_xyz_text(const Trajectory& run) {
     return out;
 }
 
-std::string dump_text(const Trajectory& run) {
+/// @param with_units the lines of `dump_modify units yes time yes`, which not all programs that read dumps know.
+std::string dump_text(const Trajectory& run, bool with_units) {
     const Packing& packing = run.packing;
     const Eigen::Vector3d lower = packing.cell.origin();
     const Eigen::Vector3d upper = lower + packing.cell.lengths();
@@ -71,8 +72,10 @@ std::string dump_text(const Trajectory& run) {
     }
     std::string out;
     for (std::size_t frame = 0; frame < run.frames(); ++frame) {
-        out += (frame == 0 ? "ITEM: UNITS\nsi\n" : "") + std::string("ITEM: TIME\n") + to_text(run.time_of(frame)) +
-               "\nITEM: TIMESTEP\n" + std::to_string(frame) + "\nITEM: NUMBER OF ATOMS\n" + std::to_string(packing.size()) + '\n' +
+        if (with_units) {
+            out += (frame == 0 ? "ITEM: UNITS\nsi\n" : "") + std::string("ITEM: TIME\n") + to_text(run.time_of(frame)) + '\n';
+        }
+        out += "ITEM: TIMESTEP\n" + std::to_string(frame) + "\nITEM: NUMBER OF ATOMS\n" + std::to_string(packing.size()) + '\n' +
                box + "ITEM: ATOMS id type x y z radius\n";
         for (Index particle = 0; particle < packing.size(); ++particle) {
             out += std::to_string(particle + 1) + " 1 " + triple(run.positions(frame).col(particle)) + ' ' +
@@ -137,13 +140,12 @@ TextFormat format_from_name(const std::string& path) {
         return TextFormat::lammps_dump;
     }
     throw InputError(path +
-                     " has no ending that names a format: .csv; .xyz, .extxyz; .data, .lmp, .lammps; .dump, .lammpstrj; .gsd");
+                     " has no ending that names a format: .csv; .xyz, .extxyz; .data, .lmp, .lammps; .dump, .lammpstrj; .gsd; "
+                     ".h5md, .h5, .hdf5");
 }
 
 Structure read_frames(const std::string& path, TextFormat format, const ImportOptions& options) {
-    if (format != TextFormat::csv && (options.axis_units || !options.columns.empty())) {
-        throw InputError(path + " is no CSV file: --columns and units of single axes are for these");
-    }
+    refuse_options_of_other_formats(path, options, format);
     LineReader file(path);
     try {
         switch (format) {
@@ -168,7 +170,7 @@ Packing read_text(const std::string& path, TextFormat format, const ImportOption
 }
 
 void write_text(const std::string& path, TextFormat format, const Packing& packing, const std::optional<ContactNetwork>& bonds,
-                bool overwrite, const std::vector<Frame>& earlier, double time) {
+                bool overwrite, const std::vector<Frame>& earlier, double time, bool dump_units) {
     check_output(path, overwrite);
     check(packing);
     const Trajectory run{packing, earlier, time};
@@ -183,7 +185,7 @@ void write_text(const std::string& path, TextFormat format, const Packing& packi
             }
             return write_file(path, lammps_text(packing, bonds), overwrite);
         case TextFormat::lammps_dump:
-            return write_file(path, dump_text(run), overwrite);
+            return write_file(path, dump_text(run, dump_units), overwrite);
     }
 }
 

@@ -46,21 +46,21 @@ void LineReader::fail(const std::string& rule) const {
     throw InputError(path_ + ", line " + std::to_string(number_) + ": " + rule);
 }
 
+void LineReader::return_to(const Place& place) {
+    rest_ = place.rest;
+    line_ = place.line;
+    number_ = place.number;
+}
+
 double LineReader::number_in(std::string_view field, std::string_view what) const {
-    field = trim(field);
-    std::string_view digits = field;
-    if (digits.starts_with('+') && !digits.starts_with("+-")) {
-        digits.remove_prefix(1);
+    const std::optional<double> value = read_number(trim(field));
+    if (!value) {
+        fail(std::string(what) + " is '" + std::string(trim(field)) + "', which is not a number");
     }
-    double value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size()) {
-        fail(std::string(what) + " is '" + std::string(field) + "', which is not a number");
+    if (!std::isfinite(*value)) {
+        fail(std::string(what) + " is '" + std::string(trim(field)) + "', but must be finite");
     }
-    if (!std::isfinite(value)) {
-        fail(std::string(what) + " is '" + std::string(field) + "', but must be finite");
-    }
-    return value;
+    return *value;
 }
 
 std::size_t LineReader::count_in(std::string_view field, std::string_view what) const {
@@ -70,6 +70,31 @@ std::size_t LineReader::count_in(std::string_view field, std::string_view what) 
         fail(std::string(what) + " is '" + std::string(field) + "', which is not a whole number");
     }
     return value;
+}
+
+std::optional<double> read_number(std::string_view text) {
+    if (text.starts_with('+') && !text.starts_with("+-")) {
+        text.remove_prefix(1);
+    }
+    std::string with_e;
+    if (const std::size_t exponent = text.find_first_of("dD"); exponent != std::string_view::npos) {
+        with_e = text;
+        with_e[exponent] = 'e';
+        text = with_e;
+    }
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole_text = error == std::errc{} && end == text.data() + text.size();
+    return whole_text ? std::optional(value) : std::nullopt;
+}
+
+bool is_whole_number(std::string_view text) {
+    if (text.starts_with('+') && !text.starts_with("+-")) {
+        text.remove_prefix(1);
+    }
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
 }
 
 std::string_view trim(std::string_view text) {

@@ -20,6 +20,16 @@ public:
     bool next();
     /// Moves to the next line that is not blank.
     bool next_filled();
+
+    /// A place in the file to which a reader can return.
+    struct Place {
+        std::string_view rest;
+        std::string_view line;
+        std::size_t number = 0;
+    };
+    Place place() const { return {rest_, line_, number_}; }
+    void return_to(const Place& place);
+
     std::string_view line() const { return line_; }
     std::size_t number() const { return number_; }
     const std::string& path() const { return path_; }
@@ -38,6 +48,11 @@ private:
     std::string_view line_;
     std::size_t number_ = 0;
 };
+
+/// The whole text as a number, which may be infinite; exponents begin with e or, as Fortran writes them, with d.
+std::optional<double> read_number(std::string_view text);
+/// The whole text as a number without a fraction, which may be negative.
+bool is_whole_number(std::string_view text);
 
 std::string_view trim(std::string_view text);
 std::string lower_case(std::string_view text);
@@ -86,6 +101,9 @@ private:
 
 /// Applies the options (radius, box, open, wrap) and checks the packings. Throws InputError or std::invalid_argument.
 Structure finish(const std::string& path, const std::vector<RawPacking>& frames, const ImportOptions& options);
+
+/// Throws InputError when an option is given that belongs to another format than this one.
+void refuse_options_of_other_formats(const std::string& path, const ImportOptions& options, std::optional<TextFormat> format);
 
 std::vector<RawPacking> read_csv(LineReader& file, const ImportOptions& options);
 std::vector<RawPacking> read_extended_xyz(LineReader& file, const ImportOptions& options);

@@ -124,7 +124,9 @@ TEST_F(BadStructure, DamagedBytesNeverCrash) {
 
 TEST_F(BadStructure, MissingObjects) {
     EXPECT_EQ(after([](hid_t id) { remove(id, "/particles/trajectory/radius"); }),
-              path_ + ": /particles/trajectory/radius is missing: without radii this is not a packing of spheres");
+              path_ +
+                  ": /particles/trajectory/radius is missing: without radii this is not a packing of spheres; coagula import "
+                  "takes them from --radius");
     EXPECT_EQ(after([](hid_t id) { remove(id, "/particles/trajectory/position/value"); }),
               path_ + ": /particles/trajectory/position/value is missing");
     EXPECT_EQ(after([](hid_t id) { remove(id, "/particles/trajectory/position"); }),
@@ -196,7 +198,10 @@ TEST_F(BadStructure, CoincidentParticles) {
 
 TEST_F(BadStructure, BadUnitsAndTypes) {
     const std::string position = "/particles/trajectory/position/value";
-    EXPECT_EQ(after([&](hid_t id) { replace(id, position, {1, 8, 3}, 1, ""); }), path_ + ": " + position + " carries no unit");
+    EXPECT_EQ(after([&](hid_t id) {
+                  replace(id, position, {1, 8, 3}, 1, "");
+              }),
+              path_ + ": " + position + " carries no unit; coagula import takes it from --length-unit");
     EXPECT_EQ(after([&](hid_t id) {
                   replace(id, position, {1, 8, 3}, 1, "px");
               }),

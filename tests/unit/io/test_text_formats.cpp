@@ -88,6 +88,49 @@ TEST_F(TextFormats, CsvWithSemicolonsInALocaleWithCommas) {
     }
 }
 
+TEST_F(TextFormats, ColumnsOfOtherPrograms) {
+    const Eigen::Matrix3Xd expected = (Eigen::Matrix3Xd(3, 2) << 1.5, 4.5, 2.5, 5.5, 3.5, 6.5).finished() * 1e-6;
+    ImportOptions options;
+    options.box = box;
+    options.length_unit = 1e-6;
+    for (const std::string text :
+         {"x y z radius\n1.5 2.5 3.5 0.5\n4.5 5.5 6.5 0.5\n", "x\ty\tz\tr\n1.5\t2.5\t3.5\t0.5\n4.5\t5.5\t6.5\t0.5\n",
+          "  x   y \t z   r \n  1.5   2.5  3.5 \t 0.5\n  4.5   5.5 6.5 0.5\n", "# x y z r\n1.5 2.5 3.5 0.5\n4.5 5.5 6.5 0.5\n",
+          "#x_y_z_r\n1.5\t2.5\t3.5\t0.5\n4.5\t5.5\t6.5\t0.5\n", "#format x_y_z_r\n# of today\n1.5 2.5 3.5 0.5\n4.5 5.5 6.5 0.5\n",
+          "# x, y, z, r\n1.5,2.5,3.5,0.5\n4.5,5.5,6.5,0.5\n", "# x y z r\n1.5,2.5,3.5,0.5\n4.5,5.5,6.5,0.5\n",
+          "###\n#\n# x (um) y (um) z (um) r (um)\n1.5 2.5 3.5 0.5\n4.5 5.5 6.5 0.5\n",
+          "x [um] y [um] z [um] r [nm]\n1.5 2.5 3.5 500\n4.5 5.5 6.5 500\n", "x;y;z;r\n1,5;2,5;3,5;0,5\n4,5;5,5;6,5;0,5\n",
+          "x [um];y [um];z [um];r [um]\n1,5;2,5;3,5;5E-1\n4,5;5,5;6,5;0,5\n",
+          "x\ty\tz\tr\n1,5\t2,5\t3,5\t0,5\n4,5\t5,5\t6,5\t0,5\n", "x y z r\n1,5 2,5 3,5 0,5\n4,5 5,5 6,5 0,5\n",
+          "# x;y;z;r\n1,5;2,5;3,5;0,5\n4,5;5,5;6,5;0,5\n", "x,y,z,r\n1.5D+00,0.25d1,3.5D0,5D-1\n4.5,5.5,6.5,0.5\n",
+          "x;y;z;r\n1,5D+00;2,5;3,5;0,5\n4,5;5,5;6,5;0,5\n"}) {
+        const Packing found = read_text(write("a.csv", text), TextFormat::csv, options);
+        EXPECT_TRUE(found.positions.isApprox(expected, 1e-14)) << text;
+        EXPECT_TRUE(found.radii.isApprox(Eigen::Vector2d::Constant(5e-7), 1e-14)) << text;
+    }
+}
+
+TEST_F(TextFormats, DecimalCommasAndPointsAreNotMixed) {
+    for (const std::string text :
+         {"x;y;z\n1,5;2,5;3.5\n", "x;y;z\n1.5;2.5;3\n1,5;2;3\n", "x;y;z\n1.234,5;2;3\n", "x y z\n1,5 2.5 3\n"}) {
+        ImportOptions options = in_box();
+        options.length_unit = 1e-6;
+        EXPECT_NE(sentence<InputError>([&] {
+                      read_text(write("a.csv", text), TextFormat::csv, options);
+                  }).find("but the file has decimal commas and decimal points"),
+                  std::string::npos)
+            << text;
+    }
+}
+
+TEST_F(TextFormats, CommentsWithoutAHeaderStayComments) {
+    const std::string path = write("a.csv", "# measured on Monday\n# by us\n1 2 3 4\n");
+    EXPECT_EQ(sentence<InputError>([&] { read_text(path, TextFormat::csv, in_box()); }),
+              path +
+                  ", line 3: there is no column x among 1 2 3 4; the first line must be a header that names x, y and z, or give "
+                  "--columns x=HEADING");
+}
+
 TEST_F(TextFormats, LengthUnitForColumnsWithout) {
     const std::string path = write("a.csv", "x,y,z [nm],r\n1,2,3000,0.5\n");
     ImportOptions options;
@@ -180,7 +223,7 @@ TEST_F(TextFormats, BadFilesNameLineAndRule) {
         {TextFormat::lammps_data, "t, units = si\n2 atoms\nAtoms # atomic\n\n1 1 1 1 1\n",
          ", line 5: the file ends after 1 of 2 atoms"},
         {TextFormat::lammps_data, "t, units = si\n1 atoms\nAtoms # full\n\n1 1 1 1 1\n",
-         ", line 5: the atom style 'full' is not one of sphere, atomic, bond, hybrid sphere, hybrid sphere bond"},
+         ", line 5: there are 5 columns, but atom style full has 7 (and three image flags)"},
         {TextFormat::lammps_data, "t, units = si\n1 atoms\nAtoms # atomic\n\n1 1 1 1\n",
          ", line 5: there are 4 columns, but atom style atomic has 5 (and three image flags)"},
         {TextFormat::lammps_data, "t, units = si\n2 atoms\nAtoms # atomic\n\n1 1 1 1 1\n1 1 2 2 2\n",
@@ -231,6 +274,84 @@ TEST_F(TextFormats, ReadsXyzOfOthers) {
     EXPECT_TRUE(found.positions.isApprox((Eigen::Matrix3Xd(3, 2) << 1, 4, 2, 5, 3, 6).finished() * 1e-10, 1e-15));
     EXPECT_TRUE(found.radii.isApprox(Eigen::Vector2d(0.5, 0.25) * 1e-10, 1e-15));
     EXPECT_TRUE(found.cell.lengths().isApprox(Eigen::Vector3d(10, 20, 30) * 1e-10, 1e-15));
+}
+
+TEST_F(TextFormats, ExtendedXyzInEverySpelling) {
+    const std::string atoms = "\nA 1 1 1 0.3\nA 2 2 2D0 0.3\n";
+    ImportOptions options;
+    options.length_unit = 1e-6;
+    for (const std::string comment :
+         {R"(Lattice="5 0 0 0 6 0 0 0 7" Properties=species:S:1:pos:R:3:radius:R:1)",
+          R"(Lattice = "5 0 0 0 6 0 0 0 7" Properties = species:S:1:pos:R:3:radius:R:1 pbc = "T T T")",
+          R"(Lattice='5 0 0 0 6 0 0 0 7' Properties='species:S:1:pos:R:3:radius:R:1' pbc='True True True')",
+          R"(Lattice=[[5.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 7.0]] Properties=species:S:1:pos:R:3:radius:R:1 pbc=[T, T, T])",
+          R"(Lattice=[ [ 5, 0, 0 ],[0, 6, 0],[0,0,7] ] pbc=[True, TRUE, true] Properties=species:S:1:pos:R:3:radius:R:1)",
+          R"(lattice={5 0 0 0 6 0 0 0 7} pbc={T T T} properties=species:S:1:pos:R:3:radius:R:1)",
+          R"(pbc="[T, T, T]" Lattice="5,0,0,0,6,0,0,0,7" Properties=species:S:1:pos:R:3:radius:R:1)",
+          R"(pbc=T Lattice="5 0 0 0 6 0 0 0 7" name="a \"quoted\" word" Properties=species:S:1:pos:R:3:radius:R:1)",
+          R"(a remark, it's free pbc="1 1 1" Lattice	=	"5 0 0 0 6 0 0 0 7" Properties=species:S:1:pos:R:3:radius:R:1)"}) {
+        const Packing found = read_text(write("a.xyz", "2\n" + comment + atoms), TextFormat::extended_xyz, options);
+        EXPECT_TRUE(found.cell.is_periodic()) << comment;
+        EXPECT_TRUE(found.cell.lengths().isApprox(Eigen::Vector3d(5e-6, 6e-6, 7e-6))) << comment;
+        EXPECT_TRUE(found.positions.isApprox((Eigen::Matrix3Xd(3, 2) << 1, 2, 1, 2, 1, 2).finished() * 1e-6, 1e-14)) << comment;
+        EXPECT_TRUE(found.radii.isApprox(Eigen::Vector2d::Constant(3e-7), 1e-14)) << comment;
+    }
+    for (const std::string flags : {"\"False False False\"", "[F, F, F]", "false", "\"0 0 0\""}) {
+        const std::string path = write("a.xyz", "1\nLattice=\"5 0 0 0 6 0 0 0 7\" pbc=" + flags + "\nA 1 1 1\n");
+        options.radius = 1e-7;
+        EXPECT_FALSE(read_text(path, TextFormat::extended_xyz, options).cell.is_periodic()) << flags;
+    }
+}
+
+TEST_F(TextFormats, OriginOfAPeriodicBoxIsATranslation) {
+    const std::string path =
+        write("a.xyz",
+              "2\nLattice=\"5 0 0 0 6 0 0 0 7\" Origin=\"-2.5 -3 10\" Properties=species:S:1:pos:R:3:radius:R:1\n"
+              "A -2.5 0 16 0.3\nA 2 -3 10.5 0.3\n");
+    ImportOptions options;
+    options.length_unit = 1e-6;
+    const Packing found = read_text(path, TextFormat::extended_xyz, options);
+    EXPECT_TRUE(found.positions.isApprox((Eigen::Matrix3Xd(3, 2) << 0, 4.5, 3, 0, 6, 0.5).finished() * 1e-6, 1e-12));
+    EXPECT_EQ(found.cell.origin(), Eigen::Vector3d::Zero());
+}
+
+TEST_F(TextFormats, ExtendedXyzThatDoesNotEnd) {
+    for (const auto& [comment, rule] : {std::pair{"Lattice=\"5 0 0", "quotation mark \""},
+                                        {"Lattice='5 0 0", "quotation mark '"},
+                                        {"Lattice=[[5, 0, 0]", "bracket"},
+                                        {"pbc=\"T T\" Lattice=\"5 0 0 0 6 0 0 0 7\"", "pbc must be"},
+                                        {"pbc=[T, T, maybe] Lattice=\"5 0 0 0 6 0 0 0 7\"", "pbc must be"},
+                                        {"Origin=\"1 2\" Lattice=\"5 0 0 0 6 0 0 0 7\"", "Origin must have three numbers"}}) {
+        const std::string path = write("a.xyz", "1\nlength_unit=um " + std::string(comment) + "\nA 1 1 1\n");
+        EXPECT_NE(sentence<InputError>([&] { read_text(path, TextFormat::extended_xyz, in_box()); }).find(rule), std::string::npos)
+            << comment;
+    }
+}
+
+TEST_F(TextFormats, PackingsOfOtherPrograms) {
+    const std::filesystem::path data = std::filesystem::path(COAGULA_DATASETS) / "foreign_structures";
+    ImportOptions options;
+    options.length_unit = 1e-6;
+    const auto reading = [&](const char* name, TextFormat format) { return read_text((data / name).string(), format, options); };
+    const Packing reference = reading("x_ref.xyz", TextFormat::extended_xyz);
+    EXPECT_EQ(reference.size(), 120);
+    for (const char* name : {"x_True.xyz", "x_list.xyz", "x_latlist.xyz"}) {
+        const Packing found = reading(name, TextFormat::extended_xyz);
+        EXPECT_EQ(found.positions, reference.positions) << name;
+        EXPECT_EQ(found.cell.lengths(), reference.cell.lengths()) << name;
+        EXPECT_TRUE(found.cell.is_periodic()) << name;
+    }
+    for (const char* name : {"blanks_around_equals.xyz", "single_quotes.xyz"}) {
+        const Packing found = reading(name, TextFormat::extended_xyz);
+        EXPECT_TRUE(found.cell.lengths().isApprox(Eigen::Vector3d::Constant(5e-6))) << name;
+        EXPECT_TRUE(found.radii.isApprox(Eigen::Vector2d::Constant(3e-7))) << name;
+    }
+    options.box = Eigen::Vector3d(8e-6, 9e-6, 10e-6);
+    for (const char* name : {"y_space.csv", "y_yade.csv", "y_yade.txt"}) {
+        const Packing found = reading(name, TextFormat::csv);
+        EXPECT_TRUE(found.positions.isApprox(reference.positions, 1e-8)) << name;
+        EXPECT_EQ(found.radii, reference.radii) << name;
+    }
 }
 
 TEST_F(TextFormats, ReadsLammpsOfOthers) {

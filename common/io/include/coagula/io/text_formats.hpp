@@ -39,6 +39,7 @@ struct ImportOptions {
     std::map<std::string, std::string> columns =
         {};                                 ///< of a CSV file: its heading for "x", "y", "z", "radius", "diameter", "frame"
     std::optional<FrameChoice> frame = {};  ///< the last when not given
+    std::string atom_style = {};            ///< of LAMMPS data that do not name theirs, such as "full" or "hybrid sphere bond"
     bool wrap = false;                      ///< bring positions outside the box back in; otherwise they are an error
 };
 
@@ -46,7 +47,8 @@ struct ImportOptions {
 ///
 /// CSV: a header with columns x, y, z and optionally radius (or r, rad) or diameter, each with its unit in brackets ("x [um]");
 /// other columns are ignored. Extended XYZ: Lattice (orthorhombic), Properties with pos and optionally radius or diameter. LAMMPS
-/// data: Atoms of style sphere, atomic or bond. LAMMPS dump: x y z, unwrapped or scaled, and optionally radius or diameter.
+/// data: Atoms of a style that the file or the options name, or that the columns leave no doubt about. LAMMPS dump: x y z,
+/// unwrapped or scaled, and optionally radius or diameter.
 ///
 /// Of several frames the last one is taken unless the options say otherwise; a CSV file with a column frame that holds several is
 /// refused unless they do. With all frames the last one is the packing and the others are `earlier`; they must have the same box
@@ -58,9 +60,10 @@ Packing read_text(const std::string& path, TextFormat format, const ImportOption
 
 /// Writes a packing (and the bonds, where the format has them: LAMMPS data) through a temporary file and a rename.
 /// CSV carries units in the header (m); extended XYZ is in m with a comment; LAMMPS data is in SI units, atom_style hybrid sphere
-/// bond (or sphere); LAMMPS dump is in SI units. Frames of `earlier` come first, with `time` that of the packing; LAMMPS data
-/// cannot hold them (InputError).
+/// bond (or sphere); LAMMPS dump is in SI units, which it names, with the times, by `dump_units` only: not all programs that read
+/// dumps know these lines. Frames of `earlier` come first, with `time` that of the packing; LAMMPS data cannot hold them
+/// (InputError).
 void write_text(const std::string& path, TextFormat format, const Packing& packing, const std::optional<ContactNetwork>& bonds,
-                bool overwrite, const std::vector<Frame>& earlier = {}, double time = 0);
+                bool overwrite, const std::vector<Frame>& earlier = {}, double time = 0, bool dump_units = false);
 
 }  // namespace coagula::io
