@@ -89,7 +89,7 @@ function(coagula_install_package)
   write_basic_package_version_file("${PROJECT_BINARY_DIR}/coagulaConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
   install(FILES "${PROJECT_BINARY_DIR}/coagulaConfig.cmake" "${PROJECT_BINARY_DIR}/coagulaConfigVersion.cmake"
     "${PROJECT_SOURCE_DIR}/cmake/FindRandom123.cmake" "${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake"
-    "${PROJECT_SOURCE_DIR}/cmake/FindFreeXL.cmake" "${PROJECT_SOURCE_DIR}/cmake/FindMUMPS.cmake"
+    "${PROJECT_SOURCE_DIR}/cmake/FindFreeXL.cmake" "${PROJECT_SOURCE_DIR}/cmake/FindMinizip.cmake" "${PROJECT_SOURCE_DIR}/cmake/FindMUMPS.cmake"
     "${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake"
     DESTINATION ${folder} COMPONENT common)
 endfunction()

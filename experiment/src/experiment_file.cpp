@@ -328,11 +328,14 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         const std::string label = label_of(file, *chosen, name);
         const io::PlainTable named = with_names(keys, *chosen, rules, label);
         diagnose::Measurement measurement = in_setting(setting, to_measurement(named, *kind, label, rules));
-        place_in_range(measurement, *chosen, *tables.front());
+        place_in_range(measurement, *chosen, *tables.front(), selection.first == 1);
         select(measurement, selection);
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +
                                     " points, but has " + std::to_string(chosen->rows()));
+        }
+        for (const std::string& heading : ignored_columns(named, *kind, rules)) {
+            result_.notes.push_back(label + ": the column " + heading + " names no unit and is not used");
         }
         if (raw) {
             raw_moduli_.push_back(result_.experiment.measurements.size());

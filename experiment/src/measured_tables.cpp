@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 namespace coagula::experiment {
 
@@ -14,6 +16,42 @@ namespace {
 
 bool has_numbers(const io::PlainColumn& column) {
     return std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// The unit in "Gp [Pa]" for a column "Gp" that has none.
+std::string added_unit(const io::PlainColumn& column, const std::string& heading) {
+    const std::string before = column.heading + " [";
+    const bool adds = column.unit.empty() && heading.starts_with(before) && heading.ends_with(']');
+    return adds ? heading.substr(before.size(), heading.size() - before.size() - 1) : "";
+}
+
+bool is_named(const io::PlainColumn& column, const std::string& heading) {
+    return column.heading == heading || column.heading + " [" + column.unit + "]" == heading || !added_unit(column, heading).empty();
+}
+
+bool names_it(const std::map<std::string, std::string>& headings, const io::PlainColumn& column) {
+    return std::any_of(headings.begin(), headings.end(), [&](const auto& entry) { return is_named(column, entry.second); });
+}
+
+bool is_pure_number(std::string_view quantity) {
+    return quantity == "loss_tangent" || quantity == "coordination" || quantity == "heterogeneity" || quantity == "structure" ||
+           quantity == "frame" || quantity == "exclusion_probability";
+}
+
+/// Whether a column without a unit can be done without.
+bool is_ignored(const io::PlainTable& table, const io::PlainColumn& column, diagnose::MeasurementKind kind,
+                const ColumnRules& rules) {
+    const auto is_one_of = [&](std::initializer_list<const char*> names) {
+        return std::any_of(names.begin(), names.end(), [&](const char* name) { return column.quantity == name; });
+    };
+    const bool lacks_unit = column.unit.empty() && !is_pure_number(column.quantity) && !names_it(rules.headings, column) &&
+                            !names_it(rules.standard_errors, column);
+    const bool moduli = diagnose::has_moduli(kind) &&
+                        std::any_of(table.columns.begin(), table.columns.end(), [](const io::PlainColumn& other) {
+                            return other.quantity == "storage_modulus" && !other.unit.empty() && has_numbers(other);
+                        });
+    const bool repeats = is_one_of({"torque", "deflection", "raw_phase", "phase", "complex_modulus", "complex_viscosity", "stress"});
+    return lacks_unit && (is_one_of({"temperature", "normal_force", "rattler_fraction"}) || (moduli && repeats));
 }
 
 /// Builds one measurement.
@@ -51,8 +89,7 @@ private:
     /// Also with its unit, "G' [Pa]".
     std::size_t find_heading(const std::string& heading) const {
         for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-            const io::PlainColumn& column = table_.columns[i];
-            if (column.heading == heading || column.heading + " [" + column.unit + "]" == heading) {
+            if (is_named(table_.columns[i], heading)) {
                 return i;
             }
         }
@@ -81,7 +118,10 @@ private:
         }
         std::optional<std::size_t> found;
         for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-            if (table_.columns[i].quantity == quantity && !is_claimed(i) && (!found || is_meant_rather(i, *found))) {
+            const io::PlainColumn& column = table_.columns[i];
+            const bool means_it = column.quantity == quantity && !is_claimed(i) &&
+                                  !is_ignored(table_, column, measurement_.kind, rules_);
+            if (means_it && (!found || is_meant_rather(i, *found))) {
                 found = i;
             }
         }
@@ -102,33 +142,35 @@ private:
                std::any_of(rules_.standard_errors.begin(), rules_.standard_errors.end(), claims);
     }
 
-    std::vector<double> in_si(const io::PlainColumn& column, const diagnose::Quantity& quantity) const {
+    /// @param rules where the experiment file may name the column.
+    std::vector<double> in_si(const io::PlainColumn& column, const diagnose::Quantity& quantity,
+                              const std::map<std::string, std::string>& rules) const {
         const std::string name = "column '" + column.heading + "'";
-        const bool may_lack_unit = quantity.name == "loss_tangent" || quantity.name == "coordination" ||
-                                   quantity.name == "heterogeneity" || quantity.name == "structure" || quantity.name == "frame" ||
-                                   quantity.name == "exclusion_probability";
-        if (column.unit.empty() && !may_lack_unit) {
-            fail(name + " names no unit; it must be one that converts into " + std::string(quantity.unit) + ", such as '" +
-                 column.heading + " [" + std::string(quantity.unit) + "]'");
+        const auto rule = rules.find(std::string(quantity.name));
+        const std::string unit =
+            column.unit.empty() && rule != rules.end() ? added_unit(column, rule->second) : column.unit;
+        if (unit.empty() && !is_pure_number(quantity.name)) {
+            fail(name + " names no unit; it must be one that converts into " + std::string(quantity.unit) +
+                 ": write it into the file or into the experiment file, columns = { " + std::string(quantity.name) + " = \"" +
+                 column.heading + " [" + std::string(quantity.unit) + "]\" }");
         }
         // An angular frequency is often given in 1/s, its radian left out.
-        const bool radian_left_out =
-            quantity.unit == "rad/s" && (column.unit == "1/s" || column.unit == "s^-1" || column.unit == "s-1");
-        if (column.unit.empty() || radian_left_out) {
+        const bool radian_left_out = quantity.unit == "rad/s" && (unit == "1/s" || unit == "s^-1" || unit == "s-1");
+        if (unit.empty() || radian_left_out) {
             return column.values;
         }
         try {
-            return io::convert(column.values, column.unit, std::string(quantity.unit));
+            return io::convert(column.values, unit, std::string(quantity.unit));
         } catch (const InputError& error) {
             fail(name + ": " + error.what());
         }
     }
 
     void add_column(const diagnose::Quantity& quantity, std::size_t index) {
-        diagnose::Column column{std::string(quantity.name), std::string(quantity.unit), in_si(table_.columns[index], quantity)};
+        diagnose::Column column{std::string(quantity.name), std::string(quantity.unit), in_si(table_.columns[index], quantity, rules_.headings)};
         const auto error = rules_.standard_errors.find(column.name);
         if (error != rules_.standard_errors.end()) {
-            column.standard_errors = in_si(table_.columns[find_heading(error->second)], quantity);
+            column.standard_errors = in_si(table_.columns[find_heading(error->second)], quantity, rules_.standard_errors);
         }
         for (const io::UnreadableCell& cell : table_.unreadable) {
             if (cell.column == index) {
@@ -185,12 +227,19 @@ private:
 std::vector<std::string> not_understood(const io::PlainTable& table, const ColumnRules& rules) {
     std::vector<std::string> headings;
     for (const io::PlainColumn& column : table.columns) {
-        const std::string heading = column.heading + (column.unit.empty() ? "" : " [" + column.unit + "]");
-        const auto names_it = [&](const auto& entry) { return entry.second == column.heading || entry.second == heading; };
-        const bool named = std::any_of(rules.headings.begin(), rules.headings.end(), names_it) ||
-                           std::any_of(rules.standard_errors.begin(), rules.standard_errors.end(), names_it);
-        if (column.quantity.empty() && !named && has_numbers(column)) {
-            headings.push_back("'" + heading + "'");
+        if (column.quantity.empty() && has_numbers(column) && !names_it(rules.headings, column) &&
+            !names_it(rules.standard_errors, column)) {
+            headings.push_back("'" + column.heading + (column.unit.empty() ? "" : " [" + column.unit + "]") + "'");
+        }
+    }
+    return headings;
+}
+
+std::vector<std::string> ignored_columns(const io::PlainTable& table, diagnose::MeasurementKind kind, const ColumnRules& rules) {
+    std::vector<std::string> headings;
+    for (const io::PlainColumn& column : table.columns) {
+        if (has_numbers(column) && is_ignored(table, column, kind, rules)) {
+            headings.push_back("'" + column.heading + "'");
         }
     }
     return headings;

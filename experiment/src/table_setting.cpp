@@ -62,10 +62,11 @@ diagnose::Measurement in_setting(diagnose::Measurement setting, diagnose::Measur
     return setting;
 }
 
-void place_in_range(diagnose::Measurement& measurement, const io::PlainTable& chosen, const io::PlainTable& first) {
+void place_in_range(diagnose::Measurement& measurement, const io::PlainTable& chosen, const io::PlainTable& first,
+                    bool from_first_row) {
     measurement.run_order += chosen.number - first.number;
     if (std::isnan(measurement.start) && std::isnan(measurement.pause) && !measurement.shared_clock) {
-        measurement.start = chosen.date;
+        measurement.start = from_first_row ? chosen.date : unset;
     } else if (&chosen != &first) {
         measurement.start = unset;
     }

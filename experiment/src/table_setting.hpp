@@ -17,7 +17,8 @@ diagnose::Measurement read_setting(TomlKeys& keys, std::size_t number);
 diagnose::Measurement in_setting(diagnose::Measurement setting, diagnose::Measurement table);
 
 /// Order and start of a table that was chosen as one of a range: it follows the first of them, which alone begins at the start
-/// that is stated. Where no time is stated, each begins at the date that its export says.
-void place_in_range(diagnose::Measurement& measurement, const io::PlainTable& chosen, const io::PlainTable& first);
+/// that is stated. Where no time is stated, each begins at the date that its export says, unless rows before it are not meant.
+void place_in_range(diagnose::Measurement& measurement, const io::PlainTable& chosen, const io::PlainTable& first,
+                    bool from_first_row);
 
 }  // namespace coagula::experiment

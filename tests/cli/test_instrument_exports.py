@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 LINSEED = DATA / "rheodata_toolkit/anton_paar/gwens_data/Steady State Viscosity Curve-35C.csv"
 GELS = DATA / "deforest_hydrogels"
 JSON = DATA / "trios_lims_json/tadatakit/dataset.json"
+XML = "rheodata_toolkit/anton_paar/gwens_data/Steady State Viscosity Curve-LO80C_xml.xml"
 JAPANESE = DATA / "rheoplus_japanese/datafile.csv"
 
 
@@ -49,13 +50,15 @@ class NewExperiment(ProgramTest):
         self.assertEqual((taken["inner_radius"]["value"], taken["inner_radius"]["unit"]), (0.014, "m"))
         self.assertEqual({value["fate"] for value in taken.values()}, {"taken over"})
 
-    def test_what_cannot_be_diagnosed_is_said(self):
+    def test_what_cannot_be_diagnosed_is_refused(self):
         creep = DATA / "trios_lims_json/creep_experiment.txt"
-        self.succeed("diagnose", "--new", creep, "-o", "e.toml")
-        text = (self.folder / "e.toml").read_text()
-        self.assertIn("None of these tables can be diagnosed", text)
-        self.fail_with(2, "diagnose", "--check", "e.toml", says="there is no measurement")
-        self.fail_with(2, "diagnose", "--new", creep, "-o", "e.toml", says="e.toml")  # is there already
+        for options in ((), ("--json",), ("-o", "e.toml")):
+            self.fail_with(2, "diagnose", "--new", creep, *options, says=("creep_experiment.txt: the table cannot be diagnosed as it is: table 1: a flow curve",
+                                                                          "there is no storage modulus"))
+        self.fail_with(2, "diagnose", "--new", creep, DATA / "drilling_suspensions/RheogramSet.txt", "-o", "e.toml",
+                       says=("none of the 386 tables can be diagnosed as it is", "table 1 of ", "; ..."))
+        self.succeed("diagnose", "--new", creep, JAPANESE, "-o", "e.toml")  # one that can be used is enough
+        self.fail_with(2, "diagnose", "--new", JAPANESE, "-o", "e.toml", says="e.toml")  # is there already
 
     def test_flow_curves_are_of_an_oil(self):
         self.assertEqual(self.accepted(LINSEED), 12 * ["flow-curve"])
@@ -81,7 +84,7 @@ class NewExperiment(ProgramTest):
     def test_bad_input(self):
         self.fail_with(2, "diagnose", "--new", says="needs EXPERIMENT.toml")
         self.fail_with(2, "diagnose", "--new", "absent.csv", says="absent.csv")
-        self.fail_with(2, "diagnose", "--new", DATA / "blood_steps/SS.xlsx", says="which is not read: export the measurement as text")
+        self.fail_with(2, "diagnose", "--new", DATA / XML, says="which is not read: export the measurement as text")
         self.fail_with(2, "diagnose", "--new", "--check", JSON, says="--check has no meaning with --new")
         self.fail_with(2, "diagnose", JSON, JSON, says="takes one EXPERIMENT.toml")
 

@@ -23,7 +23,8 @@ Json table_json(const io::PlainTable& table, const RecognisedTable& what) {
                  {"section", table.section},
                  {"test", table.test},
                  {"result", table.title},
-                 {"rows", table.rows()},
+                 {"rows", rows_of(table, what)},
+                 {"first_row", std::max<std::size_t>(what.first, 1)},
                  {"kind", what.kind ? Json(diagnose::name_of(*what.kind)) : Json(nullptr)},
                  {"reason", what.reason},
                  {"columns", understood(table)},
@@ -42,16 +43,50 @@ Json file_json(const RecognisedFile& recognised) {
                  {"decimal_comma", recognised.file.decimal_comma},
                  {"tables", Json::array()},
                  {"instrument", Json::object()}};
-    std::size_t number = 0;
-    for (const io::PlainTable& table : recognised.file.tables) {
-        if (table.point == 0) {
-            json["tables"].push_back(table_json(table, recognised.tables[number++]));
-        }
+    for (const RecognisedTable& what : recognised.tables) {
+        json["tables"].push_back(table_json(recognised.file.tables[what.place], what));
     }
     for (const io::InstrumentValue& value : io::instrument_values(recognised.file)) {
         json["instrument"][value.name] = value.name == "geometry" ? Json(value.text) : Json(value.value);
     }
     return json;
+}
+
+/// How many of the tables are used, and how many of these without units in their file.
+struct Counts {
+    std::size_t all = 0;
+    std::size_t used = 0;
+    std::size_t assumed = 0;
+};
+
+Counts count(const std::vector<RecognisedFile>& files) {
+    Counts counts;
+    for (const RecognisedFile& file : files) {
+        for (const RecognisedTable& table : file.tables) {
+            ++counts.all;
+            counts.used += table.kind ? 1 : 0;
+            counts.assumed += table.kind && !table.rules.headings.empty() ? 1 : 0;
+        }
+    }
+    return counts;
+}
+
+/// No table can be used: why, of the first few.
+[[noreturn]] void refuse(const std::vector<RecognisedFile>& files, std::size_t all) {
+    constexpr std::size_t most_listed = 3;
+    std::string reasons;
+    std::size_t listed = 0;
+    for (const RecognisedFile& file : files) {
+        for (const RecognisedTable& table : file.tables) {
+            if (listed++ < most_listed) {
+                reasons += (reasons.empty() ? "" : "; ") + std::string("table ") + std::to_string(file.file.tables[table.place].number) +
+                           (files.size() > 1 ? " of " + file.file.path : "") + ": " + table.reason;
+            }
+        }
+    }
+    throw InputError((files.size() == 1 ? files.front().file.path + ": " : "") +
+                     (all == 1 ? "the table" : "none of the " + std::to_string(all) + " tables") + " can" + (all == 1 ? "not" : "") +
+                     " be diagnosed as it is: " + reasons + (all > most_listed ? "; ..." : ""));
 }
 
 }  // namespace
@@ -60,17 +95,16 @@ void run_new(const Arguments& arguments) {
     const std::string path = arguments.text("output", "");
     std::vector<RecognisedFile> files;
     Json json = {{"files", Json::array()}};
-    std::size_t used = 0;
-    std::size_t all = 0;
     for (const std::string& input : arguments.inputs()) {
         files.push_back(recognise(input));
         json["files"].push_back(file_json(files.back()));
-        all += files.back().tables.size();
-        used += static_cast<std::size_t>(std::count_if(files.back().tables.begin(), files.back().tables.end(),
-                                                       [](const RecognisedTable& table) { return table.kind.has_value(); }));
+    }
+    const Counts counts = count(files);
+    json["measurements"] = counts.used;
+    if (counts.used == 0) {
+        refuse(files, counts.all);
     }
     const std::string text = new_experiment(files, std::filesystem::path(path).parent_path().string());
-    json["measurements"] = used;
     json["experiment"] = text;
     if (path.empty()) {
         if (arguments.flag("json")) {
@@ -82,11 +116,15 @@ void run_new(const Arguments& arguments) {
         return;
     }
     io::write_file(path, text, arguments.flag("force"));
-    report(arguments, json,
-           {{"experiment", path},
-            {"measurements", std::to_string(used) + " of " + std::to_string(all) + " tables" +
-                                 (used < all ? "; the file says why the others are not used" : "")},
-            {"next", "coagula diagnose --check " + path}});
+    std::vector<std::pair<std::string, std::string>> lines = {
+        {"experiment", path},
+        {"measurements", std::to_string(counts.used) + " of " + std::to_string(counts.all) + " tables" +
+                             (counts.used < counts.all ? "; the file says why the others are not used" : "")}};
+    if (counts.assumed > 0) {
+        lines.emplace_back("units", "assumed for " + std::to_string(counts.assumed) + " tables whose file names none: check them");
+    }
+    lines.emplace_back("next", "coagula diagnose --check " + path);
+    report(arguments, json, lines);
 }
 
 }  // namespace coagula::tools

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -18,7 +19,7 @@ namespace {
 constexpr std::size_t longest_title = 1000;  ///< every table of a result carries it, and every line of a group
 
 /// Of the line that says when a measurement began: TRIOS, RheoPlus in English and Japanese, RheoWin.
-constexpr std::array<std::string_view, 4> date_keys = {"run date", "measuring date/time", "測定日/時間", "date / time / version"};
+constexpr std::array<std::string_view, 5> date_keys = {"run date", "measuring date/time", "測定日/時間", "date / time / version", "date"};
 
 std::string key_of(std::string_view cell) {
     cell = trim(cell);
@@ -78,6 +79,8 @@ private:
     void add_metadata(const std::string& key, const std::string& value);
     std::size_t read_table(const TableHead& head);
     bool ends_table(const std::vector<std::string>& row, const TableHead& head) const;
+    std::vector<std::string> aligned(std::size_t line, const TableHead& head) const;
+    static bool begins_point(const std::vector<std::string>& row, const TableHead& head);
     void check_row(std::size_t line, const TableHead& head, const std::vector<std::string>& cells) const;
     void keep(TableRows& rows, std::size_t first_line);
 
@@ -162,7 +165,7 @@ void ExportReader::read_line(std::size_t line) {
 void ExportReader::add_metadata(const std::string& key, const std::string& value) {
     file_.metadata.push_back({group_, key, value});
     if (std::find(date_keys.begin(), date_keys.end(), lower_case(key)) != date_keys.end()) {
-        date_ = seconds_of_date(value).value_or(unset);
+        date_ = seconds_of_date(value).value_or(date_);
     }
 }
 
@@ -179,12 +182,47 @@ bool ExportReader::ends_table(const std::vector<std::string>& row, const TableHe
                     : head.labels >= 2 && !label.empty();
 }
 
+bool begins_with_digit(const std::string& text) {
+    const std::size_t at = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+    return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+}
+
+/// A row whose empty first cell was lost, as where blanks at the beginnings of lines are trimmed, gets it back. Where more is missing,
+/// nobody can say which cells.
+std::vector<std::string> ExportReader::aligned(std::size_t line, const TableHead& head) const {
+    std::vector<std::string> row = cells_of(line);
+    if (!head.margin || !begins_with_digit(row.front())) {
+        return row;
+    }
+    if (row.size() + 1 < head.labels + head.named()) {
+        text_.fail(line, "there are " + std::to_string(row.size()) + " cells, but the headings name " +
+                             std::to_string(head.labels + head.named()) +
+                             ", and the first cell, which is empty in such exports, is not: cells at the beginnings of lines were "
+                             "lost; export the measurement again");
+    }
+    row.insert(row.begin(), "");
+    return row;
+}
+
+/// Whether a row is a point of its own, not a further sample of the waveform of the last one.
+bool ExportReader::begins_point(const std::vector<std::string>& row, const TableHead& head) {
+    if (head.labels > (head.margin ? 1 : 0)) {
+        return head.labels <= row.size() && !row[head.labels - 1].empty();
+    }
+    bool all_points = true;
+    for (std::size_t column = 0; column < head.waveform.size(); ++column) {
+        const std::size_t cell = head.labels + column;
+        if (!head.waveform[column] && cell < row.size() && !row[cell].empty()) {
+            return true;
+        }
+        all_points = all_points && !head.waveform[column];
+    }
+    return all_points;
+}
+
 /// A separator within numbers, such as that of thousands, moves the cells behind it away from their headings.
 void ExportReader::check_row(std::size_t line, const TableHead& head, const std::vector<std::string>& cells) const {
-    std::size_t named = head.headings.size();
-    while (named > 0 && head.headings[named - 1].heading.empty()) {
-        --named;
-    }
+    const std::size_t named = head.named();
     for (std::size_t column = named; column < cells.size(); ++column) {
         if (!cells[column].empty()) {
             text_.fail(line, "there are " + std::to_string(head.labels + column + 1) + " cells, but the headings name " +
@@ -200,8 +238,8 @@ void ExportReader::keep(TableRows& rows, std::size_t first_line) {
         table.title = title_;
         table.section = section_;
         table.announced_points = table.point == 0 ? announced_ : 0;
-        table.first_line = first_line + 1;
-        table.date = std::exchange(date_, unset);
+        table.first_line = text_.number(first_line);
+        table.date = std::isnan(date_) ? table.date : std::exchange(date_, unset);
         file_.tables.push_back(std::move(table));
     }
 }
@@ -216,7 +254,7 @@ std::size_t ExportReader::read_table(const TableHead& head) {
     std::string series;  // of RheoWin: what stands before the bar in "2|17"
     std::size_t line = head.first_row;
     for (; line < text_.lines.size(); ++line) {
-        const std::vector<std::string> row = cells_of(line);
+        const std::vector<std::string> row = aligned(line, head);
         if (ends_table(row, head)) {
             break;
         }
@@ -233,7 +271,7 @@ std::size_t ExportReader::read_table(const TableHead& head) {
         const std::vector<std::string> cells = behind(row, head.labels);
         missing_.add(text_, line, head.headings.size(), cells.size());
         check_row(line, head, cells);
-        const bool new_point = head.labels == 0 || (head.labels <= row.size() && !row[head.labels - 1].empty());
+        const bool new_point = begins_point(row, head);
         if (!new_point && rows->points() == 0) {
             text_.fail(line, "the first line of an interval has no number of a point");
         }

@@ -3,6 +3,7 @@
 #include "text_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +15,8 @@ std::size_t filled(const std::vector<std::string>& cells) {
     return static_cast<std::size_t>(
         std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
 }
+
+constexpr std::array<std::string_view, 3> unit_marks = {" / ", " in ", " en "};  // between heading and unit
 
 bool is_waveform(const std::string& qualifier) {
     return qualifier == "Waveform" || qualifier == "Wellenform" || qualifier == "Forme d'onde";
@@ -104,6 +107,7 @@ std::optional<TableHead> HeadFinder::with_brackets_below() const {
         const auto first_unit = std::find_if(units.begin(), units.end(), [](const std::string& unit) { return !unit.empty(); });
         const auto labels = static_cast<std::size_t>(first_unit - units.begin());
         TableHead head = head_of(units, labels, next + 1);
+        head.margin = labels > 0 && cells_.front().ends_with(':');
         for (std::size_t column = 0; column < head.waveform.size() && labels + column < qualifiers.size(); ++column) {
             head.waveform[column] = is_waveform(qualifiers[labels + column]);
         }
@@ -115,25 +119,31 @@ std::optional<TableHead> HeadFinder::with_brackets_below() const {
     return std::nullopt;
 }
 
-/// RheoWin: ";omega / rad/s;G' / Pa;" or ";omega in rad/s;".
+/// RheoWin: ";omega / rad/s;G' / Pa;", ";omega in rad/s;" or "Nr-Seg;omega en rad/s;".
 std::optional<TableHead> HeadFinder::with_units_inside() const {
-    if (cells_.size() < 3 || !cells_.front().empty() || is_blank(cells_)) {
+    if (cells_.size() < 3 || is_blank(behind(cells_, 1))) {
         return std::nullopt;
     }
     TableHead head{{}, {}, 1, line_ + 1};
     for (const std::string& cell : behind(cells_, 1)) {
-        const std::string_view mark = cell.find(" / ") == std::string::npos ? " in " : " / ";
-        const std::size_t at = cell.find(mark);
-        if (at == std::string::npos && !cell.empty()) {
+        const auto* const mark = std::find_if(unit_marks.begin(), unit_marks.end(),
+                                              [&](std::string_view each) { return cell.find(each) != std::string::npos; });
+        if (mark == unit_marks.end() && !cell.empty()) {
             return std::nullopt;
         }
-        head.headings.push_back(cell.empty() ? HeadingWithUnit{} : heading(cell.substr(0, at), cell.substr(at + mark.size())));
+        const std::size_t at = cell.empty() ? 0 : cell.find(*mark);
+        head.headings.push_back(cell.empty() ? HeadingWithUnit{} : heading(cell.substr(0, at), cell.substr(at + mark->size())));
     }
     head.waveform.assign(head.headings.size(), false);
     return head;
 }
 
 }  // namespace
+
+std::size_t TableHead::named() const {
+    const auto last = std::find_if(headings.rbegin(), headings.rend(), [](const auto& one) { return !one.heading.empty(); });
+    return static_cast<std::size_t>(headings.rend() - last);
+}
 
 std::optional<TableHead> table_head_at(const MeasuredText& text, const ExportDialect& dialect, char separator, std::size_t line,
                                        bool in_section) {

@@ -16,6 +16,10 @@ struct TableHead {
     std::vector<bool> waveform;             ///< which columns hold samples of the waveform of a point
     std::size_t labels = 0;                 ///< cells before the first column; the last of them numbers the point
     std::size_t first_row = 0;              ///< line
+    bool margin = false;                    ///< the first label is a word beside the headings, below which cells are empty
+
+    /// Columns up to the last one with a heading.
+    std::size_t named() const;
 };
 
 /// The head of the table that begins in this line, if one does. `in_section`: a section has begun whose headings are still to come.

@@ -22,7 +22,6 @@ struct Container {
     std::string_view name;
 };
 constexpr std::array containers = {
-    Container{"PK\x03\x04", "an Excel workbook (.xlsx)"},
     Container{"<?xml", "XML"},
     Container{"\xef\xbb\xbf<?xml", "XML"},
     Container{"%PDF", "a PDF document"},
@@ -47,6 +46,41 @@ void number_tables(std::vector<PlainTable>& tables) {
     }
 }
 
+/// Tables that tell the time of day alone: the session began after the longest pause between them, so that what an earlier time tells
+/// was measured on the day after.
+void continue_after_midnight(std::vector<PlainTable>& tables) {
+    constexpr double day = 86400;
+    std::vector<double> times;
+    for (const PlainTable& table : tables) {
+        if (table.date < day) {
+            times.push_back(table.date);
+        }
+    }
+    std::sort(times.begin(), times.end());
+    double longest = times.empty() ? 0 : times.front() + day - times.back();
+    double first = times.empty() ? 0 : times.front();
+    for (std::size_t i = 1; i < times.size(); ++i) {
+        if (times[i] - times[i - 1] > longest) {
+            longest = times[i] - times[i - 1];
+            first = times[i];
+        }
+    }
+    for (PlainTable& table : tables) {
+        table.date += table.date < first ? day : 0;
+    }
+}
+
+MeasuredFile read_text(const std::string& path, const std::string& bytes) {
+    const MeasuredText text = measured_text(path, to_utf8(bytes));
+    if (std::any_of(text.lines.begin(), text.lines.end(),
+                    [](const std::string& line) { return line.find('\0') != std::string::npos; })) {
+        throw InputError(path + " is not a text file");
+    }
+    const auto* const reader =
+        std::find_if(readers.begin(), readers.end(), [&](const auto* each) { return each->recognises(text); });
+    return (*reader)->read(text);
+}
+
 }  // namespace
 
 std::string_view name_of(MeasuredFormat format) {
@@ -61,20 +95,9 @@ std::string_view name_of(MeasuredFormat format) {
 MeasuredFile read_measured_file(const std::string& path) {
     const std::string bytes = read_file(path);
     refuse_containers(path, bytes);
-    if (is_workbook(bytes)) {
-        MeasuredFile file = read_workbook(path);
-        number_tables(file.tables);
-        return file;
-    }
-    const MeasuredText text{path, split_lines(to_utf8(bytes))};
-    if (std::any_of(text.lines.begin(), text.lines.end(),
-                    [](const std::string& line) { return line.find('\0') != std::string::npos; })) {
-        throw InputError(path + " is not a text file");
-    }
-    const auto* const reader =
-        std::find_if(readers.begin(), readers.end(), [&](const auto* each) { return each->recognises(text); });
-    MeasuredFile file = (*reader)->read(text);
+    MeasuredFile file = is_workbook(bytes) ? read_workbook(path) : read_text(path, bytes);
     number_tables(file.tables);
+    continue_after_midnight(file.tables);
     return file;
 }
 
@@ -88,10 +111,8 @@ void name_columns(PlainTable& table, const std::vector<std::string>& names) {
     for (std::size_t column = 0; column < names.size(); ++column) {
         place[column] = kept.size();
         if (!names[column].empty()) {
-            HeadingWithUnit parts = split_heading(names[column]);
-            KnownHeading known = known_heading(parts.heading);
-            kept.push_back({std::move(parts.heading), std::move(known.quantity), std::move(parts.unit), known.rank,
-                            std::move(table.columns[column].values)});
+            kept.push_back(plain_column(split_heading(names[column])));
+            kept.back().values = std::move(table.columns[column].values);
         }
     }
     std::erase_if(table.unreadable, [&](const UnreadableCell& cell) { return names[cell.column].empty(); });

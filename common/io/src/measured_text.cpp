@@ -2,6 +2,9 @@
 
 #include "text_reader.hpp"
 
+#include <coagula/io/date_time.hpp>
+#include <coagula/io/units.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,9 +22,25 @@ constexpr double loss_tangent_limit = 20000;
 
 constexpr std::array status_headings = {"status", "statut", "etat", "état", "ステータス"};
 
+constexpr std::array clock_headings = {"time of day", "date time", "datetime", "date/time", "date and time", "timestamp",
+                                       "clock time",  "uhrzeit",   "tageszeit", "heure"};
+
+template <std::size_t size>
+bool is_one_of(const std::array<const char*, size>& names, const std::string& heading) {
+    return std::find(names.begin(), names.end(), lower_case(heading)) != names.end();
+}
+
 /// Flags of Anton Paar: the storage (elastic) or loss (viscous) modulus came out negative, and 0 is written in its place.
 bool tells_negative_modulus(std::string_view flag) {
     return flag == "ME-" || flag == "MV-";
+}
+
+bool converts(const std::string& from, const std::string& to) {
+    try {
+        return !from.empty() && std::isfinite(unit_factor(from, to));
+    } catch (const InputError&) {
+        return false;
+    }
 }
 
 /// TRIOS gives forces and torques of the ARES in grams, which are those of a weight.
@@ -47,23 +66,42 @@ std::vector<std::string> split_lines(const std::string& text) {
     return lines;
 }
 
+namespace {
+
+/// Where the field that begins here ends.
+std::size_t field_end(std::string_view line, char separator, std::size_t begin) {
+    const std::size_t first = line.find_first_not_of(' ', begin);
+    std::size_t at = begin;
+    if (first < line.size() && line[first] == '"') {
+        at = first + 1;
+        while (at < line.size() && (line[at] != '"' || line.substr(at).starts_with("\"\""))) {
+            at += line[at] == '"' ? 2 : 1;
+        }
+    }
+    return std::min(line.find(separator, std::min(at, line.size())), line.size());
+}
+
+/// Without blanks and quotes around it.
+std::string bare_field(std::string_view field) {
+    field = trim(field);
+    if (field.size() < 2 || field.front() != '"' || field.back() != '"') {
+        return std::string(field);
+    }
+    std::string bare(trim(field.substr(1, field.size() - 2)));
+    for (std::size_t at = bare.find("\"\""); at != std::string::npos; at = bare.find("\"\"", at + 1)) {
+        bare.erase(at, 1);
+    }
+    return bare;
+}
+
+}  // namespace
+
 std::vector<std::string> split_cells(std::string_view line, char separator) {
-    const auto bare = [](std::string_view field) {
-        field = trim(field);
-        const bool in_quotes = field.size() >= 2 && field.front() == '"' && field.back() == '"';
-        return std::string(in_quotes ? trim(field.substr(1, field.size() - 2)) : field);
-    };
     std::vector<std::string> cells;
-    bool quoted = false;
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i <= line.size(); ++i) {
-        if (i < line.size() && line[i] == '"') {
-            quoted = !quoted;
-        }
-        if (i == line.size() || (line[i] == separator && !quoted)) {
-            cells.push_back(bare(line.substr(begin, i - begin)));
-            begin = i + 1;
-        }
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = field_end(line, separator, begin);
+        cells.push_back(bare_field(line.substr(begin, end - begin)));
+        begin = end + 1;
     }
     return cells;
 }
@@ -86,12 +124,20 @@ int announced_count(std::string_view text) {
     return number.value && *number.value >= 1 && *number.value < 1e9 ? static_cast<int>(*number.value) : 0;
 }
 
+PlainColumn plain_column(HeadingWithUnit heading) {
+    KnownHeading known = known_heading(heading.heading);
+    if (known.quantity == "frequency" && converts(heading.unit, "rad/s")) {
+        known.quantity = "angular_frequency";
+    }
+    std::string unit = unit_of(known.quantity, heading.unit);
+    return {std::move(heading.heading), std::move(known.quantity), std::move(unit), known.rank};
+}
+
 TableBuilder::TableBuilder(const std::vector<HeadingWithUnit>& headings, bool decimal_comma) : decimal_comma_(decimal_comma) {
     for (const HeadingWithUnit& heading : headings) {
-        const KnownHeading known = known_heading(heading.heading);
-        table_.columns.push_back({heading.heading, known.quantity, unit_of(known.quantity, heading.unit), known.rank});
-        const std::string name = lower_case(heading.heading);
-        is_status_.push_back(std::find(status_headings.begin(), status_headings.end(), name) != status_headings.end());
+        table_.columns.push_back(plain_column(heading));
+        is_status_.push_back(is_one_of(status_headings, heading.heading));
+        is_clock_.push_back(is_one_of(clock_headings, heading.heading));
     }
     has_number_.assign(headings.size(), false);
 }
@@ -102,6 +148,9 @@ void TableBuilder::add_row(const std::vector<std::string>& cells) {
         if (is_status_[column]) {
             add_flags(text);
         }
+        if (is_clock_[column]) {
+            note_clock(text);
+        }
         const CellNumber cell = read_cell(text, decimal_comma_);
         table_.columns[column].values.push_back(cell.value.value_or(no_value));
         has_number_[column] = has_number_[column] || cell.value;
@@ -110,6 +159,13 @@ void TableBuilder::add_row(const std::vector<std::string>& cells) {
         }
     }
     ++rows_;
+}
+
+/// The first time that can be read is when the table began.
+void TableBuilder::note_clock(const std::string& cell) {
+    if (std::isnan(table_.date)) {
+        table_.date = seconds_of_date(cell).value_or(seconds_of_day(cell).value_or(unset));
+    }
 }
 
 void TableBuilder::add_flags(const std::string& status) {
@@ -176,6 +232,7 @@ PlainTable TableBuilder::take(std::string title, int section, bool keep_all) {
     PlainTable kept;
     kept.title = std::move(title);
     kept.section = section;
+    kept.date = table_.date;
     kept.flags.assign(flags_.begin(), flags_.end());
     std::vector<std::optional<std::size_t>> place(table_.columns.size());  // of a column among those kept
     for (std::size_t column = 0; column < table_.columns.size(); ++column) {
@@ -193,7 +250,26 @@ PlainTable TableBuilder::take(std::string title, int section, bool keep_all) {
 }
 
 void MeasuredText::fail(std::size_t line, const std::string& rule) const {
-    throw InputError(path + ", line " + std::to_string(line + 1) + ": " + rule);
+    throw InputError(path + ", line " + std::to_string(number(line)) + ": " + rule);
+}
+
+MeasuredText measured_text(const std::string& path, const std::string& text) {
+    constexpr std::size_t fewest = 8;  // lines
+    MeasuredText measured{path, split_lines(text)};
+    std::vector<std::string>& lines = measured.lines;
+    bool doubled = lines.size() >= fewest;
+    for (std::size_t line = 1; doubled && line < lines.size(); line += 2) {
+        doubled = trim(lines[line]).empty();
+    }
+    if (doubled) {
+        std::vector<std::string> filled;
+        for (std::size_t line = 0; line < lines.size(); line += 2) {
+            filled.push_back(std::move(lines[line]));
+        }
+        lines = std::move(filled);
+        measured.spacing = 2;
+    }
+    return measured;
 }
 
 void MissingCells::add(const MeasuredText& text, std::size_t line, std::size_t headings, std::size_t cells) {

@@ -16,7 +16,8 @@ namespace coagula::io {
 /// Lines without their ends.
 std::vector<std::string> split_lines(const std::string& text);
 
-/// Fields of a line without blanks and quotes around them; separators within quotes do not split.
+/// Fields of a line without blanks and quotes around them. Separators within quotes do not split; quotes that do not begin a field, as
+/// in G" [Pa], are part of it.
 std::vector<std::string> split_cells(std::string_view line, char separator);
 
 /// Tab, semicolon or comma: the first of these that the line contains.
@@ -27,6 +28,9 @@ bool is_blank(const std::vector<std::string>& cells);
 
 /// A count that a file announces; 0 when the text is no whole number above zero.
 int announced_count(std::string_view text);
+
+/// A column without values: what its heading means, of which the unit may decide ("Frequency [rad/s]" is an angular frequency).
+PlainColumn plain_column(HeadingWithUnit heading);
 
 /// A table that grows row by row.
 class TableBuilder {
@@ -42,6 +46,7 @@ public:
 
 private:
     void add_flags(const std::string& status);
+    void note_clock(const std::string& cell);
     void take_out_loss_tangent_limit();
     void take_out_negative_moduli();
     void take_out(std::size_t column, std::size_t row, const std::string& reason);
@@ -49,6 +54,7 @@ private:
 
     PlainTable table_;
     std::vector<bool> is_status_;               ///< per column
+    std::vector<bool> is_clock_;                ///< per column: tells the time of day
     std::vector<bool> has_number_;              ///< per column
     std::vector<std::size_t> negative_moduli_;  ///< rows flagged so
     std::map<std::string, std::size_t> flags_;
@@ -60,10 +66,16 @@ private:
 struct MeasuredText {
     std::string path;
     std::vector<std::string> lines;
+    std::size_t spacing = 1;  ///< 2 where a blank line, which is not among `lines`, followed each of them
 
+    /// Number of a line in the file, from 1; `line` counts from 0.
+    std::size_t number(std::size_t line) const { return line * spacing + 1; }
     /// Throws InputError "FILE, line N: rule"; `line` counts from 0.
     [[noreturn]] void fail(std::size_t line, const std::string& rule) const;
 };
+
+/// The lines of a text in UTF-8. Where every other line is blank, as where line ends were converted twice, these are left out.
+MeasuredText measured_text(const std::string& path, const std::string& text);
 
 /// Counts the cells that the rows of a file lack: short rows under long headings would fill the memory with empty cells.
 class MissingCells {

@@ -6,6 +6,7 @@
 //                                <what distinguishes equal headings, such as Waveform; the line may be missing>
 //                                <units in brackets>
 //                     1          <cells>
+// or "Interval:  <interval>" and headings without "Interval data:" and numbers of points.
 // A point with a waveform is followed by lines without a number that carry the further samples of the waveform columns.
 // RheoPlus, which came before it:
 //     Data Series Information
@@ -33,6 +34,9 @@ constexpr std::array rheocompass_words = {
     Word{"interval and data points", LineRole::section},
     Word{"abschnitt und datenpunkte", LineRole::section},
     Word{"intervalle et points de données", LineRole::section},
+    Word{"interval", LineRole::section},
+    Word{"abschnitt", LineRole::section},
+    Word{"intervalle", LineRole::section},
     Word{"interval data", LineRole::headings},
     Word{"data interval", LineRole::headings},
     Word{"abschnittsdaten", LineRole::headings},
@@ -84,6 +88,24 @@ bool recognise(const MeasuredText& text) {
     });
 }
 
+/// RheoPlus has intervals, too, but no results.
+bool recognise_rheocompass(const MeasuredText& text) {
+    bool result = false;
+    bool plain_interval = false;
+    for (const std::string& line : text.lines) {
+        const std::string word = first_word(line);
+        const LineRole role = role_of(rheocompass, word);
+        const bool plain = word == "interval" || word == "abschnitt" || word == "intervalle";
+        const bool section = role == LineRole::section && line.find_first_of("\t;,") != std::string::npos;
+        if (role == LineRole::headings || (section && !plain)) {
+            return true;
+        }
+        result = result || role == LineRole::title;
+        plain_interval = plain_interval || section;
+    }
+    return result && plain_interval;
+}
+
 bool has_line_of_units(const MeasuredText& text) {
     return std::any_of(text.lines.begin(), text.lines.end(), [](const std::string& line) {
         return line.find('[') != std::string::npos && units_in_brackets(split_cells(line, separator_in(line))) > 1;
@@ -92,7 +114,7 @@ bool has_line_of_units(const MeasuredText& text) {
 
 }  // namespace
 
-const MeasuredReader rheocompass_reader{MeasuredFormat::rheocompass, "RheoCompass", recognise<rheocompass>, read<rheocompass>};
+const MeasuredReader rheocompass_reader{MeasuredFormat::rheocompass, "RheoCompass", recognise_rheocompass, read<rheocompass>};
 const MeasuredReader rheoplus_reader{MeasuredFormat::rheoplus, "RheoPlus", recognise<rheoplus>, read<rheoplus>};
 const MeasuredReader units_line_reader{MeasuredFormat::csv, "CSV", has_line_of_units, read<any_language>};
 

@@ -1,16 +1,20 @@
 // CSV as spreadsheets and people write it: comma, semicolon or tab; lines that begin with # are comments. Blank lines part tables.
 // A table is
 //     <title, or lines "key, value">           may be missing
+//     <labels of tables side by side>          may be missing
 //     <headings, perhaps with units>           may be missing: then most cells of the first row are numbers
 //     <units>                                  may be missing
 //     <cells>
 #include "measured_readers.hpp"
 
+#include "side_by_side.hpp"
 #include "text_reader.hpp"
 
 #include <coagula/io/units.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 
 namespace coagula::io {
 
@@ -101,6 +105,8 @@ private:
     void collect_lines();
     void read_table();
     void read_above(std::string& title);
+    bool read_labels();
+    void read_rows(const std::vector<HeadingWithUnit>& headings, bool given, const std::string& title);
     std::vector<HeadingWithUnit> read_headings(bool& given);
     const FilledLine* next() const { return at_ + 1 < lines_.size() ? &lines_[at_ + 1] : nullptr; }
 
@@ -109,6 +115,7 @@ private:
     MissingCells missing_;
     std::vector<FilledLine> lines_;
     std::size_t at_ = 0;
+    Cells labels_;  ///< of tables side by side
 };
 
 void CsvTables::collect_lines() {
@@ -134,9 +141,30 @@ void CsvTables::collect_lines() {
     }
 }
 
+/// A line of as many labels as there are tables side by side below it.
+bool CsvTables::read_labels() {
+    const Cells& cells = lines_[at_].cells;
+    if (filled(cells) < 2 || is_row(next()->cells)) {
+        return false;
+    }
+    std::vector<HeadingWithUnit> headings;
+    std::transform(next()->cells.begin(), next()->cells.end(), std::back_inserter(headings), split_heading);
+    const auto layout = side_by_side(headings, true);
+    if (!layout || layout->count != filled(cells)) {
+        return false;
+    }
+    std::copy_if(cells.begin(), cells.end(), std::back_inserter(labels_), [](const std::string& cell) { return !cell.empty(); });
+    return true;
+}
+
 /// Titles and lines "key, value" above the headings.
 void CsvTables::read_above(std::string& title) {
+    labels_.clear();
     while (next() != nullptr) {
+        if (read_labels()) {
+            ++at_;
+            return;
+        }
         const Cells& cells = lines_[at_].cells;
         const bool key_and_value = cells.size() == 2 && next()->cells.size() > 2 && !has_number(cells);
         if (key_and_value) {
@@ -184,7 +212,61 @@ void CsvTables::read_table() {
     read_above(title);
     bool given = true;
     const std::vector<HeadingWithUnit> headings = read_headings(given);
-    TableBuilder table(headings, file_.decimal_comma);
+    read_rows(headings, given, title);
+}
+
+/// One table, or several that stand side by side.
+class TablesOfRows {
+public:
+    TablesOfRows(const std::vector<HeadingWithUnit>& headings, const std::optional<SideBySide>& layout, bool decimal_comma)
+        : shared_(layout ? layout->shared : 0) {
+        for (std::size_t table = 0; table < (layout ? layout->count : 1); ++table) {
+            columns_.push_back(layout.value_or(SideBySide{0, headings.size(), 1}).columns_of(table));
+            std::vector<HeadingWithUnit> own;
+            for (const std::size_t column : columns_.back()) {
+                own.push_back(column < headings.size() ? headings[column] : HeadingWithUnit{});
+            }
+            builders_.emplace_back(own, decimal_comma);
+        }
+    }
+
+    /// A table of several goes without a row in which it has nothing.
+    void add_row(const Cells& cells) {
+        for (std::size_t table = 0; table < builders_.size(); ++table) {
+            Cells own;
+            for (const std::size_t column : columns_[table]) {
+                own.push_back(column < cells.size() ? cells[column] : "");
+            }
+            if (builders_.size() == 1 || !is_blank({own.begin() + static_cast<std::ptrdiff_t>(shared_), own.end()})) {
+                builders_[table].add_row(own);
+            }
+        }
+    }
+
+    std::vector<TableBuilder>& builders() { return builders_; }
+
+private:
+    std::size_t shared_;
+    std::vector<std::vector<std::size_t>> columns_;
+    std::vector<TableBuilder> builders_;
+};
+
+/// A temperature, or a bare number, tells results of one sample apart; a name that of a sample.
+void add_label(PlainTable& table, const std::string& label) {
+    auto temperature = temperature_of_label(label, table.rows());
+    if (temperature || looks_like_number(label)) {
+        table.title += (table.title.empty() ? "" : ", ") + label;
+    } else {
+        table.test = label;
+    }
+    if (temperature) {
+        table.columns.push_back(std::move(*temperature));
+    }
+}
+
+void CsvTables::read_rows(const std::vector<HeadingWithUnit>& headings, bool given, const std::string& title) {
+    const auto layout = given ? side_by_side(headings, !labels_.empty()) : std::nullopt;
+    TablesOfRows tables(headings, layout, file_.decimal_comma);
     const std::size_t first_row = at_;
     for (; at_ < lines_.size() && (at_ == first_row || !begins_table(lines_[at_], headings.size())); ++at_) {
         const FilledLine& line = lines_[at_];
@@ -193,11 +275,18 @@ void CsvTables::read_table() {
             text_.fail(line.number, "there are " + std::to_string(line.fields) + " fields, but the header names " +
                                         std::to_string(headings.size()));
         }
-        table.add_row(line.cells);
+        tables.add_row(line.cells);
     }
-    file_.tables.push_back(table.take(title, static_cast<int>(file_.tables.size()) + 1, !given));
-    file_.tables.back().has_headings = given;
-    file_.tables.back().first_line = first_row < lines_.size() ? lines_[first_row].number + 1 : 0;
+    for (std::size_t table = 0; table < tables.builders().size(); ++table) {
+        const bool several = table < labels_.size();
+        PlainTable read = tables.builders()[table].take(title, static_cast<int>(file_.tables.size()) + 1, !given);
+        if (several) {
+            add_label(read, labels_[table]);
+        }
+        read.has_headings = given;
+        read.first_line = first_row < lines_.size() ? text_.number(lines_[first_row].number) : 0;
+        file_.tables.push_back(std::move(read));
+    }
 }
 
 bool recognise(const MeasuredText& /*text*/) {

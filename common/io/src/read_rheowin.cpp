@@ -3,7 +3,8 @@
 //     Date / Time / Version: ...
 //     ;omega / rad/s;G' / Pa;G'' / Pa;
 //     1|1;6,283;40,88;1,452;
-// or ";omega in rad/s;...". The label is that of series and point; all series stand below one line of headings.
+// or ";omega in rad/s;...", in French "Nr-Seg;Om en 1/min;...". The label is that of series and point; all series stand below one line
+// of headings. Older versions spell Greek letters.
 #include "export_dialect.hpp"
 #include "measured_readers.hpp"
 
@@ -19,6 +20,8 @@ using Heading = std::pair<std::string_view, std::string_view>;
 constexpr std::array own_headings = {
     Heading{"gp", "shear rate"},  // gamma with a point
     Heading{"t_seg", "segment time"},
+    Heading{"ga", "strain"},
+    Heading{"da", "phase"},
 };
 
 constexpr ExportDialect dialect{MeasuredFormat::rheowin, {}, UnitsPlace::after_heading, own_headings};

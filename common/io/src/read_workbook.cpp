@@ -2,6 +2,9 @@
 
 #include "child_process.hpp"
 #include "measured_readers.hpp"
+#include "workbook_text.hpp"
+
+#include <coagula/io/input_file.hpp>
 
 #include <freexl.h>
 
@@ -13,17 +16,6 @@
 namespace coagula::io {
 
 namespace {
-
-constexpr char sheet_mark = '\x1e';  ///< begins a sheet in what the child sends; no cell holds it
-
-std::string plain_cell(std::string_view text) {
-    std::string cell;
-    for (const char c : text) {
-        const bool control = static_cast<unsigned char>(c) < 0x20;
-        cell += c == '"' ? "''" : std::string(1, control ? ' ' : c);
-    }
-    return cell;
-}
 
 std::string text_of(double number) {
     std::array<char, 32> digits{};
@@ -99,18 +91,30 @@ private:
     const void* handle_ = nullptr;
 };
 
+/// A sheet is a CSV, or what RheoCompass or RheoPlus exports.
+const MeasuredReader& reader_of_sheet(const MeasuredText& text) {
+    for (const MeasuredReader* reader : {&rheocompass_reader, &rheoplus_reader, &units_line_reader}) {
+        if (reader->recognises(text)) {
+            return *reader;
+        }
+    }
+    return csv_reader;
+}
+
 std::size_t filled(const std::vector<std::string>& cells) {
     return static_cast<std::size_t>(
         std::count_if(cells.begin(), cells.end(), [](const std::string& cell) { return !cell.empty(); }));
 }
 
 /// A sheet with lines of three cells holds a table, another one metadata.
-void add_sheet(const std::vector<std::string>& lines, const MeasuredReader& reader, MeasuredFile& file) {
+void add_sheet(const std::string& name, const std::vector<std::string>& lines, MeasuredFile& file) {
     const bool is_table =
         std::any_of(lines.begin(), lines.end(), [](const std::string& line) { return filled(split_cells(line, '\t')) > 2; });
     if (is_table) {
-        MeasuredFile sheet = reader.read({file.path, lines});
+        const MeasuredText text{file.path, lines};
+        MeasuredFile sheet = reader_of_sheet(text).read(text);
         for (PlainTable& table : sheet.tables) {
+            table.title = table.title.empty() ? name : table.title;
             table.section = static_cast<int>(file.tables.size()) + 1;
             table.first_line = 0;  // lines of a sheet, not of the file
             file.tables.push_back(std::move(table));
@@ -126,25 +130,42 @@ void add_sheet(const std::vector<std::string>& lines, const MeasuredReader& read
     }
 }
 
+bool is_xlsx(const std::string& bytes) {
+    return bytes.starts_with("PK\x03\x04");
+}
+
 }  // namespace
 
+std::string plain_cell(std::string_view text) {
+    std::string cell;
+    for (const char c : text) {
+        const bool control = static_cast<unsigned char>(c) < 0x20;
+        cell += c == '"' ? "''" : std::string(1, control ? ' ' : c);
+    }
+    return cell;
+}
+
 bool is_workbook(const std::string& bytes) {
-    return bytes.starts_with("\xd0\xcf\x11\xe0");
+    return bytes.starts_with("\xd0\xcf\x11\xe0") || is_xlsx(bytes);
 }
 
 MeasuredFile read_workbook(const std::string& path) {
-    const std::string text = run_in_child(path, [&](ReadingLimits& /*limits*/) { return Workbook(path).text(); });
+    const bool xlsx = is_xlsx(read_file(path));
+    const std::string text =
+        run_in_child(path, [&](ReadingLimits& /*limits*/) { return xlsx ? text_of_xlsx(path) : Workbook(path).text(); });
     MeasuredFile file{path, MeasuredFormat::workbook, false, {}, {}};
+    std::string name;
     std::vector<std::string> sheet;
     for (std::string& line : split_lines(text)) {
-        if (line == std::string(1, sheet_mark)) {
-            add_sheet(sheet, csv_reader, file);
+        if (line.starts_with(sheet_mark)) {
+            add_sheet(name, sheet, file);
+            name = line.substr(1);
             sheet.clear();
         } else {
             sheet.push_back(std::move(line));
         }
     }
-    add_sheet(sheet, csv_reader, file);
+    add_sheet(name, sheet, file);
     if (file.tables.empty()) {
         throw InputError(path + " is a workbook whose sheets hold no table of three columns or more");
     }

@@ -19,7 +19,7 @@ namespace {
 using Entry = std::pair<std::string_view, std::string_view>;
 
 /// Headings in lower case and what they mean; single letters, whose case matters, as they are written. Anton Paar RheoCompass
-/// (English, German, French) and RheoPlus (English, Japanese), TA Instruments TRIOS, HAAKE RheoWin, and the symbols people use. Of
+/// (English, German, French) and RheoPlus (English, Japanese), TA Instruments TRIOS, HAAKE RheoWin, Kinexus, and the symbols people use. Of
 /// headings with one meaning the more special ones stand first. Interval times are not here: they start anew in each section, and
 /// which clock a sweep ran on must be said.
 constexpr std::array headings = {
@@ -29,9 +29,11 @@ constexpr std::array headings = {
     Entry{"時間", "time"},
     Entry{"t", "time"},
     Entry{"step time", "time"},
+    Entry{"time (sequence)", "time"},
 
     Entry{"oscillation strain", "strain"},
     Entry{"strain amplitude", "strain"},
+    Entry{"complex shear strain", "strain"},
     Entry{"shear strain amplitude", "strain"},
     Entry{"shear strain", "strain"},
     Entry{"scherdeformation", "strain"},
@@ -45,6 +47,7 @@ constexpr std::array headings = {
 
     Entry{"oscillation stress", "stress"},
     Entry{"stress amplitude", "stress"},
+    Entry{"complex shear stress", "stress"},
     Entry{"shear stress amplitude", "stress"},
     Entry{"shear stress", "stress"},
     Entry{"schubspannung", "stress"},
@@ -62,6 +65,12 @@ constexpr std::array headings = {
     Entry{"module de conservation", "storage_modulus"},
     Entry{"貯蔵弾性率", "storage_modulus"},
     Entry{"elastic modulus", "storage_modulus"},
+    Entry{"shear storage modulus", "storage_modulus"},
+    Entry{"shear modulus (elastic component)", "storage_modulus"},
+    Entry{"module élastique", "storage_modulus"},
+    Entry{"g prime", "storage_modulus"},
+    Entry{"gprime", "storage_modulus"},
+    Entry{"gp", "storage_modulus"},
     Entry{"g'", "storage_modulus"},
 
     Entry{"loss modulus", "loss_modulus"},
@@ -69,10 +78,18 @@ constexpr std::array headings = {
     Entry{"module de perte", "loss_modulus"},
     Entry{"損失弾性率", "loss_modulus"},
     Entry{"viscous modulus", "loss_modulus"},
+    Entry{"shear loss modulus", "loss_modulus"},
+    Entry{"shear modulus (viscous component)", "loss_modulus"},
+    Entry{"module visqueux", "loss_modulus"},
+    Entry{"g double prime", "loss_modulus"},
+    Entry{"gdoubleprime", "loss_modulus"},
+    Entry{"gpp", "loss_modulus"},
+    Entry{"gdp", "loss_modulus"},
     Entry{"g''", "loss_modulus"},
 
     Entry{"complex modulus", "complex_modulus"},
     Entry{"complex shear modulus", "complex_modulus"},
+    Entry{"shear modulus (complex component)", "complex_modulus"},
     Entry{"komplexer schubmodul", "complex_modulus"},
     Entry{"module complexe", "complex_modulus"},
     Entry{"module de cisaillement complexe", "complex_modulus"},
@@ -85,11 +102,13 @@ constexpr std::array headings = {
 
     Entry{"loss tangent", "loss_tangent"},
     Entry{"loss factor", "loss_tangent"},
+    Entry{"damping factor", "loss_tangent"},
     Entry{"verlustfaktor", "loss_tangent"},
     Entry{"facteur de perte", "loss_tangent"},
     Entry{"損失正接", "loss_tangent"},
     Entry{"tan(delta)", "loss_tangent"},
     Entry{"tan delta", "loss_tangent"},
+    Entry{"tandelta", "loss_tangent"},
     Entry{"tan(δ)", "loss_tangent"},
     Entry{"tan δ", "loss_tangent"},
     Entry{"tanδ", "loss_tangent"},
@@ -99,6 +118,11 @@ constexpr std::array headings = {
     Entry{"angle de déphasage", "phase"},
     Entry{"位相角", "phase"},
     Entry{"phase angle", "phase"},
+    Entry{"phase shift", "phase"},
+    Entry{"loss angle", "phase"},
+    Entry{"phasenwinkel", "phase"},
+    Entry{"verlustwinkel", "phase"},
+    Entry{"déphasage", "phase"},
     Entry{"phase", "phase"},
     Entry{"delta", "phase"},
     Entry{"δ", "phase"},
@@ -115,11 +139,14 @@ constexpr std::array headings = {
     Entry{"角周波数", "angular_frequency"},
     Entry{"omega", "angular_frequency"},
     Entry{"ω", "angular_frequency"},
+    Entry{"w", "angular_frequency"},
 
     Entry{"frequency", "frequency"},
     Entry{"frequenz", "frequency"},
     Entry{"fréquence", "frequency"},
     Entry{"周波数", "frequency"},
+    Entry{"freq", "frequency"},
+    Entry{"freq.", "frequency"},
     Entry{"f", "frequency"},
 
     Entry{"complex viscosity", "complex_viscosity"},
@@ -144,6 +171,7 @@ constexpr std::array headings = {
     Entry{"deflection angle", "deflection"},
     Entry{"auslenkwinkel", "deflection"},
     Entry{"angle de déflexion", "deflection"},
+    Entry{"angular displacement", "deflection"},
     Entry{"振り角", "deflection"},
     Entry{"deflection", "deflection"},
     Entry{"displacement", "deflection"},
@@ -173,8 +201,11 @@ constexpr std::array headings = {
     Entry{"shear rate", "shear_rate"},
     Entry{"scherrate", "shear_rate"},
     Entry{"gradient de cisaillement", "shear_rate"},
+    Entry{"vitesse de cisaillement", "shear_rate"},
+    Entry{"taux de cisaillement", "shear_rate"},
     Entry{"せん断速度", "shear_rate"},
     Entry{"viscosity", "viscosity"},
+    Entry{"shear viscosity", "viscosity"},
     Entry{"viskosität", "viscosity"},
     Entry{"viscosité", "viscosity"},
     Entry{"粘度", "viscosity"},
@@ -216,11 +247,11 @@ std::string replaced(std::string text, const Replacements& replacements) {
     return text;
 }
 
-/// Primes and dashes as a typewriter has them.
+/// Primes and dashes as a typewriter has them, and Greek letters where others look like them.
 std::string plain_name(std::string_view heading) {
-    std::string name =
-        replaced(std::string(trim(heading)),
-                 {{"′", "'"}, {"’", "'"}, {"´", "'"}, {"`", "'"}, {"″", "''"}, {"\"", "''"}, {"Ω", "ω"}, {"_", " "}});
+    std::string name = replaced(std::string(trim(heading)),
+                                {{"′", "'"},  {"’", "'"},  {"‘", "'"},  {"ʹ", "'"},  {"ˈ", "'"}, {"´", "'"}, {"`", "'"}, {"″", "''"},
+                                 {"”", "''"}, {"“", "''"}, {"\"", "''"}, {"Ω", "ω"}, {"ɣ", "γ"}, {"ɷ", "ω"}, {"_", " "}});
     return name.size() == 1 ? name : lower_case(name);
 }
 
@@ -232,15 +263,15 @@ bool is_unit(std::string_view text) {
 std::optional<HeadingWithUnit> split_at(std::string_view text, std::size_t at, std::size_t width) {
     const std::string_view name = trim(text.substr(0, at));
     const std::string_view unit = trim(text.substr(at + width));
-    if (unit.empty() || !is_unit(unit) || known_heading(name).quantity.empty()) {
+    const bool may_be_a_name = width == 1 && text[at] == ' ' && unit.size() == 1 && unit != "%";  // "G' A" of sample A
+    if (unit.empty() || may_be_a_name || known_heading(name).quantity.empty() || !is_unit(unit)) {
         return std::nullopt;
     }
     return HeadingWithUnit{std::string(name), normal_unit(unit)};
 }
 
-}  // namespace
-
-KnownHeading known_heading(std::string_view heading) {
+/// The heading as it stands in the list.
+KnownHeading listed(std::string_view heading) {
     static const std::unordered_map<std::string_view, std::size_t> places = [] {
         std::unordered_map<std::string_view, std::size_t> map;
         for (std::size_t place = 0; place < headings.size(); ++place) {
@@ -248,14 +279,45 @@ KnownHeading known_heading(std::string_view heading) {
         }
         return map;
     }();
-    if (heading.size() > longest_heading) {
-        return {};
-    }
     const std::string name = plain_name(heading);
     auto found = places.find(name);
     const std::string lower = lower_case(name);
     found = found == places.end() ? places.find(lower) : found;
     return found == places.end() ? KnownHeading{} : KnownHeading{std::string(headings[found->second].second), found->second};
+}
+
+/// Without what parts a word from its symbol.
+std::string_view bare_part(std::string_view part) {
+    constexpr std::string_view marks = " ,;:=-/";
+    part.remove_prefix(std::min(part.find_first_not_of(marks), part.size()));
+    part = part.substr(0, part.find_last_not_of(marks) + 1);
+    const bool in_brackets =
+        part.size() > 2 && ((part.front() == '(' && part.back() == ')') || (part.front() == '[' && part.back() == ']'));
+    return in_brackets ? part.substr(1, part.size() - 2) : part;
+}
+
+/// "Storage modulus (G')", "Speichermodul G'", "ω, angular frequency": two known headings that mean the same.
+KnownHeading listed_twice(std::string_view heading) {
+    for (std::size_t i = 1; i + 1 < heading.size(); ++i) {
+        if (std::string_view(" ([,:=-/").find(heading[i]) == std::string_view::npos) {
+            continue;
+        }
+        const KnownHeading one = listed(bare_part(heading.substr(0, i)));
+        if (!one.quantity.empty() && one.quantity == listed(bare_part(heading.substr(i))).quantity) {
+            return one;
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+KnownHeading known_heading(std::string_view heading) {
+    if (heading.size() > longest_heading) {
+        return {};
+    }
+    KnownHeading known = listed(heading);
+    return known.quantity.empty() ? listed_twice(trim(heading)) : known;
 }
 
 std::string quantity_of_heading(std::string_view heading) {
@@ -288,24 +350,22 @@ std::string normal_unit(std::string_view text) {
 
 HeadingWithUnit split_heading(std::string_view text) {
     text = trim(text);
-    if (const std::size_t begin = text.rfind('['); text.ends_with(']') && begin != std::string_view::npos && begin > 0) {
-        return {std::string(trim(text.substr(0, begin))), normal_unit(text.substr(begin))};
-    }
     if (!known_heading(text).quantity.empty()) {
         return {std::string(text), ""};
+    }
+    if (const std::size_t begin = text.rfind('['); text.ends_with(']') && begin != std::string_view::npos && begin > 0) {
+        return {std::string(trim(text.substr(0, begin))), normal_unit(text.substr(begin))};
     }
     if (const std::size_t begin = text.rfind('('); text.ends_with(')') && begin != std::string_view::npos && begin > 0) {
         const std::string unit = normal_unit(text.substr(begin));
         return is_unit(unit) ? HeadingWithUnit{std::string(trim(text.substr(0, begin))), unit}
                              : HeadingWithUnit{std::string(text), ""};
     }
-    for (const std::string_view separator : {" / ", " in ", "/", ", ", "_"}) {
-        const std::size_t at = text.find(separator);
-        if (at == std::string_view::npos || at == 0) {
-            continue;
-        }
-        if (auto parts = split_at(text, at, separator.size())) {
-            return std::move(*parts);
+    for (const std::string_view separator : {" / ", " in ", " en ", "/", ", ", "_", " "}) {
+        for (std::size_t at = text.find(separator, 1); at != std::string_view::npos; at = text.find(separator, at + 1)) {
+            if (auto parts = split_at(text, at, separator.size())) {
+                return std::move(*parts);
+            }
         }
     }
     return {std::string(text), ""};

@@ -9,7 +9,7 @@
 namespace coagula::io {
 
 /// A heading and its place in the list of known headings: of two columns with one meaning, the one that stands first there is meant
-/// ("Oscillation torque" before "Torque").
+/// ("Oscillation torque" before "Torque"). A word may stand beside its symbol, "Storage modulus (G')".
 struct KnownHeading {
     std::string quantity;  ///< empty: not known
     std::size_t rank = std::numeric_limits<std::size_t>::max();
@@ -24,7 +24,7 @@ struct HeadingWithUnit {
     std::string unit;  ///< normal; empty when there is none
 };
 /// Heading and unit of "strain [%]". Where what is left is a known heading and what is right a unit, also of "strain (%)",
-/// "strain / %", "strain in %", "strain, %" and "strain_%".
+/// "strain / %", "strain in %", "strain en %", "strain, %", "strain_%" and "strain %".
 HeadingWithUnit split_heading(std::string_view text);
 
 }  // namespace coagula::io

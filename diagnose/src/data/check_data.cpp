@@ -87,10 +87,12 @@ private:
     std::set<const Column*> evenly_stepped_columns();
     void leave_out_suspects(const std::vector<Relation>& relations);
     bool all_rows_disagree(const Relation& relation, const RelationResult& result);
+    void refuse_wrong_assignment();
 
     DataCheckOptions options_;
     TableRule rule_;
     CheckedMeasurement checked_;
+    std::vector<std::string> contradicting_;  ///< columns that were taken out as a whole
 };
 
 std::size_t readable(const Column& column) {
@@ -269,6 +271,9 @@ bool Checker::all_rows_disagree(const Relation& relation, const RelationResult& 
                 leave_out(column, row, "the whole column contradicts the others (" + relation.name + ")");
             }
         }
+        if (!relation.is_of_raw_torque()) {
+            contradicting_.push_back(column.name);
+        }
         return true;
     }
     std::vector<double> ratios;
@@ -305,6 +310,24 @@ void Checker::check_relations() {
             leave_out_suspects(relations);
         }
     }
+    refuse_wrong_assignment();
+}
+
+/// One column may be wrong by itself. Several that contradict the others accuse these: values do not stand below their headings.
+void Checker::refuse_wrong_assignment() {
+    if (contradicting_.size() < 2) {
+        return;
+    }
+    std::string names;
+    std::string list;
+    for (const std::string& name : contradicting_) {
+        names += (names.empty() ? "'" : name == contradicting_.back() ? " and '" : ", '") + name + "'";
+        list += (list.empty() ? "\"" : ", \"") + name + "\"";
+    }
+    complain("the columns " + names +
+             " contradict the others in most rows: the values do not stand below their headings, or units are wrong; correct the "
+             "file, or where the others are known to be right, leave these out by without = [" +
+             list + "]");
 }
 
 /// The cells that alone explain every failing relation of the row; where no cell does, all that nothing vouches for.

@@ -74,16 +74,22 @@ PolarModulus by_torque(const Measurement& table, const Instrument& instrument) {
 
 PolarModulus by_stress(const Measurement& table) {
     const bool tangent = !has(table, "phase") && has(table, "loss_tangent");
-    const bool size = has(table, "complex_modulus");
-    if (!(has(table, "phase") || tangent) || !(size || (has(table, "stress") && has(table, "strain")))) {
+    PolarModulus polar;
+    if (has(table, "complex_modulus")) {
+        polar.size = [&](std::size_t row) { return cell(table, "complex_modulus", row); };
+    } else if (has(table, "stress") && has(table, "strain")) {
+        polar.size = [&](std::size_t row) { return std::abs(cell(table, "stress", row) / cell(table, "strain", row)); };
+        polar.divisor = "strain";
+    } else if (has(table, "complex_viscosity") && has(table, "angular_frequency")) {
+        polar.size = [&](std::size_t row) { return cell(table, "complex_viscosity", row) * cell(table, "angular_frequency", row); };
+    }
+    if (!polar.size || !(has(table, "phase") || tangent)) {
         return {};
     }
-    return {
-        [&, size](std::size_t row) {
-            return size ? cell(table, "complex_modulus", row) : std::abs(cell(table, "stress", row) / cell(table, "strain", row));
-        },
-        [&, tangent](std::size_t row) { return tangent ? std::atan(cell(table, "loss_tangent", row)) : cell(table, "phase", row); },
-        "strain"};
+    polar.phase = [&, tangent](std::size_t row) {
+        return tangent ? std::atan(cell(table, "loss_tangent", row)) : cell(table, "phase", row);
+    };
+    return polar;
 }
 
 void require_constants(const Measurement& table, const Instrument& instrument) {
@@ -112,7 +118,8 @@ ToolConstants tool_constants(const Instrument& instrument, double gap, double pl
 
 void derive_moduli(Measurement& table, const Instrument& instrument, bool raw) {
     const bool given = has(table, "storage_modulus") || has(table, "loss_modulus");
-    PolarModulus polar = given && !raw ? PolarModulus{} : by_torque(table, instrument);
+    const bool size_given = (has(table, "complex_modulus") || has(table, "complex_viscosity")) && by_stress(table).size;
+    PolarModulus polar = (given || size_given) && !raw ? PolarModulus{} : by_torque(table, instrument);
     if (raw && !polar.size) {
         throw InputError(table.label + ": raw moduli need the columns torque, deflection and raw_phase (or phase)");
     }

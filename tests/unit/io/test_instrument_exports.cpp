@@ -292,15 +292,11 @@ TEST_F(InstrumentExports, EverySheetOfAWorkbookIsATable) {
     EXPECT_NE(sentence<InputError>([&] { read_measured_file(path); }).find("save each sheet as CSV"), std::string::npos);
 }
 
-TEST_F(InstrumentExports, WorkbooksAndXmlSayWhatToExportInstead) {
-    for (const std::string name :
-         {"blood_steps/SS.xlsx", "blood_steps/Steps.xlsx", "rheodata_toolkit/anton_paar/yulings_data/amplitudesweep.xlsx",
-          "rheodata_toolkit/anton_paar/gwens_data/Steady State Viscosity Curve-LO80C_xml.xml"}) {
-        const std::string path = testing::dataset(name);
-        const std::string said = sentence<InputError>([&] { read_measured_file(path); });
-        EXPECT_EQ(said.find(path), 0U);
-        EXPECT_NE(said.find("which is not read: export the measurement as text or CSV"), std::string::npos) << said;
-    }
+TEST_F(InstrumentExports, XmlSaysWhatToExportInstead) {
+    const std::string path = testing::dataset("rheodata_toolkit/anton_paar/gwens_data/Steady State Viscosity Curve-LO80C_xml.xml");
+    const std::string said = sentence<InputError>([&] { read_measured_file(path); });
+    EXPECT_EQ(said.find(path), 0U);
+    EXPECT_NE(said.find("which is not read: export the measurement as text or CSV"), std::string::npos) << said;
 }
 
 }  // namespace

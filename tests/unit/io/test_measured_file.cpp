@@ -268,7 +268,7 @@ TEST_F(MeasuredFiles, RefusesWhatHoldsNoTable) {
     refused("a,b\n1,2\n1,2,3\n", "line 3: there are 3 fields, but the header names 2");
     refused(std::string("\x89HDF\r\n\x1a\n\0\0\0\0", 12), "not a text file");
     refused("Interval and data points:\t1\t3\n", "a RheoCompass export begins here, but no line of headings with units follows");
-    refused("PK\x03\x04", "is an Excel workbook (.xlsx), which is not read: export the measurement as text or CSV");
+    refused("PK\x03\x04", "is an Excel workbook (.xlsx) that cannot be read: the archive is damaged");
     refused("\xd0\xcf\x11\xe0\xa1\xb1", "is an old Excel workbook (.xls) that cannot be read");
     refused("\xef\xbb\xbf<?xml version=\"1.0\"?>", "is XML, which is not read");
     refused("{\"Results\": [", "begins as JSON but is none");

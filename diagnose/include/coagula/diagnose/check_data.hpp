@@ -43,7 +43,8 @@ struct CheckedMeasurement {
 /// - the axis runs in one direction (time: upwards); cells that break the order are left out, many of them are a problem;
 /// - columns that repeat each other agree row by row: |G*| x strain amplitude = stress amplitude, G''/G' = tan delta,
 ///   |G*| = angular frequency x |eta*|, torque proportional to stress, ...; where they do not, the cells are left out that no other
-///   relation and no evenly stepped axis vouches for. Rows that all disagree by one factor are a problem of units;
+///   relation and no evenly stepped axis vouches for. Rows that all disagree by one factor are a problem of units. A column that
+///   only repeats others and contradicts them in most rows is left out; two such columns are a problem: the others are wrong;
 /// - no required column is constant, and enough rows are left.
 CheckedMeasurement check_data(const Measurement& measurement, const DataCheckOptions& options = {});
 

@@ -14,4 +14,7 @@ std::optional<double> seconds_of_date(std::string_view text);
 /// The same of numbers; nothing where there is no such day or time.
 std::optional<double> seconds_of_date(int year, int month, int day, int hour, int minute, double second);
 
+/// Seconds since midnight at the time of day in a text without a date: "16:32:05", "4:32 PM". Nothing where there is none.
+std::optional<double> seconds_of_day(std::string_view text);
+
 }  // namespace coagula::io

@@ -30,13 +30,13 @@ struct UnreadableCell {
 };
 
 struct PlainTable {
-    std::string test;            ///< RheoCompass: name of the test; otherwise empty
+    std::string test;            ///< RheoCompass: name of the test; of tables side by side: name of the sample; may be empty
     std::string title;           ///< name of result, step or series; may be empty
     int number = 1;              ///< position in the file from 1; a waveform has that of the table it belongs to
     int section = 1;             ///< number that the file gives it: interval of its result, series, step
     int point = 0;               ///< > 0: this is the waveform of that point of the section
     int announced_points = 0;    ///< how many the file says there are; 0: it does not say
-    double date = unset;         ///< when the export says it began, as seconds_of_date() [s]; NaN where it does not
+    double date = unset;         ///< when the export says it began, as seconds_of_date() [s], or by times of day; NaN: unknown
     bool has_headings = true;    ///< otherwise the columns are "column 1", ... until name_columns() names them
     std::size_t first_line = 0;  ///< of its rows in the file, from 1; 0: unknown
     std::vector<PlainColumn> columns;
@@ -65,15 +65,15 @@ struct MeasuredFile {
 };
 
 /// Reads a file whose format is recognised by its content: Anton Paar RheoCompass and RheoPlus, TA Instruments TRIOS as text (tabs,
-/// semicolons or commas; plain or for a LIMS) and as JSON, HAAKE RheoWin, CSV, and old Excel workbooks (.xls), each sheet of which
-/// is read as a CSV (docs/reference/instrument-exports.md). Text may be UTF-8,
+/// semicolons or commas; plain or for a LIMS) and as JSON, HAAKE RheoWin, CSV, and Excel workbooks (.xls, .xlsx), each sheet of
+/// which is read as a text of its own (docs/reference/instrument-exports.md). Text may be UTF-8,
 /// UTF-16 with a byte order mark, Shift-JIS, ISO-2022-JP or Windows-1252.
 ///
 /// A decimal comma is recognised for the file as a whole; thousands separators (1.234,5, 1 234,5, 1,234.5) are understood where
 /// they group three digits. A cell that fits neither, such as 7.67E-01 in a file with decimal commas, is listed as unreadable and
 /// never guessed, and so are cells that stand for no value ("******", a loss tangent of 20000). Columns without any number and
 /// without a known heading (status texts) are dropped. Throws InputError, naming file, line and rule, when there is no table in the
-/// file or when its cells do not stand below their headings; a workbook or other container is refused with what to export instead.
+/// file or when its cells do not stand below their headings; XML and PDF are refused with what to export instead.
 MeasuredFile read_measured_file(const std::string& path);
 
 /// Gives the columns of a table without headings their names, such as "strain [%]"; columns with an empty name are dropped. Throws
