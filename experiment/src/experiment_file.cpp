@@ -63,7 +63,11 @@ private:
     }
 
     std::string where(const std::string& name) const { return path_ + ", [" + name + "]"; }
-    std::string resolved(const std::string& file) const { return (fs::path(path_).parent_path() / file).string(); }
+    /// The path of a file that the experiment names.
+    std::string resolved(const std::string& file) {
+        result_.files.push_back((fs::path(path_).parent_path() / file).string());
+        return result_.files.back();
+    }
 
     void read_sample();
     void read_instrument();

@@ -1,6 +1,7 @@
 #include <coagula/experiment/simulation_cache.hpp>
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/checksums.hpp>
 #include <coagula/io/input_file.hpp>
 
 #include <algorithm>
@@ -38,6 +39,24 @@ std::optional<std::vector<double>> numbers_of(std::string_view text) {
     }
 }
 
+constexpr std::size_t checksum_digits = 16;
+
+std::string checksum_of(std::string_view text) {
+    return io::sha256(text).substr(0, checksum_digits);
+}
+
+/// Key and numbers of a line; nothing when it is not as it was written.
+std::optional<diagnose::SimulationCache::value_type> result_of(std::string_view line) {
+    const std::size_t tab = line.find('\t');
+    const std::size_t last = line.rfind('\t');
+    if (tab == last || line.substr(last + 1) != checksum_of(line.substr(0, last))) {
+        return std::nullopt;
+    }
+    std::optional<std::vector<double>> values = numbers_of(line.substr(tab + 1, last - tab - 1));
+    return values ? std::optional<diagnose::SimulationCache::value_type>({std::string(line.substr(0, tab)), *std::move(values)})
+                  : std::nullopt;
+}
+
 }  // namespace
 
 diagnose::SimulationCache read_cache(const std::filesystem::path& path) {
@@ -48,15 +67,15 @@ diagnose::SimulationCache read_cache(const std::filesystem::path& path) {
     const std::string text = io::read_file(path.string());
     std::string_view rest = text;
     for (int line = 1; !rest.empty(); ++line) {
-        const std::size_t tab = std::min(rest.find('\t'), rest.size());
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
-        const bool whole = tab < end && end < rest.size();
-        std::optional<std::vector<double>> values = whole ? numbers_of(rest.substr(tab + 1, end - tab - 1)) : std::nullopt;
-        if (!values) {
+        const std::size_t end = rest.find('\n');
+        std::optional<diagnose::SimulationCache::value_type> result =
+            end == std::string_view::npos ? std::nullopt : result_of(rest.substr(0, end));
+        if (!result) {
             throw InputError(path.string() + ": line " + std::to_string(line) +
-                             " is not a complete result of a simulation; remove the file to simulate it again");
+                             " is no result of a simulation as it was written: it was cut off, changed, or comes from an older "
+                             "version; remove the file, and what it held is simulated again");
         }
-        cache.insert_or_assign(std::string(rest.substr(0, tab)), *std::move(values));
+        cache.insert_or_assign(result->first, std::move(result->second));
         rest.remove_prefix(end + 1);
     }
     return cache;
@@ -68,11 +87,11 @@ std::string cache_text(const diagnose::SimulationCache& cache) {
         if (values.empty() || !std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) {
             continue;
         }
-        text += key + "\t";
+        std::string line = key + "\t";
         for (std::size_t k = 0; k < values.size(); ++k) {
-            text += (k > 0 ? " " : "") + to_text(values[k]);
+            line += (k > 0 ? " " : "") + to_text(values[k]);
         }
-        text += "\n";
+        text += line + "\t" + checksum_of(line) + "\n";
     }
     return text;
 }

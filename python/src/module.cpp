@@ -2,6 +2,7 @@
 #include "values.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/standard_descriptors.hpp>
 
 #include <filesystem>
 #include <stdexcept>
@@ -44,6 +45,7 @@ void define_exceptions(py::module_& module) {
 }  // namespace coagula::python
 
 PYBIND11_MODULE(_coagula, module) {
+    coagula::io::occupy_standard_descriptors();
     coagula::python::define_exceptions(module);
     coagula::python::define_values(module);
     coagula::python::define_stages(module);

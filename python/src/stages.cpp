@@ -5,7 +5,6 @@
 #include <coagula/io/text_formats.hpp>
 #include <coagula/io/units.hpp>
 
-#include "cli/output_file.hpp"
 #include "cli/provenance.hpp"
 #include "cli/verbs.hpp"
 
@@ -14,7 +13,7 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
+#include <iterator>
 #include <set>
 
 namespace coagula::python {
@@ -234,18 +233,21 @@ std::vector<Words> table(const Words& paths) {
     return run(py::none(), std::nullopt, [&](const Progress&) { return tools::table_of_files(paths); });
 }
 
-void add_stage(const std::string& path, const Stage& stage) {
+io::Addition addition_of(const Stage& stage) {
     const tools::Findings& found = stage.findings;
     tools::Results all = found.results;
     all.insert(all.end(), found.bond_results.begin(), found.bond_results.end());
-    io::add_results(path, path, {found.group}, stage.bonds ? std::optional(*stage.bonds) : std::nullopt, found.fields, all,
-                    stage.provenance, true, found.bond_fields);
+    return {.replaced = tools::replaced_groups(found),
+            .bonds = stage.bonds ? std::optional(*stage.bonds) : std::nullopt,
+            .fields = found.fields,
+            .results = std::move(all),
+            .provenance = stage.provenance,
+            .bond_fields = found.bond_fields};
 }
 
-/// A file of a structure and of what stages found; each stage adds itself as the verbs of the program do.
+/// A file of a structure and of what stages found; each stage is added as the verbs of the program do it.
 void write_file(const std::string& path, const std::shared_ptr<Packing>& packing, const std::shared_ptr<ContactNetwork>& bonds,
                 const std::vector<std::shared_ptr<Stage>>& stages, const std::string& call, bool overwrite) {
-    tools::check_output(path, overwrite);
     io::Structure structure{*packing, bonds ? std::optional(*bonds) : std::nullopt};
     io::Provenance history;
     history.stage = "import";
@@ -263,23 +265,13 @@ void write_file(const std::string& path, const std::shared_ptr<Packing>& packing
             results = first.findings.results;
         }
     }
-    // All of it or nothing: written beside its place, and renamed.
-    const std::string beside = path + ".part";
-    try {
-        io::write_structure(beside, structure, {}, results, history, true);
-        for (; next != stages.end(); ++next) {
-            add_stage(beside, **next);
-        }
-        std::filesystem::rename(beside, path);
-    } catch (...) {
-        std::filesystem::remove(beside);
-        throw;
-    }
+    std::vector<io::Addition> later;
+    std::transform(next, stages.end(), std::back_inserter(later), [](const auto& stage) { return addition_of(*stage); });
+    io::write_structure(path, structure, {}, results, history, overwrite, later);
 }
 
 void export_structure(const std::string& path, const std::shared_ptr<Packing>& packing,
                       const std::shared_ptr<ContactNetwork>& bonds, bool overwrite) {
-    tools::check_output(path, overwrite);
     tools::export_structure(path, {*packing, bonds ? std::optional(*bonds) : std::nullopt}, overwrite);
 }
 

@@ -152,7 +152,27 @@ class Restart(ProgramTest):
         first.send_signal(signal.SIGKILL)
         first.wait()
         self.check_sentence(self.run_program(*words, "--seed", "2", "-o", "second.h5").stderr, says="other options")
-        self.assertFalse((self.folder / ".state.h5.lock").exists())
+        self.assertEqual([path.name for path in self.folder.glob(".*")], [])
+
+    @unittest.skipIf(os.geteuid() != 0, "only root may give links away")
+    def test_a_link_that_another_user_puts_in_place_of_the_checkpoint(self):
+        victim = self.write("victim", "precious")
+        shared = self.folder / "shared"
+        shared.mkdir()
+        shared.chmod(0o1777)
+        words = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "1s", "--checkpoint", "shared/state.h5", "--checkpoint-interval", "1s"]
+        run = subprocess.Popen([PROGRAM, *words, "-o", "x.h5"], cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+        self.addCleanup(run.kill)
+        while not (shared / ".state.h5.run").exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+        os.symlink(victim, shared / "state.h5")
+        os.chown(shared / "state.h5", 65534, 65534, follow_symlinks=False)
+        _, complaint = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 2)
+        self.check_sentence(complaint, says=["shared/state.h5", "symbolic link of another user"])
+        self.assertEqual(victim.read_text(), "precious")
+        self.assertEqual(os.listdir(shared), ["state.h5"])
 
     def test_full_disk_keeps_the_last_checkpoint(self):
         words = [*self.LONG, "--checkpoint", "state.h5", "--checkpoint-interval", "0s", "-o", "b.h5"]

@@ -1,5 +1,6 @@
 """coagula diagnose: a hidden loss of the contacts is named, the extended model runs, what cannot be diagnosed is refused."""
 
+import hashlib
 import json
 import math
 import unittest
@@ -27,6 +28,11 @@ kind = "frequency-sweep"
 file = "sweep.csv"
 sample = "one"
 """
+
+
+def summed(line):
+    """A line of the cache with its checksum."""
+    return f"{line}\t{hashlib.sha256(line.encode()).hexdigest()[:16]}\n"
 
 
 class Diagnosis(ProgramTest):
@@ -109,12 +115,15 @@ class Diagnosis(ProgramTest):
         first = self.succeed_json(*words)
         cache = self.folder / "results" / "simulations.txt"
         whole = cache.read_text()
-        key, numbers = whole.splitlines()[0].split("\t")
-        for text, line in ((whole[:-3], 1), (whole + "rest", 2), (f"{key}\t\n", 1), (f"{key}\t1 2,5 3 4\n", 1), (f"{key}\tnan 2 3 4\n", 1)):
+        key, numbers, _ = whole.splitlines()[0].split("\t")
+        changed = " ".join(str(1.7 * float(number)) for number in numbers.split())
+        older = f"{key}\t{numbers}\n"
+        for text, line in ((whole[:-3], 1), (whole + "rest", 2), (f"{key}\t\n", 1), (summed(f"{key}\t1 2,5 3 4"), 1), (summed(f"{key}\tnan 2 3 4"), 1),
+                           (whole.replace(numbers, changed), 1), (whole.replace(key, key + "0"), 1), (older, 1), (whole + older, 2)):
             with self.subTest(text=text):
                 cache.write_text(text)
-                self.fail_with(2, *words, says=f"simulations.txt: line {line} is not a complete result of a simulation; remove the file")
-        cache.write_text(f"{key}\t{numbers.rsplit(' ', 1)[0]}\n")
+                self.fail_with(2, *words, says=(f"simulations.txt: line {line} is no result of a simulation as it was written", "remove the file"))
+        cache.write_text(summed(f"{key}\t{numbers.rsplit(' ', 1)[0]}"))
         self.assertEqual(self.succeed_json(*words)["rows"], first["rows"])
         self.assertEqual(cache.read_text(), whole)
 

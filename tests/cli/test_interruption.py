@@ -59,18 +59,29 @@ class Interruption(ProgramTest):
         self.assertIn(process.returncode, (-signal.SIGINT, -signal.SIGTERM, 1))
         self.assertEqual(os.listdir(self.folder), [])
 
-    def test_second_signal_ends_what_does_not_answer(self):
+    def test_who_waits_for_another_writer_answers(self):
         self.copy_of_packing()
-        for first, second in ((signal.SIGTERM, signal.SIGINT), (signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGTERM)):
-            with open(self.folder / ".packing.csv.tmp", "w") as held:  # the program waits for this lock
+        for number in (signal.SIGTERM, signal.SIGINT):
+            with open(self.folder / ".packing.csv.lock", "w") as held:  # the program waits for this lock
                 fcntl.fcntl(held, fcntl.F_OFD_SETLK, struct.pack("hhqqi", fcntl.F_WRLCK, os.SEEK_SET, 0, 0, 0))
-                process = self.start("export", "packing.h5", "--format", "csv")
-                process.send_signal(first)
-                time.sleep(0.2)
-                self.assertIsNone(process.poll())
-                process.send_signal(second)
-                process.communicate(timeout=10)
-                self.assertEqual(process.returncode, -second)
+                self.interrupt(self.start("export", "packing.h5", "--format", "csv"), number)
+                self.assertFalse((self.folder / "packing.csv").exists())
+
+    def test_second_signal_ends_what_does_not_answer(self):
+        for first, second in ((signal.SIGTERM, signal.SIGINT), (signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGTERM)):
+            reading, writing = os.pipe()  # nobody reads: the program waits in its write
+            fcntl.fcntl(writing, fcntl.F_SETPIPE_SZ, 4096)
+            process = subprocess.Popen([PROGRAM, "man", "shear"], stdout=writing)
+            os.close(writing)
+            self.addCleanup(os.close, reading)
+            self.addCleanup(process.wait)
+            self.addCleanup(process.kill)
+            time.sleep(0.5)
+            process.send_signal(first)
+            time.sleep(0.2)
+            self.assertIsNone(process.poll())
+            process.send_signal(second)
+            self.assertEqual(process.wait(10), -second)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ class Kills(unittest.TestCase):
 
     def test_new_files(self):
         self.campaign.kill_a_new_file("import")
-        self.assertEqual(self.campaign.kills["import"], 9)
+        self.assertEqual(self.campaign.kills["import"], 12)
 
     def test_resumed_runs(self):
         for name in RESUMED:

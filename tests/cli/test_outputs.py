@@ -61,6 +61,158 @@ class Outputs(ProgramTest):
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.data", "a.h5"])
 
 
+    def test_protected_file_is_not_replaced(self):
+        source = self.copy_of_packing()
+        target = self.write("old.csv", "precious")
+        for path in (source, target):
+            path.chmod(0o444)
+            before = checksum(path)
+            for words in (["characterize", "packing.h5"], ["shear", "packing.h5"]) if path == source else (
+                    ["export", "packing.h5", "-o", "old.csv", "--force"], [*VEM, "-o", "old.csv", "--force"]):
+                self.fail_with(2, *words, says=[path.name, "protected against writing"])
+                self.assertEqual(checksum(path), before)
+
+    def test_folders_in_which_nothing_can_be_made(self):
+        """With the first signal still free to act: no loop hides it, and none is needed."""
+        source = self.copy_of_packing()
+        for output in ("/proc/x.h5", "/proc/self/x.h5", "/dev/fd/x.h5"):
+            self.fail_with(2, "characterize", source, "-o", output, says=[output, "no file can be made"])
+        (self.folder / "gone").mkdir()
+        for name in ("x.h5", "./x.h5"):
+            words = ["sh", "-c", 'cd gone && mkdir in && cd in && rmdir ../in && exec "$0" "$@"', PROGRAM, "characterize", str(source), "-o", name]
+            done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, timeout=30)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.check_sentence(done.stderr, says=[name, "no file can be made"])
+
+
+class ClosedDescriptors(ProgramTest):
+    """Whoever starts the program may have closed its standard streams."""
+
+    def run_without(self, closed, *words):
+        return subprocess.run(["sh", "-c", f'exec "$0" "$@" {closed}', PROGRAM, *map(str, words)], cwd=self.folder, stdout=subprocess.DEVNULL,
+                              timeout=100).returncode
+
+    def test_results_are_whole(self):
+        for closed in ("2>&-", "<&- 2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
+            with self.subTest(closed=closed):
+                self.copy_of_packing()
+                self.assertEqual(self.run_without(closed, "characterize", "packing.h5", "--only", "coordination", "--quiet"), 0)
+                self.assertEqual(self.run_without(closed, "shear", "packing.h5", "--quiet"), 0)
+                self.assertEqual(self.run_without(closed, "export", "packing.h5", "-o", "packing.csv", "--force", "--quiet"), 0)
+                found = self.succeed_json("info", "packing.h5")["results"]
+                self.assertIn("/characterization/coordination_all", found)
+                self.assertIn("/mechanics/linear/storage_modulus/mean", found)
+                self.assertEqual(len((self.folder / "packing.csv").read_text().splitlines()), 501)
+
+    def test_what_cannot_be_printed_is_an_error(self):
+        self.copy_of_packing()
+        self.assertEqual(self.run_without(">&-", "info", "packing.h5"), 1)
+        self.assertEqual(self.run_without(">&- 2>&-", "info", "packing.h5", "--json"), 1)
+
+
+class InputsAreKept(ProgramTest):
+    """An output that is an input of the call is refused, whatever its name."""
+
+    def refuse(self, name, *words):
+        path = self.folder / name
+        before = path.read_bytes()
+        self.fail_with(2, *words, says=["cannot write", "this call reads"])
+        self.assertEqual(path.read_bytes(), before)
+
+    def test_each_verb(self):
+        self.copy_of_packing("a.h5")
+        self.write("c.csv", "x [um],y [um],z [um]\n1,1,1\n2.1,1,1\n")
+        self.write("m.toml", "normal_stiffness = 100\n")
+        self.write("t.csv", "a,modulus [Pa]\n" + "".join(f"{0.5 + 0.05 * k},{1e5 * (0.2 + 0.05 * k) ** 1.5}\n" for k in range(8)))
+        self.write("f.csv", "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]\n1,1e5,2e4\n3,1.1e5,2e4\n")
+        for name, words in (("a.h5", ["report", "a.h5", "-o", "a.h5"]), ("a.h5", ["export", "a.h5", "--format", "csv", "-o", "a.h5"]),
+                            ("a.h5", ["calibrate", "a.h5", "-o", "a.h5"]),
+                            ("a.h5", ["plot", "a.h5", "--figure", "packing", "-o", "f.svg", "--data", "a.h5"]),
+                            ("a.h5", ["shear", "a.h5", "-o", "a.h5"]), ("a.h5", ["characterize", "a.h5", "-o", "./a.h5"]),
+                            ("t.csv", ["fit", "power-law", "t.csv", "-o", "t.csv"]),
+                            ("c.csv", ["import", "c.csv", "--radius", "0.5um", "--open", "-o", "c.csv"]),
+                            ("m.toml", ["shear", "a.h5", "--model", "m.toml", "-o", "m.toml"]),
+                            ("f.csv", ["diagnose", "--new", "f.csv", "-o", "f.csv"]),
+                            ("a.h5", ["generate", "brownian", "--start", "a.h5", "--surface-potential", "0mV", "--stop-time", "1us", "-o", "a.h5"])):
+            with self.subTest(words=words):
+                self.refuse(name, *words, "--force")
+
+    def test_other_names_of_the_file(self):
+        self.copy_of_packing("a.h5")
+        (self.folder / "folder").mkdir()
+        (self.folder / "link.h5").symlink_to("a.h5")
+        os.link(self.folder / "a.h5", self.folder / "hard.h5")
+        for name in ("link.h5", "hard.h5", "folder/../a.h5", str(self.folder / "a.h5")):
+            with self.subTest(name=name):
+                self.refuse("a.h5", "report", "a.h5", "-o", name, "--force")
+                self.refuse("a.h5", "export", name, "--format", "csv", "-o", "a.h5", "--force")
+
+    def test_a_name_that_the_program_chooses(self):
+        self.copy_of_packing("a.csv")  # a file of results, whatever its name says
+        self.refuse("a.csv", "export", "a.csv", "--format", "csv", "--force")
+
+    def test_files_in_a_folder(self):
+        self.copy_of_packing("packing.h5")
+        (self.folder / "tables").mkdir()
+        table = "a,modulus [Pa]\n" + "".join(f"{0.5 + 0.05 * k},{1e5 * (0.2 + 0.05 * k) ** 1.5}\n" for k in range(8))
+        (self.folder / "tables" / "figure1.csv").write_text(table)
+        self.refuse("tables/figure1.csv", "plot", "tables", "--figure", "packing", "-o", "f.svg", "--data", "tables/figure1.csv", "--force")
+        self.refuse("tables/figure1.csv", "plot", "tables", "--paper", "-o", "tables", "--force")
+        sweep = "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]\n" + "".join(f"{k},1e5,{2e4 + 10 * k}\n" for k in range(1, 8))
+        (self.folder / "tables" / "report.html").write_text(sweep)
+        self.write("experiment.toml", '[sample]\nparticle_radius = "0.25 um"\n[structures]\nfiles = ["packing.h5"]\n'
+                                      '[[measurement]]\nkind = "frequency-sweep"\nfile = "tables/report.html"\nsample = "a"\n')
+        self.refuse("tables/report.html", "diagnose", "experiment.toml", "-o", "tables", "--force")
+
+    def test_two_outputs_of_one_name(self):
+        self.copy_of_packing("a.h5")
+        (self.folder / "here").symlink_to(".")
+        brownian = ["generate", "brownian", "--particles", "60", "--volume-fraction", "0.3", "--radius", "0.25um", "--surface-potential", "0mV",
+                    "--stop-time", "1us"]
+        for words in ([*brownian, "-o", "x.h5", "--checkpoint", "x.h5"], [*brownian, "-o", "./x.h5", "--checkpoint", "here/x.h5"],
+                      ["shear", "a.h5", "--method", "quasistatic", "-o", "x.h5", "--checkpoint", "x.h5"],
+                      ["plot", "a.h5", "--figure", "packing", "-o", "x.svg", "--data", "x.svg"]):
+            with self.subTest(words=words):
+                self.fail_with(2, *words, says=["cannot write", "two outputs of this call"])
+
+
+class MeasuresAreKept(ProgramTest):
+    """A characterization in place replaces what it measures and keeps the rest."""
+
+    def results(self):
+        return self.succeed_json("info", "measured.h5")["results"]
+
+    def test_only_what_is_measured_is_replaced(self):
+        self.copy_of_measured()
+        before = self.results()
+        self.succeed("characterize", "measured.h5", "--only", "coordination", "--contact-tolerance", "0.05")
+        after = self.results()
+        self.assertEqual(after.keys(), before.keys())
+        changed = {path for path in before if before[path] != after[path]}
+        self.assertIn("/characterization/contact_tolerance", changed)
+        self.assertIn("/characterization/coordination_all", changed)
+        self.assertFalse({path for path in changed if path.count("/") > 2 and "/uncertainty/" not in path}, changed)
+
+    def test_nothing_of_the_older_measure_is_left(self):
+        self.copy_of_measured()
+        self.succeed("characterize", "measured.h5", "--only", "rings,overlap", "--position-noise", "5nm", "--noise-replicas", "2")
+        noisy = self.results()
+        self.assertIn("/characterization/noise/shift/overlap/mean", noisy)
+        self.succeed("characterize", "measured.h5", "--only", "overlap")
+        after = self.results()
+        gone = noisy.keys() - after.keys()
+        self.assertIn("/characterization/noise/shift/overlap/mean", gone)
+        self.assertTrue(all("/noise/shift" in path for path in gone), gone)
+
+    def test_a_default_run_keeps_what_it_does_not_measure(self):
+        self.copy_of_packing("measured.h5")
+        self.succeed("characterize", "measured.h5", "--only", "bond_order")
+        more = self.results()
+        self.succeed("characterize", "measured.h5")
+        after = self.results()
+        self.assertLess(more.keys(), after.keys())
+
+
 class ListsOfBonds(ProgramTest):
     def test_results_keep_the_bonds_they_were_found_with(self):
         self.copy_of_packing()

@@ -192,6 +192,9 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& typed) : 
         if (!given && option.fallback.empty()) {
             continue;
         }
+        if (option.file != Option::File::none) {
+            files_[option.name] = option.file;
+        }
         if (many_inputs && option.name == "input" && map["input"].as<std::vector<std::string>>().size() > 1) {
             values_["input"] = map["input"].as<std::vector<std::string>>();
             continue;
@@ -252,6 +255,17 @@ std::vector<std::string> Arguments::inputs() const {
     const Value& value = values_.at("input");
     const auto* many = std::get_if<std::vector<std::string>>(&value);
     return many != nullptr ? *many : std::vector<std::string>{std::get<std::string>(value)};
+}
+
+std::vector<std::string> Arguments::files(Option::File use) const {
+    std::vector<std::string> names;
+    for (const auto& [option, what] : files_) {
+        if (what == use) {
+            const std::vector<std::string> given = option == "input" ? inputs() : std::vector{text(option)};
+            names.insert(names.end(), given.begin(), given.end());
+        }
+    }
+    return names;
 }
 
 std::string Arguments::text(const std::string& name, const std::string& otherwise) const {

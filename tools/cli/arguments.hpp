@@ -47,6 +47,9 @@ public:
     /// Of a verb that takes many, in the order given; also where one is given.
     std::vector<std::string> inputs() const;
 
+    /// The files that the call reads, or those that it writes.
+    std::vector<std::string> files(Option::File use) const;
+
     const std::string& verb() const { return verb_; }
     /// As it could be typed again.
     const std::string& command_line() const { return command_line_; }
@@ -61,6 +64,7 @@ private:
     std::string verb_;
     std::string command_line_;
     std::map<std::string, Value> values_;
+    std::map<std::string, Option::File> files_;  ///< options that name files
     bool help_wanted_ = false;
 };
 

@@ -1,25 +1,21 @@
 // A checkpoint belongs to one run at a time.
 #pragma once
 
+#include <coagula/io/file_lock.hpp>
+
 #include <string>
 
 namespace coagula::tools {
 
-/// Holds a checkpoint as long as it lives: the hidden file .NAME.lock beside it is locked and removed at the end. What a killed run
-/// left of it is taken over. Where the file system has no locks, nothing is held.
+/// Holds a checkpoint as long as it lives, whether or not the file is there yet.
 class CheckpointLock {
 public:
-    /// Throws InputError while another run holds it.
+    /// Throws InputError while another run holds it, and where no checkpoint could be written.
     explicit CheckpointLock(const std::string& checkpoint);
-    CheckpointLock(const CheckpointLock&) = delete;
-    CheckpointLock& operator=(const CheckpointLock&) = delete;
-    ~CheckpointLock();
 
 private:
-    bool take(const std::string& checkpoint);
-
-    std::string name_;
-    int descriptor_ = -1;
+    io::OutputPlace place_;
+    io::FileLock lock_;
 };
 
 }  // namespace coagula::tools

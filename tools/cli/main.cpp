@@ -9,6 +9,7 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/common/progress.hpp>
 #include <coagula/common/spelling.hpp>
+#include <coagula/io/standard_descriptors.hpp>
 #include <coagula/report/printable.hpp>
 
 #include <omp.h>
@@ -150,6 +151,7 @@ int complain(const std::string& sentence, int code) {
 
 int main(int argc, char** argv) {
     using namespace coagula::tools;
+    coagula::io::occupy_standard_descriptors();
     restart_with_thread_settings(argv);
     install_signal_handlers();
     try {

@@ -95,8 +95,18 @@ Option required(Option option) {
     return option;
 }
 
+Option reads(Option option) {
+    option.file = Option::File::read;
+    return option;
+}
+
+Option writes(Option option) {
+    option.file = Option::File::written;
+    return option;
+}
+
 Option output(std::string meaning) {
-    Option option = text("output", "FILE", std::move(meaning));
+    Option option = writes(text("output", "FILE", std::move(meaning)));
     option.letter = 'o';
     return option;
 }
@@ -104,7 +114,7 @@ Option output(std::string meaning) {
 std::vector<Option> all_options(const Verb& verb) {
     std::vector<Option> options;
     if (!verb.input.empty()) {
-        Option input = text("input", verb.input, "the file to work on");
+        Option input = reads(text("input", verb.input, "the file to work on"));
         input.required = verb.input_required;
         input.choices = verb.input_choices;
         options.push_back(input);

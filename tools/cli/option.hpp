@@ -39,6 +39,7 @@ inline constexpr Range strain{1e-15, 10};
 
 struct Option {
     enum class Kind { flag, count, quantity, text };
+    enum class File { none, read, written };
 
     Kind kind = Kind::flag;
     std::string name = {};
@@ -50,6 +51,7 @@ struct Option {
     std::vector<std::string> choices = {};  ///< of a text; empty: any
     bool required = false;
     char letter = 0;  ///< short name
+    File file = File::none;  ///< whether its text names a file, and what becomes of that
     /// Of a length: a number above this without a unit is more likely a unit forgotten than what is meant, and refused.
     double largest_bare = std::numeric_limits<double>::infinity();
 };
@@ -64,6 +66,10 @@ Option particle_radius(std::string meaning);
 Option text(std::string name, std::string placeholder, std::string meaning, std::string fallback = {});
 Option choice(std::string name, std::vector<std::string> choices, std::string meaning, std::string fallback);
 Option required(Option option);
+/// A text that names a file, which the call reads.
+Option reads(Option option);
+/// A text that names a file, which the call writes.
+Option writes(Option option);
 /// -o FILE
 Option output(std::string meaning);
 

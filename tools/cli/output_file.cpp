@@ -3,8 +3,7 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/io/structure_file.hpp>
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <filesystem>
 
 namespace coagula::tools {
@@ -13,36 +12,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file is first written as .NAME.tmp beside its place: NAME_MAX bytes in all.
-constexpr std::size_t longest_name = 255 - 5;
+bool is_same_file(const std::string& one, const std::string& other) {
+    std::error_code missing;
+    return fs::equivalent(one, other, missing);
+}
 
-/// Files are replaced by a rename, so what must be writable is the folder.
-void check_folder(const std::string& path) {
-    const std::string name = fs::path(path).filename().string();
-    if (name.size() > longest_name) {
-        throw InputError("cannot write " + path + ": the name has " + std::to_string(name.size()) + " bytes, and " +
-                         std::to_string(longest_name) + " are possible");
-    }
-    const fs::path parent = fs::path(path).parent_path();
-    const std::string folder = parent.empty() ? "." : parent.string();
-    if (!fs::is_directory(folder)) {
-        throw InputError("cannot write " + path + ": there is no folder " + folder);
-    }
-    if (access(folder.c_str(), W_OK | X_OK) != 0) {
-        throw InputError("cannot write " + path + ": no permission to write in the folder " + folder);
-    }
+/// Of files that need not be there yet.
+bool is_same_place(const std::string& one, const std::string& other) {
+    std::error_code missing;
+    return is_same_file(one, other) || fs::weakly_canonical(one, missing) == fs::weakly_canonical(other, missing);
 }
 
 }  // namespace
 
-void check_output(const std::string& path, bool force) {
-    io::check_output(path, force);
-    check_folder(path);
+void check_not_read(const Arguments& arguments, const std::string& path, const std::vector<std::string>& also_read) {
+    std::vector<std::string> read = arguments.files(Option::File::read);
+    read.insert(read.end(), also_read.begin(), also_read.end());
+    const auto same = std::find_if(read.begin(), read.end(), [&](const std::string& file) { return is_same_file(file, path); });
+    if (same != read.end()) {
+        throw InputError("cannot write " + path + ": this call reads " + (*same == path ? "it" : "the same file as " + *same) +
+                         ", and would destroy it; give the output another name");
+    }
+}
+
+void check_output(const Arguments& arguments, const std::string& path, const std::vector<std::string>& also_read) {
+    check_not_read(arguments, path, also_read);
+    const std::vector<std::string> written = arguments.files(Option::File::written);
+    if (std::count_if(written.begin(), written.end(), [&](const std::string& file) { return is_same_place(file, path); }) > 1) {
+        throw InputError("cannot write " + path + ": two outputs of this call have that name; give each a name of its own");
+    }
+    io::check_output(path, arguments.flag("force"));
 }
 
 void check_updatable(const std::string& path) {
     io::check_source(path);
-    check_folder(path);
+    io::check_output(path, true);
 }
 
 std::string checked_target(const Arguments& arguments) {
@@ -50,8 +54,8 @@ std::string checked_target(const Arguments& arguments) {
         check_updatable(arguments.input());
         return arguments.input();
     }
+    check_output(arguments, arguments.text("output"));
     io::check_source(arguments.input());
-    check_output(arguments.text("output"), arguments.flag("force"));
     return arguments.text("output");
 }
 

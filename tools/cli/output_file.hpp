@@ -4,12 +4,17 @@
 #include "arguments.hpp"
 
 #include <string>
+#include <vector>
 
 namespace coagula::tools {
 
-/// Throws InputError unless a new file can be made at `path`: its folder exists and can be written, and nothing is there yet
-/// or `force` is set.
-void check_output(const std::string& path, bool force);
+/// Throws InputError unless a new file can be made at `path` or, with --force, replace one there, and the call neither reads that file
+/// nor writes it twice. Files are told apart by what they are, whatever their names.
+/// @param also_read files that the call reads and no option names.
+void check_output(const Arguments& arguments, const std::string& path, const std::vector<std::string>& also_read = {});
+
+/// Throws InputError when the call reads the file at `path`.
+void check_not_read(const Arguments& arguments, const std::string& path, const std::vector<std::string>& also_read = {});
 
 /// Throws InputError unless results can be added to the file itself.
 void check_updatable(const std::string& path);

@@ -249,7 +249,7 @@ void run_calibrate(const Arguments& arguments) {
     const Moduli measured = measured_moduli(arguments, arguments.inputs().size());
     series_options(arguments);
     if (arguments.has("output")) {
-        check_output(arguments.text("output"), force);
+        check_output(arguments, arguments.text("output"));
     }
     // Every file is read before the first series begins.
     std::vector<Packing> packings;

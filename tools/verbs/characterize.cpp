@@ -124,7 +124,7 @@ void run_characterize(const Arguments& arguments) {
 
     Findings found = naming(arguments.input(), [&] { return characterize_packing(arguments, packing, progress); });
     progress.update("writing", 1.0);
-    io::add_results(arguments.input(), target, {found.group}, std::nullopt, found.fields, found.results,
+    io::add_results(arguments.input(), target, replaced_groups(found), std::nullopt, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));
 
     Json json = to_json(found.results, found.group);

@@ -1,5 +1,6 @@
 #include "diagnose_new.hpp"
 
+#include "cli/output_file.hpp"
 #include "cli/report.hpp"
 #include "new_experiment.hpp"
 
@@ -93,6 +94,9 @@ Counts count(const std::vector<RecognisedFile>& files) {
 
 void run_new(const Arguments& arguments) {
     const std::string path = arguments.text("output", "");
+    if (!path.empty()) {
+        check_output(arguments, path);
+    }
     std::vector<RecognisedFile> files;
     Json json = {{"files", Json::array()}};
     for (const std::string& input : arguments.inputs()) {

@@ -1,5 +1,6 @@
 #include "diagnose_power.hpp"
 
+#include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
@@ -158,6 +159,9 @@ void run_power(const Arguments& arguments) {
     }
     const Progress progress = make_progress(arguments.flag("quiet"));
     ExperimentFile file = read_experiment(arguments.input());
+    if (folder) {
+        check_not_read(arguments, folder->files().front().string(), file.files);
+    }
     diagnose::PowerOptions options;
     options.noise = file.noise;
     options.storage_modulus = file.expected_storage_modulus;

@@ -1,5 +1,6 @@
 #include "diagnosis_run.hpp"
 
+#include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/provenance.hpp"
 #include "cli/report.hpp"
@@ -153,8 +154,13 @@ struct Diagnosed {
     }
 };
 
-Diagnosed diagnosed(const Arguments& arguments, diagnose::SimulationCache& cache, const Progress& progress) {
+/// @param outputs files that will be written.
+Diagnosed diagnosed(const Arguments& arguments, const std::vector<std::filesystem::path>& outputs, diagnose::SimulationCache& cache,
+                    const Progress& progress) {
     CheckedExperiment checked = check_experiment(arguments.input(), options_of(arguments));
+    for (const std::filesystem::path& output : outputs) {
+        check_not_read(arguments, output.string(), checked.file.files);
+    }
     Experiment& experiment = checked.file.experiment;
     ExperimentStructures& structures = checked.structures;
     naming(arguments.input(), [&] { make_structures(experiment, structures, progress); });
@@ -186,7 +192,7 @@ Written write_diagnosis(const Arguments& arguments, const std::string& path, con
     ResultFolder folder(path, "diagnosis.json", {"report.html", "diagnosis.h5", "extended_model.toml"}, arguments.flag("force"));
     const Stopwatch clock;
     diagnose::SimulationCache cache = read_cache(folder.path() / cache_name);
-    const Diagnosed found = diagnosed(arguments, cache, keeping(progress, folder, cache));
+    const Diagnosed found = diagnosed(arguments, folder.files(), cache, keeping(progress, folder, cache));
 
     const std::string model = found.contact.empty() ? "" : (folder.path() / "extended_model.toml").string();
     if (found.contact.empty()) {
@@ -242,7 +248,7 @@ Json diagnose_experiment(const Arguments& arguments, const std::string& folder, 
     }
     const Stopwatch clock;
     diagnose::SimulationCache cache;
-    const Diagnosed found = diagnosed(arguments, cache, progress);
+    const Diagnosed found = diagnosed(arguments, {}, cache, progress);
     return found.json("", clock.seconds());
 }
 

@@ -85,7 +85,7 @@ void run_export(const Arguments& arguments) {
     const std::string output = arguments.text("output", beside);
     const io::Structure structure = all_frames ? io::read_trajectory(arguments.input()) : io::read_structure(arguments.input());
     const bool force = arguments.flag("force");
-    check_output(output, force);
+    check_output(arguments, output);
     if (arguments.flag("dump-units")) {
         io::write_text(output, io::TextFormat::lammps_dump, structure.packing, structure.bonds, force, structure.earlier,
                        structure.time, true);

@@ -201,7 +201,7 @@ void run_fit_power_law(const Arguments& arguments) {
     const Stopwatch clock;
     const bool force = arguments.flag("force");
     if (arguments.has("output")) {
-        check_output(arguments.text("output"), force);
+        check_output(arguments, arguments.text("output"));
     }
     const PowerLawData data = read_data(arguments);
     const PowerLawAnalysis found = analyse_file(arguments, data);

@@ -101,8 +101,6 @@ BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, cons
     if (std::filesystem::exists(path)) {
         resumed = read_brownian_checkpoint(path, signature);
         keep_sample_interval(*resumed, options);
-    } else {
-        check_output(path, false);
     }
     BrownianControl control;
     control.resume = resumed ? &*resumed : nullptr;
@@ -135,7 +133,7 @@ void run_generate_brownian(const Arguments& arguments) {
         throw InputError("coagula generate brownian needs --output (see 'coagula generate brownian --help')");
     }
     const std::string output = arguments.text("output");
-    check_output(output, arguments.flag("force"));
+    check_output(arguments, output);
     Generated made = generate_brownian(arguments, start, {}, progress);
     progress.update("writing", 1.0);
     const Results& results = made.findings.results;
@@ -192,10 +190,10 @@ Verb generate_brownian_verb() {
         quantity("volume-fraction", "1", "volume of the spheres over that of the box; required without --start", "",
                  between(0, 0.55)),
         particle_radius("mean radius of the particles; required, unless a table or a file gives the radii"),
-        text("size-distribution", "NAME",
-             "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) or FILE.csv (columns radius, fraction)",
-             "monodisperse"),
-        text("start", "FILE", "go on from the packing in this file instead of a suspension in equilibrium"),
+        reads(text("size-distribution", "NAME",
+                   "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) or FILE.csv (columns radius, fraction)",
+                   "monodisperse")),
+        reads(text("start", "FILE", "go on from the packing in this file instead of a suspension in equilibrium")),
         quantity("equilibration-potential", "V", "surface potential at which the suspension is brought to equilibrium", "50mV",
                  within(1e-6, 1)),
         quantity("equilibration-time", "s", "duration of that equilibration; a quarter of R^2/D when not given", "",
@@ -241,8 +239,8 @@ Verb generate_brownian_verb() {
                  physical::time),
         text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),
         flag("heterogeneity", "measure the degree of heterogeneity at the start, at the snapshots and at the end"),
-        text("checkpoint", "FILE",
-             "file for the state of the run; a run that finds it goes on from there, also to another stop time"),
+        writes(text("checkpoint", "FILE",
+                    "file for the state of the run; a run that finds it goes on from there, also to another stop time")),
         quantity("checkpoint-interval", "s", "wall-clock time between checkpoints", "60s", physical::duration),
         count("seed", "seed of the random numbers", "1", at_least(0)),
         output("HDF5 file to write"),

@@ -78,7 +78,7 @@ void run_generate_vem(const Arguments& arguments) {
     const Progress progress = make_progress(arguments.flag("quiet"));
     const std::string output = arguments.text("output");
     const bool force = arguments.flag("force");
-    check_output(output, force);
+    check_output(arguments, output);
     Generated made = generate_vem(arguments, {}, progress);
     progress.update("writing", 1.0);
     io::write_structure(output, made.structure, {}, {}, describe_call(arguments, nullptr, clock), force);
@@ -120,10 +120,10 @@ Verb generate_vem_verb() {
                           "", within(0, 1e9)),
                     required(quantity("volume-fraction", "1", "volume of the spheres over that of the box", "", between(0, 0.64))),
                     particle_radius("mean radius of the particles; required, unless a table gives the radii"),
-                    text("size-distribution", "NAME",
-                         "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) "
-                         "or FILE.csv (columns radius, fraction)",
-                         "monodisperse"),
+                    reads(text("size-distribution", "NAME",
+                               "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) "
+                               "or FILE.csv (columns radius, fraction)",
+                               "monodisperse")),
                     quantity("target-coordination", "1", "mean number of contacts at which the expansion stops", "4.69",
                              between(0, 6)),
                     quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01",

@@ -198,7 +198,7 @@ void run_import(const Arguments& arguments) {
     const Progress progress = make_progress(arguments.flag("quiet"));
     const std::string output = arguments.text("output");
     const bool force = arguments.flag("force");
-    check_output(output, force);
+    check_output(arguments, output);
     const io::Structure structure = import_structure(arguments);
     const Packing& packing = structure.packing;
     progress.update("writing", 1.0);

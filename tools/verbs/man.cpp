@@ -48,7 +48,7 @@ std::string page_of(const Arguments& arguments, const std::vector<std::string>& 
 }
 
 void write_pages(const Arguments& arguments, const std::string& folder) {
-    std::filesystem::create_directories(folder);
+    io::make_folder(folder);
     std::vector<std::pair<std::string, std::string>> pages = {{"coagula", page_of_program(arguments)}};
     for (const Verb& verb : all_verbs()) {
         pages.emplace_back(page_name(verb), page_of_verb(arguments, verb));
@@ -57,7 +57,7 @@ void write_pages(const Arguments& arguments, const std::string& folder) {
     Json files = Json::array();
     for (const auto& [name, page] : pages) {
         files.push_back((std::filesystem::path(folder) / (name + ending)).string());
-        check_output(files.back(), arguments.flag("force"));
+        check_output(arguments, files.back());
     }
     for (std::size_t k = 0; k < pages.size(); ++k) {
         io::write_file(files[k], pages[k].second, arguments.flag("force"));

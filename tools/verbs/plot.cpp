@@ -177,9 +177,10 @@ Printed plot_figure(const Arguments& arguments) {
     const std::string& path = arguments.text("output");
     const bool force = arguments.flag("force");
     const PictureFormat format = report::picture_format(path, "--output");
-    check_output(path, force);
+    const std::vector<std::string> files = files_of(arguments);
+    check_output(arguments, path, files);
     if (arguments.has("data")) {
-        check_output(arguments.text("data"), force);
+        check_output(arguments, arguments.text("data"), files);
     }
     const report::Figure& figure = report::figure_named(arguments.text("figure"));
     Drawing drawing = report::draw_figure(figure, read_sources(arguments), arguments.flag("published"));
@@ -237,6 +238,9 @@ Printed plot_paper(const Arguments& arguments) {
         files.push_back("figure" + std::to_string(figure) + ".csv");
     }
     report::ResultFolder folder(arguments.text("output"), "captions.md", files, arguments.flag("force"));
+    for (const fs::path& output : folder.files()) {
+        check_not_read(arguments, output.string(), files_of(arguments));
+    }
     const std::vector<report::PaperFigure> figures = report::draw_paper_figures(read_sources(arguments));
 
     Json json = {{"output", arguments.text("output")}, {"figures", Json::array()}};
@@ -321,7 +325,7 @@ Verb plot_verb() {
                              picture_length),
                     quantity("height", "m", "height of the picture; in proportion to the width when not given", "", picture_length),
                     count("resolution", "resolution of a PNG in dots per inch", "300", within(50, 1200)),
-                    text("data", "FILE", "write the plotted numbers to this file as CSV"),
+                    writes(text("data", "FILE", "write the plotted numbers to this file as CSV")),
                     choice("format", {"svg", "png", "pdf"}, "with --paper: format of the pictures", "svg"),
                     flag("force", "replace existing output files")},
         .run = run_plot,

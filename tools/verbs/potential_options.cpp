@@ -72,7 +72,7 @@ std::vector<Option> potential_options() {
             count("valency", "valency of the ions of the electrolyte", "1", within(1, 10)),
             quantity("yukawa-energy", "J", "energy at contact of an additional Yukawa potential", "", within(-1e-15, 1e-15)),
             quantity("yukawa-length", "m", "screening length of the Yukawa potential", "", physical::length),
-            text("potential-table", "FILE", "CSV file with columns 'gap [unit],energy [unit]', in place of these potentials"),
+            reads(text("potential-table", "FILE", "CSV file with columns 'gap [unit],energy [unit]', in place of these potentials")),
             quantity("contact-stiffness", "N/m",
                      "stiffness of the elastic contact below a cut-off gap; 4e5 kB T/R^2 when not given", "", physical::stiffness),
             quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "",
@@ -80,7 +80,7 @@ std::vector<Option> potential_options() {
             quantity("cutoff-gap", "m", "gap beyond which there are no forces; R when not given", "", physical::length),
             quantity("temperature", "K", "temperature of the suspension", "293K", within(1, 1e4)),
             flag("potential-curve", "print the potential against the gap and run nothing"),
-            text("picture", "FILE", "with --potential-curve: draw the curve into this file, .svg, .png or .pdf")};
+            writes(text("picture", "FILE", "with --potential-curve: draw the curve into this file, .svg, .png or .pdf"))};
 }
 
 PairPotential make_potential(const Arguments& arguments, double radius, std::optional<double> surface_potential) {
@@ -137,7 +137,7 @@ void report_potential(const Arguments& arguments, const PairPotential& potential
     check_finite(json);
     if (arguments.has("picture")) {
         check_picture_name(arguments.text("picture"));
-        check_output(arguments.text("picture"), arguments.flag("force"));
+        check_output(arguments, arguments.text("picture"));
         draw_potential(arguments.text("picture"), curve, arguments.flag("force"));
     }
     Table table = {{"barrier height", with_unit(potential.barrier_height(farthest) / thermal, "kT")},

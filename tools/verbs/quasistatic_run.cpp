@@ -3,7 +3,6 @@
 #include "broken_bonds.hpp"
 #include "cli/checkpoint_file.hpp"
 #include "cli/checkpoint_lock.hpp"
-#include "cli/output_file.hpp"
 #include "cli/progress_part.hpp"
 #include "logarithmic_sweep.hpp"
 #include "network_keys.hpp"
@@ -82,8 +81,6 @@ std::vector<Test> run_or_resume(const Arguments& arguments, const Packing& packi
         lock.emplace(path);
         if (std::filesystem::exists(path)) {
             tests = read_quasistatic_checkpoint(path, signature);
-        } else {
-            check_output(path, false);
         }
     }
     return with_checkpoint(path, [&] {

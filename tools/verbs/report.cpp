@@ -56,7 +56,7 @@ void run_report(const Arguments& arguments) {
 
 Printed report_files(const Arguments& arguments) {
     const std::string output = arguments.text("output");
-    check_output(output, arguments.flag("force"));
+    check_output(arguments, output);
     std::vector<report::PageStructure> pages;
     for (const std::string& path : arguments.inputs()) {
         pages.push_back(read_page(arguments, path));

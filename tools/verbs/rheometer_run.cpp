@@ -62,9 +62,9 @@ std::vector<Option> rheometer_options() {
             choice("rest-length", {"found", "radii"},
                    "dem, quasistatic: distance at which a bond bears no force, that in the packing or r_i + r_j", "found"),
             text("orientation", "LIST", "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all", "all"),
-            text("checkpoint", "FILE",
-                 "dem, quasistatic: file for what is done, written after every oscillation or orientation; a run that finds it "
-                 "goes on from there")};
+            writes(text("checkpoint", "FILE",
+                        "dem, quasistatic: file for what is done, written after every oscillation or orientation; a run that finds "
+                        "it goes on from there"))};
 }
 
 mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,

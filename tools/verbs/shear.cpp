@@ -177,7 +177,7 @@ Shown shear_file(const Arguments& arguments, const std::string& source, const st
     progress.update("writing", 1.0);
     Json json = to_json(found.results, found.group);
     std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
-    io::add_results(source, target, {found.group}, bonds, found.fields, found.results, describe_call(arguments, &packing, clock),
+    io::add_results(source, target, replaced_groups(found), bonds, found.fields, found.results, describe_call(arguments, &packing, clock),
                     arguments.flag("force"), found.bond_fields);
     if (json.value("floppy_modes", 0) < 0) {
         json["floppy_modes"] = nullptr;
@@ -274,7 +274,7 @@ Verb shear_verb() {
              quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
              text("frequency", "LIST", "compute the response to an oscillating strain at these frequencies, such as 1Hz,10Hz"),
              text("frequency-sweep", "FROM:TO:N", "compute it at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
-             text("model", "FILE.toml", "all parameters of the contacts and the solvent (docs/reference/contact-model.md)"),
+             reads(text("model", "FILE.toml", "all parameters of the contacts and the solvent (docs/reference/contact-model.md)")),
              choice("relax", {"none", "minimise", "paper"},
                     "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero", "none"),
              choice("solver", {"auto", "direct", "iterative"}, "solver of the linear equations", "auto"),

@@ -1,3 +1,4 @@
+#include <coagula/io/checksums.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <openssl/evp.h>
@@ -10,12 +11,10 @@
 
 namespace coagula::io {
 
-namespace {
-
-std::string sha256(const void* bytes, std::size_t size) {
+std::string sha256(std::string_view bytes) {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned int length = 0;
-    if (EVP_Digest(bytes, size, digest.data(), &length, EVP_sha256(), nullptr) != 1) {
+    if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) {
         throw std::runtime_error("OpenSSL cannot compute a SHA-256");
     }
     const char* digits = "0123456789abcdef";
@@ -27,11 +26,9 @@ std::string sha256(const void* bytes, std::size_t size) {
     return text;
 }
 
-}  // namespace
-
 std::string positions_sha256(const Packing& packing) {
     const Eigen::Matrix3Xd positions = layout::stored_positions(packing);
-    return sha256(positions.data(), static_cast<std::size_t>(positions.size()) * sizeof(double));
+    return sha256({reinterpret_cast<const char*>(positions.data()), static_cast<std::size_t>(positions.size()) * sizeof(double)});
 }
 
 std::string datasets_sha256(const std::vector<Dataset>& datasets) {
@@ -39,8 +36,7 @@ std::string datasets_sha256(const std::vector<Dataset>& datasets) {
     for (const Dataset& dataset : datasets) {
         packer(dataset.path, dataset.values);
     }
-    const std::string bytes = packer.take();
-    return sha256(bytes.data(), bytes.size());
+    return sha256(packer.take());
 }
 
 }  // namespace coagula::io

@@ -1,6 +1,7 @@
 #include "child_process.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/io/standard_descriptors.hpp>
 
 #include <fcntl.h>
 #include <hdf5.h>
@@ -194,6 +195,7 @@ std::string run_in_child(const std::string& path, const Work& work) {
     std::error_code missing;
     const std::uintmax_t length = std::filesystem::file_size(path, missing);
     std::array<int, 2> ends{};
+    occupy_standard_descriptors();  // the child gives up that of standard error
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
         fail("cannot make a pipe to read " + path);
     }

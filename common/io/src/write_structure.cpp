@@ -101,18 +101,8 @@ void write_bonds(File& file, const std::string& particles_group, const ContactNe
                   "vector from the first to the second centre of each bond, through the periodic boundary");
 }
 
-/// What add_results adds.
-struct Additions {
-    const std::vector<std::string>& replaced;
-    const std::optional<ContactNetwork>& bonds;
-    const std::vector<ParticleField>& fields;
-    const std::vector<Dataset>& results;
-    const Provenance& provenance;
-    const std::vector<BondField>& bond_fields;
-};
-
 /// The file may have been replaced since its packing was read.
-void check_same_packing(const std::string& source, const Packing& packing, const Additions& added) {
+void check_same_packing(const std::string& source, const Packing& packing, const Addition& added) {
     const std::string& expected = added.provenance.positions_sha256;
     if (!expected.empty() && expected != positions_sha256(packing)) {
         throw std::runtime_error(source + " holds another packing than when this run began; its results are not written");
@@ -140,26 +130,28 @@ void keep_bonds_of_results(File& file) {
     }
 }
 
-void add_to(File& file, const Structure& structure, const std::string& particles_group, const Additions& added) {
+/// @param present the bonds in the file.
+void add_to(File& file, const Packing& packing, const std::optional<ContactNetwork>& present, const std::string& particles_group,
+            const Addition& added) {
     for (const std::string& group : added.replaced) {
         file.remove(group);
     }
-    if (added.bonds && structure.bonds && !are_equal(*added.bonds, *structure.bonds)) {
+    if (added.bonds && present && !are_equal(*added.bonds, *present)) {
         keep_bonds_of_results(file);
     }
     if (added.bonds) {
         write_bonds(file, particles_group, *added.bonds);
     }
     if (!file.has(layout::view)) {
-        write_view(file, structure.packing, added.bonds ? added.bonds : structure.bonds);
+        write_view(file, packing, added.bonds ? added.bonds : present);
     } else if (added.bonds) {
-        write_view_bonds(file, structure.packing, added.bonds);
+        write_view_bonds(file, packing, added.bonds);
     }
     for (const ParticleField& field : added.fields) {
-        write_view_field(file, structure.packing.size(), field);
+        write_view_field(file, packing.size(), field);
     }
     for (const BondField& field : added.bond_fields) {
-        write_view_bond_field(file, structure.packing, *added.bonds, field);
+        write_view_bond_field(file, packing, *added.bonds, field);
     }
     for (const Dataset& dataset : added.results) {
         write_dataset(file, dataset);
@@ -170,7 +162,8 @@ void add_to(File& file, const Structure& structure, const std::string& particles
 }  // namespace
 
 void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
-                     const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite) {
+                     const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
+                     const std::vector<Addition>& later) {
     check_output(path, overwrite);
     check(structure.packing);
     require(!structure.bonds || structure.bonds->particles == structure.packing.size(), "the bonds are those of another packing");
@@ -191,6 +184,12 @@ void write_structure(const std::string& path, const Structure& structure, const 
         write_dataset(file, dataset);
     }
     write_provenance(file, provenance);
+    std::optional<ContactNetwork> bonds = structure.bonds;
+    for (const Addition& added : later) {
+        check_same_packing(path, structure.packing, added);
+        add_to(file, structure.packing, bonds, layout::trajectory, added);
+        bonds = added.bonds ? added.bonds : bonds;
+    }
     write_file(path, file.close(), overwrite);
 }
 
@@ -201,19 +200,19 @@ void add_results(const std::string& source, const std::string& target, const std
     std::error_code missing;
     const bool in_place = std::filesystem::equivalent(source, target, missing);
     OutputFile output(target, overwrite || in_place);  // from here on nobody else adds to the file
-    const Additions added{replaced, bonds, fields, results, provenance, bond_fields};
-    run_in_child(source, [&](ReadingLimits& limits) {
+    const Addition added{replaced, bonds, fields, results, provenance, bond_fields};
+    const std::string bytes = run_in_child(source, [&](ReadingLimits& limits) {
         const File old = File::open(source);
         const Structure structure = read_structure(old);
         check_same_packing(source, structure.packing, added);
         File file = File::create(target);
         file.copy_all_from(old);
         limits.lift();
-        add_to(file, structure, particles_group(old), added);
-        output.write(file.close());
-        return std::string();
+        add_to(file, structure.packing, structure.bonds, particles_group(old), added);
+        const std::span<const char> made = file.close();
+        return std::string(made.begin(), made.end());
     });
-    output.publish();
+    output.publish(bytes);
 }
 
 void check_source(const std::string& source) {

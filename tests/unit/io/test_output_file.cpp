@@ -1,4 +1,5 @@
 // Files that several processes write, or whose writers were killed.
+#include <coagula/io/atomic_file.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <fcntl.h>
@@ -11,6 +12,7 @@
 #include <thread>
 
 #include "example_packing.hpp"
+#include "temporary_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace coagula::io {
@@ -133,24 +135,28 @@ TEST_F(OutputFiles, AReplacedFileKeepsItsOwner) {
 
 TEST_F(OutputFiles, WhatAKilledRunLeftIsRemoved) {
     write_structure(file("a.h5"), example(), {}, {}, stage("generate"), false);
-    write(".a.h5.tmp", "half a file");
-    std::filesystem::create_hard_link(file(".a.h5.tmp"), file("precious"));
+    write(".a.h5.lock", "");
+    write(".a.h5.0123456789ab.tmp", "half a file");
+    std::filesystem::create_hard_link(file(".a.h5.0123456789ab.tmp"), file("precious"));
+    write(".a.h5.my-own-copy.tmp", "kept");
+    write(".b.h5.0123456789ab.tmp", "of another file");
     add(file("a.h5"), "x");
     EXPECT_EQ(read(file("precious")), "half a file") << "what lies under the hidden name is not written to";
-    EXPECT_FALSE(std::filesystem::exists(file(".a.h5.tmp")));
-    EXPECT_EQ(entries().size(), 2U);
+    EXPECT_FALSE(std::filesystem::exists(file(".a.h5.0123456789ab.tmp")));
+    EXPECT_FALSE(std::filesystem::exists(file(".a.h5.lock")));
+    EXPECT_EQ(entries().size(), 4U);
 }
 
 TEST_F(OutputFiles, AHiddenNameThatLeadsElsewhereIsNotFollowed) {
     const std::string other = write("other", "precious");
-    std::filesystem::create_symlink(other, file(".a.h5.tmp"));
-    EXPECT_THROW(write_structure(file("a.h5"), example(), {}, {}, stage("generate"), false), std::runtime_error);
+    std::filesystem::create_symlink(other, file(".a.h5.lock"));
+    EXPECT_THROW(write_structure(file("a.h5"), example(), {}, {}, stage("generate"), false), InputError);
     EXPECT_EQ(read(other), "precious");
 }
 
 TEST_F(OutputFiles, WaitsForTheWriterBefore) {
     write_structure(file("a.h5"), example(), {}, {}, stage("generate"), false);
-    const int held = open(file(".a.h5.tmp").c_str(), O_RDWR | O_CREAT | O_EXCL, 0600);
+    const int held = open(file(".a.h5.lock").c_str(), O_RDWR | O_CREAT | O_EXCL, 0600);
     struct flock whole {};
     whole.l_type = F_WRLCK;
     ASSERT_EQ(fcntl(held, F_OFD_SETLK, &whole), 0);
@@ -160,6 +166,96 @@ TEST_F(OutputFiles, WaitsForTheWriterBefore) {
     close(held);
     writer.join();
     EXPECT_EQ(read_results(file("a.h5"), "/mechanics").size(), 1U);
+}
+
+TEST_F(OutputFiles, LinksLeadToTheFileThatIsWritten) {
+    std::filesystem::create_directory(file("elsewhere"));
+    const std::string target = write("elsewhere/target", "old");
+    std::filesystem::create_symlink("elsewhere/target", file("link"));
+    std::filesystem::create_symlink(file("link"), file("link_to_link"));
+    std::filesystem::create_symlink("elsewhere/none_yet", file("dangling"));
+    write_file(file("link"), std::string("one"), true);
+    EXPECT_EQ(read(target), "one");
+    write_file(file("link_to_link"), std::string("two"), true);
+    EXPECT_EQ(read(target), "two");
+    write_file(file("dangling"), std::string("three"), false);
+    EXPECT_EQ(read(file("elsewhere/none_yet")), "three");
+    for (const char* name : {"link", "link_to_link", "dangling"}) {
+        EXPECT_TRUE(std::filesystem::is_symlink(file(name))) << name;
+    }
+    std::filesystem::create_symlink("round", file("round"));
+    EXPECT_NE(sentence<InputError>([&] { write_file(file("round"), std::string("x"), true); }).find("symbolic links"), std::string::npos);
+}
+
+/// In a folder where others may write.
+TEST_F(OutputFiles, ALinkOfAnotherUserIsNotFollowed) {
+    if (geteuid() != 0) {
+        GTEST_SKIP() << "only root may give links away";
+    }
+    const std::string target = write("target", "precious");
+    std::filesystem::create_directory(file("shared"));
+    const std::string link = file("shared/link");
+    std::filesystem::create_symlink(target, link);
+    std::filesystem::create_symlink(link, file("over"));
+    ASSERT_EQ(lchown(link.c_str(), 1234, 1234), 0);
+    for (const mode_t mode : {01777U, 0777U, 0775U}) {
+        ASSERT_EQ(chmod(file("shared").c_str(), mode), 0);
+        for (const std::string& name : {link, file("over")}) {
+            EXPECT_NE(sentence<InputError>([&] { write_file(name, std::string("x"), true); }).find("another user"), std::string::npos);
+            EXPECT_THROW(check_output(name, true), InputError);
+        }
+    }
+    EXPECT_EQ(read(target), "precious");
+    ASSERT_EQ(chmod(file("shared").c_str(), 0755), 0);
+    write_file(link, std::string("mine"), true);
+    EXPECT_EQ(read(target), "mine");
+    ASSERT_EQ(chmod(file("shared").c_str(), 01777), 0);
+    ASSERT_EQ(lchown(link.c_str(), geteuid(), getegid()), 0);
+    write_file(link, std::string("my own link"), true);
+    EXPECT_EQ(read(target), "my own link");
+}
+
+TEST_F(OutputFiles, AProtectedFileIsNotReplaced) {
+    const std::string path = write("kept.csv", "precious");
+    for (const mode_t mode : {0444U, 0400U, 0555U}) {
+        ASSERT_EQ(chmod(path.c_str(), mode), 0);
+        EXPECT_NE(sentence<InputError>([&] { check_output(path, true); }).find("protected against writing"), std::string::npos);
+        EXPECT_THROW(write_file(path, std::string("x"), true), InputError);
+        EXPECT_EQ(read(path), "precious");
+    }
+    EXPECT_NE(sentence<InputError>([&] { check_output(path, false); }).find("exists already"), std::string::npos);
+}
+
+TEST_F(OutputFiles, AFolderInWhichNothingCanBeMadeIsRefusedAtOnce) {
+    const std::string gone = file("gone");
+    std::filesystem::create_directory(gone);
+    const auto write_in_removed_folder = [&] {
+        std::filesystem::current_path(gone);
+        std::filesystem::remove(gone);
+        write_file("x.h5", std::string("x"), false);
+    };
+    EXPECT_EQ(at_once({write_in_removed_folder, [] { check_output("/proc/x.h5", true); },
+                       [] { write_file("/proc/x.h5", std::string("x"), false); }, [] { check_output("/sys/x.h5", true); }}),
+              std::vector<int>(4, 2));
+}
+
+TEST_F(OutputFiles, WhatIsReadBackMustBeWhatWasWritten) {
+    const OutputPlace place(file("a"));
+    for (const std::string written : {"", "precios", "preciousss", "Precious"}) {
+        TemporaryFile temporary(place);
+        temporary.write(written);
+        EXPECT_THROW(temporary.sync(std::string("precious")), std::runtime_error) << written;
+    }
+    EXPECT_TRUE(entries().empty());
+    TemporaryFile temporary(place);
+    temporary.write(std::string("precious"));
+    EXPECT_NO_THROW(temporary.sync(std::string("precious")));
+}
+
+TEST_F(OutputFiles, AFolderIsMadeWithThoseAboveIt) {
+    EXPECT_TRUE(make_folder(file("a/b/c/")));
+    EXPECT_TRUE(std::filesystem::is_directory(file("a/b/c")));
+    EXPECT_FALSE(make_folder(file("a/b")));
 }
 
 }  // namespace

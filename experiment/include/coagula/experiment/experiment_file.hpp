@@ -23,6 +23,7 @@ struct ExperimentFile {
     diagnose::Experiment experiment;
     diagnose::NoiseOptions noise;
     double expected_storage_modulus = unset;  ///< at small strain, of planned measurements [Pa]
+    std::vector<std::string> files;           ///< that it names
     std::vector<TableFacts> facts;            ///< one per measurement
     std::vector<TakenOver> taken_over;        ///< from the exports
     std::vector<std::string> notes;           ///< what is worth knowing but no error, such as fewer points than announced

@@ -1,5 +1,8 @@
-// Files that appear whole or not at all, and that two processes do not write at once.
+// Files that appear whole or not at all, and that two processes do not write at once. Every file of the house is written here.
 #pragma once
+
+#include <coagula/io/file_lock.hpp>
+#include <coagula/io/output_place.hpp>
 
 #include <filesystem>
 #include <span>
@@ -7,40 +10,35 @@
 
 namespace coagula::io {
 
-/// A file on its way to `path`: the bytes go to the hidden file .NAME.tmp beside it, which takes the place of `path` when it is
-/// complete. The hidden file is locked, so that one process at a time is between reading what `path` holds and replacing it; the
-/// kernel releases the lock of a killed process, and the next one removes what it left.
+/// A file that is to be written by this process and by no other one meanwhile: one process at a time is between reading what `path`
+/// holds and replacing it. The lock of a killed process ends with it, and the next one removes what it left.
 class OutputFile {
 public:
-    /// Waits until no other process writes to `path`. Throws as check_output does, and std::runtime_error ("cannot write FILE:
-    /// reason").
+    /// Waits until no other process writes to `path`. Throws as check_output does, Cancelled when a signal arrives meanwhile, and
+    /// std::runtime_error ("cannot write FILE: reason").
     OutputFile(const std::string& path, bool overwrite);
-    OutputFile(const OutputFile&) = delete;
-    OutputFile& operator=(const OutputFile&) = delete;
-    /// Removes the hidden file unless it was published.
-    ~OutputFile();
 
-    void write(std::span<const char> bytes);
-    /// Brings the bytes to the disk and renames the file. One that is replaced gives it its mode and, as far as allowed, its owner.
-    void publish();
+    /// Writes the bytes to a hidden file beside, brings them to the disk, reads them back, renames the file and brings the folder to the
+    /// disk. A file that is replaced gives the new one its mode and, as far as allowed, its owner. When anything fails, nothing is left
+    /// behind and an older file is untouched.
+    void publish(std::span<const char> bytes);
 
 private:
-    struct Unopened {};
-    OutputFile(const std::string& path, bool overwrite, Unopened unopened);
-    bool open_locked();
-    void keep_owner_and_mode() const;
-    void rename_to_target();
-    void close_descriptor();
-    [[noreturn]] void fail() const;
-
-    std::filesystem::path target_;
-    std::filesystem::path name_;
+    OutputPlace place_;
+    FileLock lock_;
     bool overwrite_;
-    int descriptor_ = -1;
-    bool owned_ = false;  ///< the hidden file is that of this process and not published yet
 };
 
-/// Writes these bytes through an OutputFile. When it fails, nothing is left behind and an older `path` is untouched.
+/// Writes these bytes through an OutputFile.
 void write_file(const std::string& path, std::span<const char> bytes, bool overwrite);
+
+/// Removes a file where there is one; of a symbolic link the file to which it leads. Throws as OutputPlace does.
+void remove_file(const std::string& path);
+
+/// Makes a folder with those above it, and brings what is new to the disk. False when it was there already.
+bool make_folder(const std::filesystem::path& path);
+
+/// Brings the names in a folder to the disk.
+void sync_folder(const std::filesystem::path& path);
 
 }  // namespace coagula::io

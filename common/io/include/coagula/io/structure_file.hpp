@@ -52,14 +52,26 @@ struct Structure {
     double time = 0;                  ///< of the packing [s]
 };
 
-/// Throws InputError when `path` cannot become an output: it exists (without `overwrite`), is no regular file, or its folder is
-/// missing. The writers below ask it too; asking before long work saves the wait.
+/// Throws InputError when `path` cannot become an output: it exists (without `overwrite`), is no regular file or protected against
+/// writing, or no file can be made in its folder. Asking before long work saves the wait.
 void check_output(const std::string& path, bool overwrite);
 
-/// Writes a new file: to a temporary name beside it, then renamed. Throws InputError when `path` exists and `overwrite` is false,
-/// std::runtime_error (naming the file) when it cannot be written, e.g. on a full disk; nothing is left behind then.
+/// What a stage adds to a file.
+struct Addition {
+    std::vector<std::string> replaced;    ///< groups that are removed before
+    std::optional<ContactNetwork> bonds;  ///< those of the file when not given
+    std::vector<ParticleField> fields;
+    std::vector<Dataset> results;
+    Provenance provenance;
+    std::vector<BondField> bond_fields = {};  ///< of `bonds`
+};
+
+/// Writes a new file as write_file in atomic_file.hpp does, with what `later` stages added to it. Throws InputError when `path` exists
+/// and `overwrite` is false, std::runtime_error (naming the file) when it cannot be written, e.g. on a full disk; nothing is left
+/// behind then.
 void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
-                     const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite);
+                     const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
+                     const std::vector<Addition>& later = {});
 
 /// Reads structure and bonds. Throws InputError naming the file and the object when it is missing, truncated, foreign or
 /// inconsistent.
