@@ -71,8 +71,16 @@ void compare_fluctuations(const Inputs& inputs, HeterogeneityComparison& compari
 }
 
 MeasureResult measured(const MeasureInput& input, const std::string& name) {
+    const std::vector<std::string> needed = {"doh", "voronoi"};
     try {
-        return run_measures(input, {"doh", "voronoi"});
+        MeasureResult found = run_measures(input, needed);
+        for (const std::string& measure : needed) {
+            const std::string reason = found.reason_left_out(measure);
+            if (!reason.empty()) {
+                throw std::runtime_error(name + ": " + measure + ": " + reason);
+            }
+        }
+        return found;
     } catch (const std::invalid_argument& reason) {
         throw std::invalid_argument(name + ": " + reason.what());
     }

@@ -70,9 +70,10 @@ DegreeOfHeterogeneity fit_degree_of_heterogeneity(const PoreSizes& pores, double
     Eigen::LevenbergMarquardt<const ErrorFunctionResiduals> solver(model);
     solver.parameters.ftol = solver.parameters.xtol = 1e-13;
     const auto status = solver.minimize(parameters);
-    require(status > 0 && status != Eigen::LevenbergMarquardtSpace::TooManyFunctionEvaluation && parameters.allFinite() &&
-                parameters[0] > 0,
-            "the error function could not be fitted to the pore-size curve");
+    if (status <= 0 || status == Eigen::LevenbergMarquardtSpace::TooManyFunctionEvaluation || !parameters.allFinite() ||
+        parameters[0] <= 0) {
+        throw std::runtime_error("the error function could not be fitted to the pore-size curve");
+    }
     DegreeOfHeterogeneity fit;
     fit.a = parameters[0];
     fit.b = parameters[1];

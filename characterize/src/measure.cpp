@@ -1,5 +1,7 @@
 #include <coagula/characterize/measure.hpp>
 
+#include <coagula/common/failures.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -16,9 +18,13 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-const Measure* find_measure(const std::string& name) {
-    const auto found = std::find_if(measures().begin(), measures().end(), [&](const Measure& one) { return one.name == name; });
-    return found == measures().end() ? nullptr : &*found;
+std::vector<std::string> names_in(const std::vector<Measure>& table) {
+    std::vector<std::string> names;
+    names.reserve(table.size());
+    for (const Measure& measure : table) {
+        names.push_back(measure.name);
+    }
+    return names;
 }
 
 /// What every file of results says first. Of an open packing only the inner part has a volume: that of the Voronoi cells in which
@@ -41,11 +47,66 @@ MeasureResult packing_facts(const MeasureInput& input) {
     return facts;
 }
 
+/// Throws unless all numbers of a result are finite.
+void check_numbers(const MeasureResult& result) {
+    for (const Dataset& dataset : result.datasets) {
+        const auto* numbers = std::get_if<std::vector<double>>(&dataset.values);
+        if (numbers != nullptr &&
+            !std::all_of(numbers->begin(), numbers->end(), [](double value) { return std::isfinite(value); })) {
+            throw std::runtime_error("its result " + dataset.path.substr(path_of("").size()) + " is not a finite number");
+        }
+    }
+}
+
+/// The outcome of all measures of a call.
+class Run {
+public:
+    Run(const MeasureInput& input, const std::vector<std::string>& only) : input_(input), only_(only) {}
+
+    void add(const Measure& measure) {
+        input_.progress().update(measure.name, 0);
+        try {
+            const MeasureResult result = measure.run(input_);
+            check_numbers(result);
+            found_.append(result);
+            ++succeeded_;
+        } catch (const NotApplicable& reason) {
+            if (contains(only_, measure.name)) {
+                throw NotApplicable(measure.name + ": " + reason.what());
+            }
+            found_.leave_out(measure.name, reason.what());
+        } catch (const std::invalid_argument&) {  // the packing or an option is wrong for all of them
+            throw;
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const std::exception& error) {
+            const std::string sentence = failure_sentence(error);
+            found_.leave_out(measure.name, sentence);
+            failure_ = failure_.empty() ? measure.name + ": " + sentence : failure_;
+        }
+    }
+
+    const MeasureResult& found() const {
+        if (succeeded_ == 0 && !failure_.empty()) {
+            throw std::runtime_error(failure_);
+        }
+        return found_;
+    }
+
+private:
+    const MeasureInput& input_;
+    const std::vector<std::string>& only_;
+    MeasureResult found_;
+    std::size_t succeeded_ = 0;
+    std::string failure_;  ///< the first
+};
+
 /// Names of the measures to be run. Those in `only` must not fail; the others of a default run may not apply.
-std::set<std::string> chosen_measures(const MeasureInput& input, const std::vector<std::string>& only) {
+std::set<std::string> chosen_measures(const MeasureInput& input, const std::vector<std::string>& only,
+                                      const std::vector<Measure>& table) {
     std::set<std::string> chosen;
     const bool all = contains(only, "all");
-    for (const Measure& measure : measures()) {
+    for (const Measure& measure : table) {
         const bool by_option = !measure.when_given.empty() && input.given(measure.when_given);
         const bool wanted = only.empty() ? measure.by_default : contains(only, measure.name) || (all && measure.when_given.empty());
         if (wanted || by_option) {
@@ -104,6 +165,17 @@ void MeasureResult::append(const MeasureResult& other) {
     lines.insert(lines.end(), other.lines.begin(), other.lines.end());
 }
 
+void MeasureResult::leave_out(const std::string& measure, const std::string& reason) {
+    add_text("left_out/" + measure, reason, "why there are no results of this measure");
+    add_line(measure, "left out: " + reason);
+}
+
+std::string MeasureResult::reason_left_out(const std::string& measure) const {
+    const std::string path = path_of("left_out/" + measure);
+    const auto found = std::find_if(datasets.begin(), datasets.end(), [&](const Dataset& one) { return one.path == path; });
+    return found == datasets.end() ? std::string{} : std::get<std::string>(found->values);
+}
+
 double MeasureResult::value(const std::string& name) const {
     for (const Dataset& dataset : datasets) {
         const auto* numbers = std::get_if<std::vector<double>>(&dataset.values);
@@ -121,11 +193,7 @@ void require_applicable(bool condition, const std::string& sentence) {
 }
 
 std::vector<std::string> measure_names() {
-    std::vector<std::string> names;
-    for (const Measure& measure : measures()) {
-        names.push_back(measure.name);
-    }
-    return names;
+    return names_in(measures());
 }
 
 std::vector<MeasureOption> measure_options() {
@@ -141,27 +209,20 @@ std::vector<MeasureOption> measure_options() {
     return options;
 }
 
-MeasureResult run_measures(const MeasureInput& input, const std::vector<std::string>& only) {
+MeasureResult run_measures(const MeasureInput& input, const std::vector<std::string>& only, const std::vector<Measure>& table) {
+    const std::vector<std::string> names = names_in(table);
     for (const std::string& name : only) {
-        require(name == "all" || find_measure(name) != nullptr, "'" + name + "' is not one of " + list_of(measure_names()));
+        require(name == "all" || contains(names, name), "'" + name + "' is not one of " + list_of(names));
     }
-    const std::set<std::string> chosen = chosen_measures(input, only);
-    MeasureResult found;
-    for (const Measure& measure : measures()) {
-        if (!chosen.contains(measure.name)) {
-            continue;
-        }
-        try {
-            found.append(measure.run(input));
-        } catch (const NotApplicable& reason) {
-            if (contains(only, measure.name)) {
-                throw NotApplicable(measure.name + ": " + reason.what());
-            }
-            found.add_line(measure.name, std::string("left out: ") + reason.what());
+    const std::set<std::string> chosen = chosen_measures(input, only, table);
+    Run run(input, only);
+    for (const Measure& measure : table) {
+        if (chosen.contains(measure.name)) {
+            run.add(measure);
         }
     }
     MeasureResult result = packing_facts(input);
-    result.append(found);
+    result.append(run.found());
     return result;
 }
 

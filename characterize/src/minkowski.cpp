@@ -275,7 +275,7 @@ Minkowski measure_minkowski(const Packing& packing, const MinkowskiOptions& opti
     Minkowski result;
     result.dilation = unit * dilation;
     result.volume_fraction = total.col(covered) / volume;
-    result.surface = total.col(area) / volume / unit;
+    result.surface = (total.col(area) / volume / unit).max(0.0);  // where all is covered, rounding leaves a little of either sign
     result.mean_curvature = total.col(curvature) / volume / (unit * unit);
     result.euler_characteristic = total.col(euler) / volume / (unit * unit * unit);
     result.inner_particles = base.inner_count();

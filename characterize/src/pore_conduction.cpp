@@ -245,7 +245,9 @@ Eigen::ArrayXf ConductionSolver::solve(int axis, double spacing, double toleranc
         direction = next + static_cast<float>(now / steep) * direction;
         steep = now;
     }
-    require(!(steep > goal), "Laplace's equation in the pores was not solved after " + std::to_string(most) + " iterations");
+    if (steep > goal) {
+        throw std::runtime_error("Laplace's equation in the pores was not solved after " + std::to_string(most) + " iterations");
+    }
     return u;
 }
 

@@ -182,6 +182,7 @@ void add_direct(const Packing& packing, const SampleWindow& window, const Shells
     const Taper taper = make_taper(packing, window);
     const std::vector<std::complex<double>> amplitudes = scatter(packing, taper, window, shells);
     const double norm = taper.weights.squaredNorm();
+    require(norm > 0, "the packing is too small for a structure factor: no particle lies deep enough in it");
     const auto count = static_cast<Index>(shells.vectors.size());
     result.wave_number.resize(count);
     result.direct.resize(count);
@@ -274,7 +275,7 @@ double fit_at_zero(Index shells, StructureFactor& result) {
         coefficients = normal.ldlt().solve(powers.transpose() * weight.cwiseProduct(direct));
         model = powers * coefficients;
     }
-    result.at_zero = coefficients[0];
+    result.at_zero = std::max(coefficients[0], 0.0);  // the parabola through scattered values may end below
     result.at_zero_stderr = std::sqrt(normal.inverse()(0, 0));
     return (weight.array() * (direct.array() - model).square()).sum() / std::max(1.0, static_cast<double>(shells) - 3);
 }

@@ -49,12 +49,15 @@ OnGrid measure_on(const Packing& packing, const VoxelGrid& grid, const Progress&
 }
 
 /// @param ratio of the voxels of the coarse grid to those of the fine one. @param order of the method in the size of a voxel.
-DirectionalValue directional(const Eigen::Array3d& fine, const Eigen::Array3d& coarse, double ratio, double order) {
+/// @param least of any pores.
+DirectionalValue directional(const Eigen::Array3d& fine, const Eigen::Array3d& coarse, double ratio, double order, double least) {
     const Eigen::Array3d change = (fine - coarse) / (std::pow(ratio, order) - 1);
+    const Eigen::Array3d found = fine + change;
     DirectionalValue value;
-    value.by_axis = fine + change;
+    value.by_axis = found.max(least);
     value.mean = value.by_axis.mean();
-    value.grid_error = std::abs(change.mean()) / 2;
+    value.at_bound = (found < least).any();
+    value.grid_error = std::max(std::abs(change.mean()) / 2, value.mean - found.mean());
     value.axis_stderr = std::sqrt((value.by_axis.array() - value.mean).square().sum() / 6);
     return value;
 }
@@ -99,11 +102,16 @@ Transport measure_transport(const Packing& packing, const TransportOptions& opti
     require(found.conductivity.minCoeff() > closed && roughly.conductivity.minCoeff() > closed && found.tortuosity.allFinite() &&
                 roughly.tortuosity.allFinite(),
             "the spheres leave no path through the pores that the voxels resolve: transport cannot be measured");
+    require((found.slope < 0).all(),
+            "the voxels are too coarse to see that the pores conduct less as the spheres grow: transport "
+            "needs more voxels per radius");
     const double ratio = std::cbrt(coarse.edge.prod() / fine.edge.prod());
     Transport result;
-    result.formation_factor = directional(found.conductivity.inverse(), roughly.conductivity.inverse(), ratio, 2);
-    result.tortuosity = directional(found.tortuosity, roughly.tortuosity, ratio, 1);
     result.void_fraction = 1 - space.volume_fraction[0];
+    // Straight pores conduct best (Wiener's bound), and no path around the box is shorter than the box.
+    result.formation_factor =
+        directional(found.conductivity.inverse(), roughly.conductivity.inverse(), ratio, 2, 1 / result.void_fraction);
+    result.tortuosity = directional(found.tortuosity, roughly.tortuosity, ratio, 1, 1);
     result.diffusive_tortuosity = result.formation_factor.mean * result.void_fraction;
     result.pore_length = unit * -2 * found.conductivity.mean() / found.slope.mean();
     result.permeability = result.pore_length * result.pore_length / (8 * result.formation_factor.mean);

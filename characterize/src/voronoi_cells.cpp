@@ -195,7 +195,7 @@ VoronoiDistribution fit_voronoi_volumes(const Eigen::VectorXd& volumes, double r
     }
     found.width = found.deviation / (found.mean - smallest);
     const Eigen::VectorXd x = (volumes.array() - smallest) / (found.mean - smallest);
-    if (x.minCoeff() > 0 && found.width > 1e-6) {
+    if (x.minCoeff() > 0 && found.width >= narrowest_gamma_law) {
         found.shape = gamma_shape(-x.array().log().mean());
         found.distance = kolmogorov_distance(x, found.shape);
     }

@@ -18,7 +18,7 @@ Fabric find_fabric(const ContactNetwork& bonds, const Eigen::VectorXd& weight) {
     const double sum = fabric.tensor.trace();
     if (sum > 0) {
         fabric.tensor /= sum;
-        fabric.eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fabric.tensor).eigenvalues();
+        fabric.eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fabric.tensor).eigenvalues().cwiseMax(0.0);
         fabric.anisotropy = std::sqrt(1.5) * (fabric.tensor - Eigen::Matrix3d::Identity() / 3).norm();
     }
     return fabric;

@@ -1,6 +1,7 @@
 #include <coagula/generators/brownian_dynamics.hpp>
 
 #include <coagula/common/dem/minimise.hpp>
+#include <coagula/common/failures.hpp>
 #include <coagula/common/random.hpp>
 
 #include "brownian_sampler.hpp"
@@ -210,9 +211,10 @@ private:
         if (control_.resume == nullptr) {
             observe();
             const double coordination = sampler_.series().coordination.back();
-            require(!(coordination >= options_.stop_coordination),
-                    "the start has " + to_text(coordination) + " contacts per particle, but the stop coordination is " +
-                        to_text(options_.stop_coordination) + ": it must be higher than that of the start");
+            if (coordination >= options_.stop_coordination) {
+                throw OutOfReach("the start has " + to_text(coordination) + " contacts per particle, but the stop coordination is " +
+                                 to_text(options_.stop_coordination) + ": it must be higher than that of the start");
+            }
             return;
         }
         require(system_.steps() <= last_step_,
@@ -368,7 +370,7 @@ Packing place_suspension(const SuspensionOptions& options, const Progress& progr
     while (fire.iterate() > settled) {
         progress.update("placing particles", 0.0);
         if (++iterations > most_iterations) {
-            throw InputError("the particles cannot be moved apart at volume fraction " + to_text(options.volume_fraction) +
+            throw OutOfReach("the particles cannot be moved apart at volume fraction " + to_text(options.volume_fraction) +
                              ": ask for a lower one");
         }
     }

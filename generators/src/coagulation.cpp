@@ -1,5 +1,7 @@
 #include <coagula/generators/coagulation.hpp>
 
+#include <coagula/common/failures.hpp>
+
 namespace coagula::generators {
 
 namespace {
@@ -35,7 +37,7 @@ Coagulation prepare(const CoagulationOptions& options) {
     Coagulation made{potential_of(options, radius, options.surface_potential), unset, {}};
     made.barrier = made.potential.barrier_height(radius) / (boltzmann_constant * options.temperature);
     if (made.barrier > highest_barrier) {
-        throw InputError("nothing coagulates against a barrier of " + to_text(made.barrier) + " kT");
+        throw OutOfReach("nothing coagulates against a barrier of " + to_text(made.barrier) + " kT");
     }
     made.run.temperature = options.temperature;
     made.run.stop_coordination = options.target_coordination;
@@ -87,7 +89,7 @@ Packing coagulate(const CoagulationOptions& options, const Progress& progress) {
         [&](double radius) { return potential_of(options, radius, options.stabilising_potential); }, begun.run, unset, progress);
     BrownianRun made = simulate_brownian(start, begun.potential, begun.run, progress);
     if (made.ended_by != "coordination") {
-        throw InputError("within " + to_text(longest_coagulation) + " R^2/D the coordination comes to " +
+        throw OutOfReach("within " + to_text(longest_coagulation) + " R^2/D the coordination comes to " +
                          to_text(made.coordination) + " only, against a barrier of " + to_text(begun.barrier) + " kT");
     }
     return std::move(made.packing);

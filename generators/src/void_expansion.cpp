@@ -3,6 +3,7 @@
 #include <coagula/common/dem/minimise.hpp>
 #include <coagula/common/dem/relax.hpp>
 #include <coagula/common/dem/stepper.hpp>
+#include <coagula/common/failures.hpp>
 #include <coagula/common/random.hpp>
 
 #include <algorithm>
@@ -122,7 +123,7 @@ private:
         while (fire.iterate() > start_force) {
             progress_.update("void expansion", 0.0, "moving the particles apart");
             if (++iterations > most_iterations) {
-                throw InputError("the void expansion cannot move " + std::to_string(structure_) +
+                throw OutOfReach("the void expansion cannot move " + std::to_string(structure_) +
                                  " particles apart at volume fraction " + to_text(options_.volume_fraction) +
                                  ": ask for a lower volume fraction");
             }
@@ -138,7 +139,7 @@ private:
         }
         const double coordination = coordination_of(relax_without_voids(system));
         if (coordination >= options_.target_coordination) {
-            throw InputError("the target coordination is " + to_text(options_.target_coordination) + ", but at volume fraction " +
+            throw OutOfReach("the target coordination is " + to_text(options_.target_coordination) + ", but at volume fraction " +
                              to_text(options_.volume_fraction) + " the packing has " + short_text(coordination) +
                              " before any void has grown: ask for " +
                              (coordination < highest_target - 0.1 ? "a higher coordination or " : "") + "a lower volume fraction");
@@ -199,7 +200,7 @@ private:
     void give_up_if_hopeless(const dem::ParticleSystem& system, const StructureContacts& contacts) const {
         const bool crushed = contacts.overlap_rms > largest_overlap;
         if (crushed || solid_volume_ + void_volume() > largest_volume * cell_.volume()) {
-            throw InputError(
+            throw OutOfReach(
                 "the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) + " with " +
                 std::to_string(options_.voids) + " voids among " + std::to_string(structure_) + " particles at volume fraction " +
                 to_text(options_.volume_fraction) + ": the packing comes to " +

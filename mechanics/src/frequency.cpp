@@ -5,6 +5,7 @@
 #include "complex_gradients.hpp"
 #include "frequency_network.hpp"
 #include "load_bearing.hpp"
+#include "resisted_strains.hpp"
 
 #include <coagula/common/blas_threads.hpp>
 
@@ -201,6 +202,17 @@ FrequencyPoint start_point(double frequency, const ContactStiffness& springs, co
     return point;
 }
 
+/// Nothing is stored or lost under strains that no cluster of bonds resists.
+void clear_unresisted(const std::array<bool, 6>& resisted, FrequencyPoint& point) {
+    clear_others(resisted, point.modulus);
+    for (auto& derivative : point.derivative) {
+        clear_others(resisted, derivative);
+    }
+    for (std::size_t strain = 0; strain < resisted.size(); ++strain) {
+        point.dissipation[static_cast<Index>(strain)] *= resisted[strain] ? 1 : 0;
+    }
+}
+
 /// No result is better than one that is no number.
 void check_finite(const FrequencyPoint& point) {
     const bool finite = point.modulus.allFinite() &&
@@ -275,6 +287,12 @@ FrequencyResponse solve_frequency_sweep(const Packing& packing, const ContactNet
     response.contacts = bonds.size();
     response.rattlers = packing.size() - static_cast<Index>(kept.particle.size());
 
+    std::array<bool, 6> resisted{};
+    resisted.fill(true);
+    if (!has_drag(model)) {
+        resisted = resisted_strains(packing, bonds);
+    }
+
     const BlasThreads threads(blas_threads);
     const FrequencyNetwork network(packing, pairs, kept, springs.normal.real());
     const auto changes = spring_changes(packing, bonds, pairs, kept, model, response.parameters);
@@ -297,6 +315,7 @@ FrequencyResponse solve_frequency_sweep(const Packing& packing, const ContactNet
             forms = network.forms(solution.motion, changes);
         }
         fill_point(point, forms, model, scales, response.parameters);
+        clear_unresisted(resisted, point);
         check_finite(point);
         response.points.push_back(std::move(point));
     }

@@ -2,6 +2,7 @@
 
 #include "bond_tangents.hpp"
 #include "linear_solution.hpp"
+#include "resisted_strains.hpp"
 
 #include <coagula/common/contact_law.hpp>
 
@@ -133,6 +134,21 @@ Block affine_energy_of_all(const Packing& packing, const ContactNetwork& bonds, 
     return network.virial(Loads::Zero(6 * network.particles(), 6), bond_weights(network.bonds()));
 }
 
+/// A modulus that the network does not have is zero, and not what the solver left of it.
+void clear_rounding(const Packing& packing, const ContactNetwork& bonds, LinearResponse& response) {
+    std::array<bool, 6> resisted{};
+    resisted.fill(true);
+    if (packing.cell.is_periodic()) {
+        resisted = resisted_strains(packing, bonds);
+    }
+    for (int strain = 0; strain < 6; ++strain) {
+        const double affine = response.affine_tensor(strain, strain);
+        resisted.at(static_cast<std::size_t>(strain)) &=
+            std::abs(response.elastic_tensor(strain, strain)) > rounding_modulus * std::abs(affine);
+    }
+    clear_others(resisted, response.elastic_tensor);
+}
+
 }  // namespace
 
 LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options,
@@ -173,6 +189,7 @@ LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds,
         response.floppy_modes -= periodic && response.floppy_modes >= 3 ? 3 : 0;  // rigid translation
         response.elastic_tensor =
             scale * (periodic ? network.energy(motion) : network.virial(motion, bond_weights(network.bonds())));
+        clear_rounding(packing, bonds, response);
     }
     store_motion(packing, kept, motion, periodic, response);
     return response;

@@ -2,6 +2,7 @@
 
 #include "bond_tangents.hpp"
 #include "load_bearing.hpp"
+#include "resisted_strains.hpp"
 #include "stiffness.hpp"
 
 #include <Eigen/Geometry>
@@ -16,7 +17,6 @@ namespace coagula::mechanics {
 
 namespace {
 
-constexpr double zero_modulus = 1e-8;      // over the affine one: rounding errors
 constexpr double no_motion = 1e-8;         // rms displacement per unit strain over the mean radius: rounding errors
 constexpr double rounding_energy = 1e-16;  // share of the energy below which forces are rounding errors
 constexpr double histogram_width = 0.25;   // of |f_n| over its mean
@@ -169,7 +169,7 @@ private:
     ShearLoad shear(std::size_t plane) const {
         const auto strain = static_cast<Index>(first_shear + plane);
         ShearLoad load;
-        load.carried = response_.elastic_tensor(strain, strain) > zero_modulus * response_.affine_tensor(strain, strain);
+        load.carried = response_.elastic_tensor(strain, strain) > rounding_modulus * response_.affine_tensor(strain, strain);
         load.force = Eigen::Matrix3Xd::Zero(3, bonds_.size());
         load.normal_force = load.shear_force = load.energy_share = Eigen::VectorXd::Zero(bonds_.size());
         if (load.carried) {

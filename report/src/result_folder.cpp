@@ -1,6 +1,6 @@
 #include <coagula/report/result_folder.hpp>
 
-#include <coagula/common/checks.hpp>
+#include <coagula/common/failures.hpp>
 #include <coagula/io/atomic_file.hpp>
 #include <coagula/io/input_file.hpp>
 
@@ -81,7 +81,7 @@ void ResultFolder::refuse_existing() const {
             throw InputError(path.string() + " is a folder, but a file of this name is to be written");
         }
         if (fs::exists(path) && !force_) {
-            throw InputError(path.string() + " is there already; use --force to replace it");
+            throw ExistsAlready(path.string() + " is there already; use --force to replace it");
         }
     }
 }

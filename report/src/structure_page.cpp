@@ -6,15 +6,21 @@
 #include "bundle.hpp"
 #include "html.hpp"
 #include "page_arrays.hpp"
+#include "thinned.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace coagula::report {
 
 namespace {
+
+/// No more particles of a structure are shown, and fewer where the arrays of all structures would take more bytes than this.
+constexpr Index most_particles = 64000;
+constexpr std::size_t most_bytes = 18000000;
 
 /// Longer arrays are for particles and bonds, which go into the block of arrays, or too long for a plot.
 constexpr std::size_t longest_result = 4096;
@@ -133,14 +139,25 @@ Json history_json(const std::vector<io::Provenance>& history) {
     return list;
 }
 
+/// What the page tells of a structure of which it shows a part; nothing where it shows all.
+Json whole_json(const Packing& whole, const Packing& shown, double unit) {
+    if (whole.size() == shown.size()) {
+        return nullptr;
+    }
+    return {{"particles", whole.size()}, {"periodic", whole.cell.is_periodic()}, {"lengths", listed(whole.cell.lengths() / unit)}};
+}
+
 /// Lengths in units of the mean radius, so that single precision does and every structure is drawn at one scale.
-Json structure_json(const PageStructure& page, PageArrays& arrays) {
+Json structure_json(const PageStructure& all, Index most, PageArrays& arrays) {
+    const PageStructure page = thinned(all, most);
     const Packing& packing = page.structure.packing;
-    const double unit = mean_radius(packing);
+    const Packing& whole = all.structure.packing;
+    const double unit = mean_radius(whole);
     Json json = {{"name", printable(page.name)},
                  {"particles", packing.size()},
+                 {"whole", whole_json(whole, packing, unit)},
                  {"periodic", packing.cell.is_periodic()},
-                 {"volumeFraction", volume_fraction(packing)},
+                 {"volumeFraction", volume_fraction(whole)},
                  {"lengthUnit", unit},
                  {"lengths", listed(packing.cell.lengths() / unit)},
                  {"positions", arrays.reals(listed((packing.positions.colwise() - packing.cell.origin()) / unit))},
@@ -161,9 +178,26 @@ Json structure_json(const PageStructure& page, PageArrays& arrays) {
     json["bondFields"] = bond_fields_json(page, arrays);
     json["pores"] = {{"centres", arrays.reals(listed((page.pores.centres.colwise() - packing.cell.origin()) / unit))},
                      {"radii", arrays.reals(listed(page.pores.radii / unit))}};
-    json["results"] = results_json(page.results);
+    json["results"] = results_json(all.results);
     json["history"] = history_json(page.history);
     return json;
+}
+
+/// The JSON of the page and its arrays, with as many particles as fit.
+std::pair<Json, std::string> page_content(const std::vector<PageStructure>& structures, const std::string& version) {
+    for (Index most = most_particles;;) {
+        PageArrays arrays;
+        Json data = {{"version", version}, {"structures", Json::array()}};
+        for (const PageStructure& page : structures) {
+            data["structures"].push_back(structure_json(page, most, arrays));
+        }
+        std::string packed = arrays.base64();
+        if (packed.size() <= most_bytes || most == 1) {
+            return {std::move(data), std::move(packed)};
+        }
+        const double share = 0.9 * static_cast<double>(most_bytes) / static_cast<double>(packed.size());
+        most = std::max(Index{1}, static_cast<Index>(share * static_cast<double>(most)));
+    }
 }
 
 }  // namespace
@@ -172,15 +206,13 @@ std::string structure_page(const std::vector<PageStructure>& structures, const s
     if (structure_script.empty()) {
         throw std::runtime_error("this program was built without its pages; run scripts/bundle-web and build it again");
     }
-    PageArrays arrays;
-    Json data = {{"version", version}, {"structures", Json::array()}};
     std::string title;
     for (const PageStructure& page : structures) {
-        data["structures"].push_back(structure_json(page, arrays));
         title += (title.empty() ? "" : ", ") + printable(page.name);
     }
+    const auto [data, arrays] = page_content(structures, version);
     return html_page(title + " – coagula", "<div id=\"page\"><p class=\"soft\">Loading " + escaped(title) + " …</p></div>\n" +
-                                               page_data(data, arrays.base64()) + page_script(structure_script));
+                                               page_data(data, arrays) + page_script(structure_script));
 }
 
 }  // namespace coagula::report

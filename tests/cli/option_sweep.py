@@ -167,7 +167,7 @@ class Sweep:
         left = set(os.listdir(self.folder)) - self.inputs - {"state.h5"}
         if left:
             return f"leaves {sorted(left)} behind", True
-        return ("stops on Ctrl-C" if "interrupted" in complaint else "is refused" if code == 2 else "fails with a sentence"), False
+        return ("stops on Ctrl-C" if "interrupted" in complaint else "is refused" if code in (2, 4) else "fails with a sentence"), False
 
     def clean(self):
         for name in set(os.listdir(self.folder)) - self.inputs:

@@ -1,11 +1,14 @@
 """Packings that measures cannot be made of: each is refused with one sentence that names the file, or measured without a number missing."""
 
+import itertools
+import math
 import random
 import re
 import shutil
 import unittest
 
 import h5py
+import numpy
 
 from support import PACKING, ProgramTest, checksum
 
@@ -84,6 +87,20 @@ class Packings(ProgramTest):
         self.refuse_range("3um", "half the shortest length")
         self.packing([(0.6, 0.6, 0.6 + 1.1 * k) for k in range(10)], "--box", "1.2um,1.2um,12um")
         self.measure_all()
+
+    def test_crystals_with_the_rounding_of_single_precision(self):
+        """Their Voronoi cells are alike but for rounding: no gamma law is fitted, and nothing else is lost."""
+        edges = (1, math.sqrt(3), 2 * math.sqrt(2 / 3))
+        sites = ((0, 0, 0), (0.5, 0.5, 0), (0.5, 1 / 6, 0.5), (0, 2 / 3, 0.5))
+        points = [[float(numpy.float32((cell[axis] + site[axis] + 0.0625) * edges[axis])) for axis in range(3)]
+                  for cell in itertools.product(range(3), repeat=3) for site in sites]
+        self.packing(points, "--box", ",".join(f"{3 * edge:.9f}um" for edge in edges))
+        text = self.measure_all()
+        self.assertRegex(text, r"gamma law of the free volumes +none: all cells are alike")
+        found = self.succeed_json("characterize", "p.h5")
+        self.assertEqual((found["coordination"], found["common_neighbours"]["hcp"]), (12, 1))
+        self.assertNotIn("shape", found["voronoi"])
+        self.assertAlmostEqual(found["voronoi"]["mean"] / (1e-18 / math.sqrt(2)), 1, delta=1e-7)
 
     def refuse_range(self, length, says):
         self.fail_with(2, "characterize", "p.h5", "--pair-range", length, says=["p.h5: ", says])

@@ -107,7 +107,7 @@ class ManualPages(ProgramTest):
         self.assertEqual({page.name for page in self.pages}, names)
         self.assertEqual(self.succeed("man", "fit", "power-law"), (self.folder / "pages/coagula-fit-power-law.1").read_text())
         self.fail_with(2, "man", "shaer", says="did you mean 'shear'?")
-        self.fail_with(2, "man", "-o", "pages", says="--force")
+        self.fail_with(3, "man", "-o", "pages", says="--force")
 
     @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_troff_reads_them_without_a_warning(self):

@@ -73,7 +73,7 @@ class Diagnosis(ProgramTest):
         for k in (0, 7, 15):
             for part in ("storage_modulus", "loss_modulus"):
                 self.assertAlmostEqual(again[part]["mean"][k] / predicted[(k + 1, part)], 1, delta=1e-6)
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="--force")
+        self.fail_with(3, "diagnose", "experiment.toml", "-o", "results", says="--force")
 
     def smooth_sweep(self, rows=11):
         self.write("sweep.csv", "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa],error [Pa]\n" +
@@ -106,7 +106,7 @@ class Diagnosis(ProgramTest):
                 self.assertEqual([path.name for path in results.iterdir()], [name])
                 (results / name).rmdir()
         (results / "report.html").write_text("mine")
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="report.html is there already; use --force")
+        self.fail_with(3, "diagnose", "experiment.toml", "-o", "results", says="report.html is there already; use --force")
         self.assertEqual((results / "report.html").read_text(), "mine")
 
     def test_a_damaged_cache_of_simulations_is_refused(self):

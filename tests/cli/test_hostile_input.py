@@ -25,7 +25,7 @@ class Pictures(ProgramTest):
 
     def test_a_picture_is_never_replaced_unasked_nor_half_written(self):
         old = self.write("old.svg", "precious")
-        self.fail_with(2, *CURVE, "--picture", "old.svg", says=["old.svg", "--force"])
+        self.fail_with(3, *CURVE, "--picture", "old.svg", says=["old.svg", "--force"])
         self.assertEqual(old.read_text(), "precious")
         self.succeed(*CURVE, "--picture", "old.svg", "--force")
         self.assertIn("<svg", old.read_text())

@@ -5,7 +5,7 @@ import io
 import math
 import unittest
 
-from support import ProgramTest, VEM
+from support import SMALL, VEM, ProgramTest
 
 R0 = 0.25e-6
 
@@ -141,8 +141,26 @@ class OtherVerbs(ProgramTest):
         both = self.succeed_json("info", "a.h5", "b, c.h5")["files"]
         self.assertEqual([file["file"] for file in both], ["a.h5", "b, c.h5"])
         self.assertEqual(both[1]["results"]["/mechanics/linear/contacts"]["value"], sheared["contacts"])
+        self.assertEqual((rows[0]["generator"], rows[0]["voids"], rows[0]["target-coordination"]), ("vem", "250", "4.69"))
         self.fail_with(2, "info", "a.h5", "--csv", "--json", says="--json")
         self.fail_with(2, "info", "a.h5", "absent.h5", "--csv", says="absent.h5")
+
+    def test_the_table_has_the_recipes(self):
+        self.succeed(*SMALL, "--seed", "3", "--target-coordination", "4.2", "-o", "few.h5")
+        self.succeed("generate", "vem", "--particles", "61", "--volume-fraction", "0.35", "--radius", "1um", "--seed", "4", "-o", "usual.h5")
+        self.succeed("generate", "brownian", "--particles", "50", "--surface-potential", "0mV", "--volume-fraction", "0.2", "--radius",
+                     "0.25um", "--stop-time", "10us", "--seed", "5", "-o", "moving.h5")
+        self.write("p.csv", "x [um],y [um],z [um]\n1,1,1\n2,2,2\n")
+        self.succeed("import", "p.csv", "--radius", "0.2um", "--box", "4um", "-o", "points.h5")
+        rows = list(csv.DictReader(io.StringIO(self.succeed("info", "few.h5", "usual.h5", "moving.h5", "points.h5", "--csv"))))
+        self.assertEqual([row["generator"] for row in rows], ["vem", "vem", "brownian", "import"])
+        self.assertEqual([row["seed"] for row in rows], ["3", "4", "5", ""])
+        self.assertEqual([row["voids"] for row in rows], ["30", "30", "", ""])  # half of the particles when not given
+        self.assertEqual([row["target-coordination"] for row in rows], ["4.2", "4.69", "", ""])
+        self.assertEqual([row["volume-fraction"] for row in rows], ["0.4", "0.35", "0.2", ""])
+        self.assertEqual([float(row["radius [m]"] or 0) for row in rows], [2.5e-7, 1e-6, 2.5e-7, 0])
+        self.assertEqual([float(row["stop-time [s]"] or 0) for row in rows], [0, 0, 1e-5, 0])
+        self.assertFalse({"output", "force", "quiet", "checkpoint-interval [s]"} & set(rows[0]))
 
     def test_info_lists_results_with_units_and_history(self):
         self.copy_of_packing()

@@ -1,5 +1,7 @@
 """What `coagula shear` says about what carries the load."""
 
+import math
+import re
 import unittest
 
 import h5py
@@ -82,7 +84,7 @@ class LoadStructure(ProgramTest):
     def test_cell_data_fit_the_cells(self):
         self.copy_of_packing()
         for tolerance in ("0.01", "0.03"):
-            self.succeed("shear", "packing.h5", "--bond-tolerance", tolerance)
+            self.succeed("shear", "packing.h5", "--bond-tolerance", tolerance, "--force")
             with h5py.File(self.folder / "packing.h5") as file:
                 view = file["VTKHDF"]
                 cells = view["NumberOfCells"][0]
@@ -108,6 +110,29 @@ class LoadStructure(ProgramTest):
         self.assertEqual(found["load_structure"]["summary"], "G' = 0 in xy, xz, yz: no two particles are bonded")
         self.assertEqual(found["load_structure"]["xy"]["backbone"]["bonds"], 0)
         self.assertIn("no two particles are bonded", self.succeed("shear", "points.h5"))
+
+    def test_clusters_that_do_not_reach_around_the_box_have_no_modulus(self):
+        """Zero, with the reason, and not what rounding or inertia leaves, whatever the method and the solver."""
+        tetrahedron = ((0, 0, 0), (1, 0, 0), (0.5, 0.8660254, 0), (0.5, 0.2886751, 0.8164966))
+
+        def turned(x, y, z, a, b):
+            x, y = x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a)
+            return x, y * math.cos(b) - z * math.sin(b), y * math.sin(b) + z * math.cos(b)
+
+        self.imported([[c + p for c, p in zip(corner, turned(*point, 0.3 + k, 0.7 + 2 * k))]
+                       for k, corner in enumerate(((1.5, 1.5, 1.5), (5, 5.2, 4.9), (1.7, 5, 5), (5, 1.6, 1.7))) for point in tetrahedron])
+        self.write("loss.toml", 'normal_viscosity = "1e-3 N.s/m"\n')
+        dem = ["--method", "dem", "--boundary", "periodic", "--oscillations", "1", "--steps-per-oscillation", "2400"]
+        for words in ([], ["--solver", "iterative"], ["--frequency", "1Hz,1kHz", "--model", "loss.toml"], ["--method", "quasistatic"],
+                      ["--method", "quasistatic", "--amplitudes", "1e-3,1e-2", "--orientation", "xy,zx"], [*dem, "--orientation", "xy,zx"]):
+            found = self.succeed_json("shear", "points.h5", *words, "--force")
+            self.assertEqual((found["contacts"], found["rattlers"]), (24, 0))
+            for modulus in ("storage_modulus", "loss_modulus"):
+                values = re.findall(r"[\d.e-]+", str([value for value in found[modulus].values() if value is not None]))
+                self.assertEqual(set(map(float, values)) - {0}, set(), f"{words}: {found[modulus]}")
+            reason = found.get("no_modulus") or found["load_structure"]["summary"]
+            self.assertTrue(reason.startswith("G' = 0 in xy: the bonded network does not reach around the box along x and y"), reason)
+            self.assertRegex(self.succeed("shear", "points.h5", *words, "--force"), r"\nload +G' = 0 in xy: the bonded network does not")
 
     def test_network_that_does_not_reach_around_the_box(self):
         # A slab: touching layers, periodic along x and y, that leave a gap along z.

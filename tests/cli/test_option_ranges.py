@@ -76,8 +76,8 @@ class Targets(ProgramTest):
         words = ["generate", "vem", "--particles", "100", "--voids", "50", "--radius", "1um", "-o", "out.h5", "--volume-fraction"]
         dense = self.fail_with(2, *words, "0.62", says="ask for a lower volume fraction")
         self.assertNotIn("higher coordination", dense)
-        self.fail_with(2, *words, "0.5", "--target-coordination", "1", says="ask for a higher coordination")
-        thin = self.fail_with(2, *words, "0.2", "--target-coordination", "5.5", says="the packing comes to ")
+        self.fail_with(4, *words, "0.5", "--target-coordination", "1", says="ask for a higher coordination")
+        thin = self.fail_with(4, *words, "0.2", "--target-coordination", "5.5", says="the packing comes to ")
         self.assertLess(float(thin.split("comes to ")[1].split()[0]), 5.5)
 
 

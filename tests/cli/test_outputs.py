@@ -1,12 +1,16 @@
 """Outputs are checked before the work, written whole or not at all, and never replaced unasked."""
 
+import csv
+import io
 import os
 import resource
 import shutil
 import subprocess
 import unittest
 
-from support import PROGRAM, VEM, ProgramTest, checksum
+import h5py
+
+from support import PROGRAM, SMALL, VEM, ProgramTest, checksum
 
 
 def small_files_only():
@@ -20,7 +24,7 @@ class Outputs(ProgramTest):
         target = self.write("old.h5", "precious")
         before = checksum(target)
         for words in (VEM, ["characterize", source], ["shear", source], ["export", source, "--format", "csv"]):
-            self.fail_with(2, *words, "-o", "old.h5", says=["old.h5", "--force"])
+            self.fail_with(3, *words, "-o", "old.h5", says=["old.h5", "--force"])
             self.assertEqual(checksum(target), before)
         self.succeed("characterize", source, "--only", "coordination", "-o", "old.h5", "--force")
         self.assertNotEqual(checksum(target), before)
@@ -57,7 +61,7 @@ class Outputs(ProgramTest):
     def test_export_beside_the_input(self):
         self.copy_of_packing("a.h5")
         self.succeed("export", "a.h5", "--format", "lammps")
-        self.fail_with(2, "export", "a.h5", "--format", "lammps", says=["a.data", "--force"])
+        self.fail_with(3, "export", "a.h5", "--format", "lammps", says=["a.data", "--force"])
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.data", "a.h5"])
 
 
@@ -230,10 +234,88 @@ class ListsOfBonds(ProgramTest):
                          before["results"]["/mechanics/linear/storage_modulus/mean"])
         self.assertRegex(self.succeed("info", "packing.h5"), rf"/mechanics/linear +found with {linear} other bonds")
         # The same list once more: nothing changes its list. The linear result made anew: it has that of /connectivity again.
-        self.succeed("shear", "packing.h5", "--frequency", "2Hz", "--bond-tolerance", "0.05")
+        self.succeed("shear", "packing.h5", "--frequency", "2Hz", "--bond-tolerance", "0.05", "--force")
         self.assertEqual(self.succeed_json("info", "packing.h5")["own_bonds"], {"/mechanics/linear": linear})
-        self.succeed("shear", "packing.h5", "--bond-tolerance", "0.05")
+        self.succeed("shear", "packing.h5", "--bond-tolerance", "0.05", "--force")
         self.assertEqual(self.succeed_json("info", "packing.h5")["own_bonds"], {})
+
+
+class Conditions(ProgramTest):
+    """A shear replaces results of the same method without a word only if it is the same measurement again."""
+
+    METHODS = {"linear": (["--bond-tolerance", "0.02"], ["--normal-stiffness", "150N/m"], ["--relax", "minimise"]),
+               "frequency": (["--frequency", "1Hz"], ["--frequency", "2Hz"], ["--frequency-sweep", "1Hz:10Hz:2"]),
+               "quasistatic": (["--orientation", "zx"], ["--amplitudes", "1e-4", "--steps-per-cycle", "4", "--orientation", "zx"],
+                               ["--ramp", "1e-5", "--ramp-steps", "1", "--orientation", "zx"]),
+               "dem": (["--orientation", "zx"], ["--orientation", "zx", "--amplitude", "0.002"], ["--orientation", "xy"])}
+    QUICK = ["--boundary", "periodic", "--oscillations", "1", "--steps-per-oscillation", "100"]
+
+    def setUp(self):
+        super().setUp()
+        self.succeed(*SMALL, "-o", "a.h5")
+
+    def shear(self, method, words):
+        return ["shear", "a.h5", "--quiet", *words, *([] if method == "frequency" else ["--method", method]),
+                *(self.QUICK if method == "dem" else [])]
+
+    def test_other_conditions_need_force(self):
+        for method, (first, *others) in self.METHODS.items():
+            self.succeed(*self.shear(method, first))
+            self.succeed(*self.shear(method, first))  # the same again
+            before = checksum(self.folder / "a.h5")
+            for words in others:
+                call = self.shear(method, words)
+                option = words[0][2:].replace("-", "_")
+                self.fail_with(3, *call, says=["a.h5", f"/mechanics/{method}", option, "--force", "-o"])
+                self.assertEqual(checksum(self.folder / "a.h5"), before)
+            self.succeed(*call, "-o", "copy.h5")
+            self.assertEqual(checksum(self.folder / "a.h5"), before)
+            self.succeed(*call, "--force")
+            self.succeed(*call)
+            os.remove(self.folder / "copy.h5")
+
+    def test_how_it_is_computed_is_no_condition(self):
+        self.succeed(*self.shear("linear", []))
+        self.succeed(*self.shear("linear", ["--solver", "direct", "--tolerance", "1e-9", "--threads", "1"]))
+
+    def test_the_contents_of_a_model_count_and_not_its_name(self):
+        for name, stiffness in (("a.toml", 120), ("b.toml", 120), ("c.toml", 130)):
+            self.write(name, f'normal_stiffness = "{stiffness} N/m"\n')
+        self.succeed(*self.shear("linear", ["--model", "a.toml"]))
+        self.succeed(*self.shear("linear", ["--model", "b.toml"]))
+        self.fail_with(3, *self.shear("linear", ["--model", "c.toml"]), says="model differs")
+
+    def test_all_files_are_asked_before_one_is_sheared(self):
+        self.succeed(*SMALL, "--seed", "2", "-o", "b.h5")
+        self.succeed(*self.shear("linear", []))
+        before = [checksum(self.folder / name) for name in ("a.h5", "b.h5")]
+        self.fail_with(3, "shear", "b.h5", "a.h5", "--bond-tolerance", "0.02", says="a.h5 holds results")
+        self.assertEqual([checksum(self.folder / name) for name in ("a.h5", "b.h5")], before)
+
+    def test_results_without_conditions_are_not_taken_for_the_same(self):
+        """Earlier versions wrote none."""
+        call = self.shear("linear", [])
+        self.succeed(*call)
+        with h5py.File(self.folder / "a.h5", "r+") as file:
+            del file["mechanics/linear/conditions"]
+        self.fail_with(3, *call, says="which it does not name")
+        self.succeed(*call, "--force")
+
+    def test_info_and_json_show_them(self):
+        found = self.succeed_json(*(word for word in self.shear("quasistatic", self.METHODS["quasistatic"][1]) if word != "--quiet"))
+        self.assertEqual((found["conditions"]["amplitudes"], found["conditions"]["bond_tolerance"]), ("1e-4", 0.01))
+        self.assertRegex(self.succeed("info", "a.h5"), r"/mechanics/quasistatic/conditions/amplitudes +1e-4 ")
+        row = next(csv.DictReader(io.StringIO(self.succeed("info", "a.h5", "--csv"))))
+        self.assertEqual(row["mechanics/quasistatic/conditions/amplitudes"], "1e-4")
+
+    def test_who_comes_second_does_not_replace_the_first(self):
+        """Both begin when the file has no results."""
+        words = [["--amplitudes", amplitude, "--steps-per-cycle", "4", "--orientation", "zx"] for amplitude in ("1e-4", "1e-3")]
+        runs = [subprocess.Popen([PROGRAM, *self.shear("quasistatic", one)], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+                for one in words]
+        told = "".join(run.communicate()[1] for run in runs)
+        self.assertEqual(sorted(run.returncode for run in runs), [0, 3], told)
+        self.check_sentence(told, says=["amplitudes", "--force"])
 
 
 class SeveralWriters(ProgramTest):
@@ -256,7 +338,7 @@ class SeveralWriters(ProgramTest):
         words = ["generate", "vem", "--particles", "60", "--volume-fraction", "0.3", "--radius", "1um", "-o", "new.h5"]
         runs = [self.start(*words, "--seed", seed) for seed in (1, 2)]
         told = [run.communicate()[1] for run in runs]
-        self.assertEqual(sorted(run.returncode for run in runs), [0, 2], told)
+        self.assertEqual(sorted(run.returncode for run in runs), [0, 3], told)
         self.check_sentence("".join(told), says=["new.h5", "exists already"])
         self.assertEqual(os.listdir(self.folder), ["new.h5"])
 

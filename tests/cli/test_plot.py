@@ -8,6 +8,8 @@ import shutil
 import unittest
 from xml.etree import ElementTree
 
+import h5py
+
 import support
 from support import SMALL, ProgramTest
 
@@ -187,7 +189,7 @@ class Plot(ProgramTest):
         self.fail_with(2, "plot", "none.h5", *figure, "-o", "b.svg", says="none.h5")
         self.fail_with(2, "plot", path, path, "--figure", "packing", "-o", "b.svg", says="one file")
         self.write("b.svg", "precious")
-        self.fail_with(2, "plot", path, *figure, "-o", "b.svg", says=["b.svg", "--force"])
+        self.fail_with(3, "plot", path, *figure, "-o", "b.svg", says=["b.svg", "--force"])
         self.assertEqual((self.folder / "b.svg").read_text(), "precious")
 
     def test_without_gnuplot_nothing_is_written(self):
@@ -216,6 +218,27 @@ class Paper(ProgramTest):
         self.assertTrue(again["figures"][4]["drawn"])
         names = [series["name"] for series in again["figures"][4]["series"] if series["name"]]
         self.assertEqual(names, ["a", "published BD, 0 mV", "published BD, 15 mV"])
+
+    def test_what_is_no_structure_is_skipped_in_a_folder(self):
+        (self.folder / "made").mkdir()
+        self.copy_of_measured("made/a.h5")
+        self.copy_of_packing("made/bare.h5")  # without any result
+        self.write("made/broken.h5", "no HDF5")
+        with h5py.File(self.folder / "made/state.h5", "w") as file:
+            file["state/time"] = [1.0]
+        found = self.succeed_json("plot", "made", "--paper", "-o", "figures")
+        self.assertEqual([figure["drawn"] for figure in found["figures"]], [True, True, True, False, False, True])
+        self.assertIn("made/bare.h5", " ".join(found["figures"][0]["missing"]))
+        self.assertEqual(len(found["skipped"]), 2)
+        for name, sentence in zip(("broken.h5", "state.h5"), found["skipped"]):
+            self.assertIn(f"made/{name}", sentence)
+        table = self.succeed("plot", "made", "--paper", "--force", "-o", "figures")
+        self.assertRegex(table, r"\nskipped +made/broken.h5 .*\nskipped +made/state.h5")
+        os.remove(self.folder / "made/bare.h5")
+        self.assertEqual(len(self.succeed_json("plot", "made", "--figure", "contacts", "-o", "c.svg")["skipped"]), 2)
+        self.fail_with(2, "plot", "made/a.h5", "made/state.h5", "--paper", "-o", "other", says="made/state.h5")
+        os.remove(self.folder / "made/a.h5")
+        self.fail_with(2, "plot", "made", "--paper", "-o", "other", says="made/broken.h5")
 
     def test_nothing_to_draw(self):
         self.fail_with(2, "plot", support.PACKING, "--paper", "--figure", "contacts", "-o", "figures", says="--figure")

@@ -40,7 +40,7 @@ class Power(ProgramTest):
         self.assertIsNone(causes["bond-bending"]["found_half"])
         written = json.loads((self.folder / "power" / "power.json").read_text())
         self.assertEqual(written["causes"], found["causes"])
-        self.fail_with(2, "diagnose", "--power", "plan.toml", "-o", "power", says="--force")
+        self.fail_with(3, "diagnose", "--power", "plan.toml", "-o", "power", says="--force")
         told = self.succeed("diagnose", "--power", "plan.toml", "-o", "power", "--force", *QUICK)
         self.assertRegex(told, r"contact-loss +springpot_over_spring: found with 50 % at [0-9.]+ or more \([0-9.]+ to [0-9.]+\), with 95 % at")
         self.assertRegex(told, r"bond-bending +cannot be found: \d+ of 40")

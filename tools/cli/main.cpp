@@ -6,8 +6,7 @@
 #include "report.hpp"
 #include "verbs.hpp"
 
-#include <coagula/common/checks.hpp>
-#include <coagula/common/progress.hpp>
+#include <coagula/common/failures.hpp>
 #include <coagula/common/spelling.hpp>
 #include <coagula/io/standard_descriptors.hpp>
 #include <coagula/report/printable.hpp>
@@ -16,9 +15,9 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <iostream>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,6 +28,8 @@ namespace {
 
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
+constexpr int exists_already = 3;
+constexpr int out_of_reach = 4;
 
 void print_program_help() {
     std::cout << "usage: coagula VERB [options]\n\n"
@@ -42,7 +43,9 @@ void print_program_help() {
         << "\noptions:\n"
            "  -h, --help    print this text; 'coagula VERB --help' lists the options of a verb\n"
            "  -V, --version print the version\n\n"
-           "Quantities are SI numbers or carry a unit: 0.25um, 100N/m. Exit codes: 0 done, 1 failed, 2 wrong usage or bad input.\n";
+           "Quantities are SI numbers or carry a unit: 0.25um, 100N/m.\n"
+           "Exit codes: 0 done, 1 failed, 2 wrong usage or bad input, 3 what would be written exists already (see --force),\n"
+           "            4 no structure has what was asked for, such as a coordination number.\n";
 }
 
 /// The end of the sentence about words that begin with no verb; with the two words of a verb like "generate vem", if there are two.
@@ -154,19 +157,22 @@ int main(int argc, char** argv) {
     coagula::io::occupy_standard_descriptors();
     restart_with_thread_settings(argv);
     install_signal_handlers();
+    std::set_terminate(coagula::end_with_sentence);
     try {
         run(std::vector<std::string>(argv + 1, argv + argc));
         return 0;
+    } catch (const coagula::ExistsAlready& error) {
+        return complain(error.what(), exists_already);
+    } catch (const coagula::OutOfReach& error) {
+        return complain(error.what(), out_of_reach);
     } catch (const coagula::InputError& error) {
         return complain(error.what(), wrong_usage);
     } catch (const std::invalid_argument& error) {
         return complain(error.what(), wrong_usage);
-    } catch (const std::bad_alloc&) {
-        return complain("there is not enough memory for this", failed);
     } catch (const std::filesystem::filesystem_error& error) {
         const bool too_long = error.code() == std::errc::filename_too_long;
         return complain(error.path1().string() + " cannot be used: " + error.code().message(), too_long ? wrong_usage : failed);
     } catch (const std::exception& error) {
-        return complain(error.what(), failed);
+        return complain(coagula::failure_sentence(error), failed);
     }
 }

@@ -52,6 +52,8 @@ std::string entry(const Option& option) {
 
 constexpr const char* common_parts =
     ".SH EXIT STATUS\n.TP\n.B 0\ndone\n.TP\n.B 1\nfailed\n.TP\n.B 2\nwrong usage or bad input\n"
+    ".TP\n.B 3\nwhat would be written exists already, and --force was not given\n"
+    ".TP\n.B 4\nno structure has what was asked for, such as a coordination number at this volume fraction\n"
     ".SH NOTES\nQuantities are SI numbers or carry a unit: 0.25um, 100N/m, 10 mM. Whole numbers may be written 1e6.\n"
     "Results go to a temporary file that is renamed when it is complete.\n";
 

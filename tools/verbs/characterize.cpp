@@ -13,6 +13,8 @@
 #include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <iostream>
 
 namespace coagula::tools {
 
@@ -99,6 +101,22 @@ characterize::HeterogeneityComparison compare(const Arguments& arguments, const 
     return characterize::compare_heterogeneity(input(packings[0]), input(packings[1]), names);
 }
 
+/// What a default run takes, as measured with 512 000 particles; it grows as their number.
+constexpr double seconds_per_particle = 5.4e-4;  // of one processor
+constexpr double bytes_per_particle = 8.0e3;
+constexpr Index many_particles = 100000;
+
+/// Says beforehand what a long run takes, and how to have it faster.
+void forecast_characterization(const Arguments& arguments, Index particles) {
+    if (particles < many_particles || arguments.has("only") || arguments.flag("quiet")) {
+        return;
+    }
+    const auto rounded = [&](double amount) { return to_text(std::round(10 * amount * static_cast<double>(particles)) / 10); };
+    std::cerr << "coagula: the usual measures of " << particles << " particles take about " << rounded(seconds_per_particle / 60)
+              << " min of processor time and " << rounded(bytes_per_particle / 1e9)
+              << " GB of memory; --only coordination,doh or other names measures less\n";
+}
+
 /// Two structures side by side; nothing is written into their files.
 void run_comparison(const Arguments& arguments) {
     const Stopwatch clock;
@@ -121,6 +139,7 @@ void run_characterize(const Arguments& arguments) {
     chosen_measures(arguments);
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
+    forecast_characterization(arguments, packing.size());
 
     Findings found = naming(arguments.input(), [&] { return characterize_packing(arguments, packing, progress); });
     progress.update("writing", 1.0);

@@ -161,7 +161,7 @@ std::vector<std::vector<std::string>> table_of_files(const std::vector<std::stri
     InfoRows rows;
     for (const std::string& path : paths) {
         const io::Contents contents = io::read_contents(path);
-        rows.add(path, contents.structure, contents.results);
+        rows.add(path, contents);
     }
     return rows.with_header();
 }
@@ -170,7 +170,7 @@ Verb info_verb() {
     return {.name = "info",
             .summary = "what is in files: structure, results, history",
             .input = "FILE.h5",
-            .options = {flag("csv", "print a table with one row per file and every scalar result as a column")},
+            .options = {flag("csv", "print a table with one row per file: options of the generator and every scalar result")},
             .run = run_info,
             .many_inputs = true};
 }

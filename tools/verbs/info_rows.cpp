@@ -1,5 +1,8 @@
 #include "info_rows.hpp"
 
+#include "cli/verbs.hpp"
+#include "recorded_options.hpp"
+
 #include <coagula/common/contact_network.hpp>
 
 #include <algorithm>
@@ -23,6 +26,20 @@ std::string cell_text(const io::Dataset& dataset) {
     return std::to_string(std::get<std::vector<std::int64_t>>(dataset.values).front());
 }
 
+/// Whether an option says what structure comes out, not where it goes or how it is shown.
+bool is_recipe(const Option& option) {
+    const std::vector<std::string> others = {"output",          "force",   "checkpoint",   "checkpoint-interval",
+                                             "potential-curve", "picture", "heterogeneity"};
+    return std::find(others.begin(), others.end(), option.name) == others.end();
+}
+
+std::string option_text(const Json& value) {
+    if (value.is_string()) {
+        return value.get<std::string>();
+    }
+    return value.is_number_float() ? number(value.get<double>()) : value.dump();
+}
+
 }  // namespace
 
 void InfoRows::put(const std::string& heading, const std::string& unit, const std::string& text) {
@@ -36,7 +53,28 @@ void InfoRows::put(const std::string& heading, const std::string& unit, const st
     rows_.back()[column] = text;
 }
 
-void InfoRows::add(const std::string& path, const io::Structure& structure, const Results& results) {
+void InfoRows::put_recipe(const std::string& path, const io::Contents& contents) {
+    if (contents.history.empty()) {
+        return;
+    }
+    const io::Provenance& first = contents.history.front();
+    const std::string prefix = "generate ";
+    put("generator", "", first.stage.starts_with(prefix) ? first.stage.substr(prefix.size()) : first.stage);
+    const Json options = recorded_options(path, first.options);
+    for (const Verb& verb : {generate_vem_verb(), generate_brownian_verb()}) {
+        for (const Option& option : verb.options) {
+            if (verb.name == first.stage && options.contains(option.name) && is_recipe(option)) {
+                put(option.name, option.unit, option_text(options[option.name]));
+            }
+        }
+    }
+    if (first.stage == generate_vem_verb().name && !options.contains("voids")) {  // half of the particles when not given
+        put("voids", "1", std::to_string(contents.structure.packing.size() / 2));
+    }
+}
+
+void InfoRows::add(const std::string& path, const io::Contents& contents) {
+    const io::Structure& structure = contents.structure;
     const Packing& packing = structure.packing;
     rows_.emplace_back();
     put("file", "", path);
@@ -48,7 +86,8 @@ void InfoRows::add(const std::string& path, const io::Structure& structure, cons
     put("volume_fraction", "1", number(volume_fraction(packing)));
     put("radius_mean", "m", number(mean_radius(packing)));
     put("bonds", "1", structure.bonds ? std::to_string(structure.bonds->size()) : std::string{});
-    for (const io::Dataset& dataset : results) {
+    put_recipe(path, contents);
+    for (const io::Dataset& dataset : contents.results) {
         const bool is_scalar = dataset.shape.empty();
         if (is_scalar) {
             put(dataset.path.substr(1), dataset.unit, cell_text(dataset));

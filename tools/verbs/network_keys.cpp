@@ -1,5 +1,7 @@
 #include "network_keys.hpp"
 
+#include <coagula/mechanics/load_structure.hpp>
+
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
@@ -54,6 +56,24 @@ std::optional<mechanics::LinearResponse> append_network_keys(Results& results, c
                                      ? "shear modulus if all particles followed the strain, mean, at the start"
                                      : "NaN: the contacts have no stiffness at the start, or are unstable under their prestress"));
     return found;
+}
+
+bool has_modulus(const mechanics::LinearResponse& linear, const mechanics::ShearOrientation& orientation) {
+    return linear.shear_modulus(orientation.normal, orientation.direction) != 0;
+}
+
+void append_reason(Findings& found, const Packing& packing, const ContactNetwork& bonds, const mechanics::LinearResponse& linear) {
+    const std::vector<mechanics::ShearOrientation> all = mechanics::all_orientations();
+    if (std::all_of(all.begin(), all.end(), [&](const auto& orientation) { return has_modulus(linear, orientation); })) {
+        return;
+    }
+    const std::string reason = mechanics::find_load_structure(packing, bonds, linear).summary();
+    found.results.push_back(io::text(found.group + "/no_modulus", reason, "in which planes the network has no modulus, and why"));
+    found.table.emplace_back("load", reason);
+}
+
+void append_reason(Findings& found, const Packing& packing, const ContactNetwork& bonds, const Progress& progress) {
+    append_reason(found, packing, bonds, response_for_counts(packing, bonds, progress));
 }
 
 void append_contact_stiffness(Results& results, const std::string& group, const Packing& packing, const ContactNetwork& bonds,

@@ -5,9 +5,12 @@
 
 #include <coagula/common/contact_model.hpp>
 #include <coagula/common/contact_network.hpp>
+#include "findings.hpp"
+
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
 #include <coagula/mechanics/linear.hpp>
+#include <coagula/mechanics/orientation.hpp>
 
 #include <optional>
 #include <string>
@@ -20,6 +23,16 @@ namespace coagula::tools {
 std::optional<mechanics::LinearResponse> append_network_keys(Results& results, const std::string& group, const Packing& packing,
                                                              const ContactNetwork& bonds, const ContactModel& model,
                                                              const Progress& progress);
+
+/// Whether the network, whose linear response is given, has a modulus of this orientation. What a simulation measures where it has
+/// none is rounding, or inertia.
+bool has_modulus(const mechanics::LinearResponse& linear, const mechanics::ShearOrientation& orientation);
+
+/// Where it has none in some plane: why, as a text of the results and a line of the table.
+void append_reason(Findings& found, const Packing& packing, const ContactNetwork& bonds, const mechanics::LinearResponse& linear);
+
+/// The same without a linear response.
+void append_reason(Findings& found, const Packing& packing, const ContactNetwork& bonds, const Progress& progress);
 
 /// Stiffness of a contact as found, mean over the bonds.
 void append_contact_stiffness(Results& results, const std::string& group, const Packing& packing, const ContactNetwork& bonds,

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 namespace coagula::tools {
@@ -30,12 +31,18 @@ using report::Series;
 
 constexpr Range picture_length{0.02, 0.5};  // m
 
+/// A file to draw, named by the user or found in a folder that was.
+struct InputFile {
+    std::string path;
+    bool named = true;
+};
+
 /// Files as given; of a folder its structures and tables.
-std::vector<std::string> files_of(const Arguments& arguments) {
-    std::vector<std::string> files;
+std::vector<InputFile> files_of(const Arguments& arguments) {
+    std::vector<InputFile> files;
     for (const std::string& input : arguments.inputs()) {
         if (!fs::is_directory(input)) {
-            files.push_back(input);
+            files.push_back({input});
             continue;
         }
         std::vector<std::string> inside;
@@ -49,24 +56,48 @@ std::vector<std::string> files_of(const Arguments& arguments) {
             throw InputError("the folder " + input + " holds no .h5 or .csv file to draw");
         }
         std::sort(inside.begin(), inside.end());
-        files.insert(files.end(), inside.begin(), inside.end());
+        std::transform(inside.begin(), inside.end(), std::back_inserter(files),
+                       [](const std::string& path) { return InputFile{path, false}; });
     }
     return files;
 }
 
-std::vector<FigureSource> read_sources(const Arguments& arguments) {
-    const std::vector<std::string> files = files_of(arguments);
+/// What can be drawn, and a sentence about each file of a folder that is no structure, such as a checkpoint.
+struct ReadSources {
+    std::vector<FigureSource> sources;
+    std::vector<std::string> skipped;
+};
+
+ReadSources read_sources(const Arguments& arguments) {
+    const std::vector<InputFile> files = files_of(arguments);
     const std::vector<std::string> labels =
         arguments.has("labels") ? split(arguments.text("labels")) : std::vector<std::string>(files.size());
     if (labels.size() != files.size()) {
         throw InputError("--labels has " + std::to_string(labels.size()) + " labels for " + std::to_string(files.size()) +
                          " files: each file needs one");
     }
-    std::vector<FigureSource> sources;
+    ReadSources found;
     for (std::size_t k = 0; k < files.size(); ++k) {
-        sources.push_back(report::read_figure_source(files[k], labels[k]));
+        try {
+            found.sources.push_back(report::read_figure_source(files[k].path, labels[k]));
+        } catch (const InputError& error) {
+            if (files[k].named) {
+                throw;
+            }
+            found.skipped.emplace_back(error.what());
+        }
     }
-    return sources;
+    if (found.sources.empty()) {
+        throw InputError(found.skipped.front());
+    }
+    return found;
+}
+
+void append_skipped(const std::vector<std::string>& skipped, Json& json, Table& table) {
+    json["skipped"] = skipped;
+    for (const std::string& sentence : skipped) {
+        table.emplace_back("skipped", sentence);
+    }
 }
 
 PictureSize size_of(const Arguments& arguments, const Drawing& drawing) {
@@ -183,7 +214,8 @@ Printed plot_figure(const Arguments& arguments) {
         check_output(arguments, arguments.text("data"), files);
     }
     const report::Figure& figure = report::figure_named(arguments.text("figure"));
-    Drawing drawing = report::draw_figure(figure, read_sources(arguments), arguments.flag("published"));
+    const ReadSources found = read_sources(arguments);
+    Drawing drawing = report::draw_figure(figure, found.sources, arguments.flag("published"));
     set_logarithmic(arguments, drawing);
     set_ranges(arguments, drawing);
     const PictureSize size = size_of(arguments, drawing);
@@ -205,6 +237,7 @@ Printed plot_figure(const Arguments& arguments) {
         json["data"] = arguments.text("data");
         table.emplace_back("data written to", arguments.text("data"));
     }
+    append_skipped(found.skipped, json, table);
     table.emplace_back("written to", path);
     return {std::move(json), std::move(table)};
 }
@@ -241,7 +274,8 @@ Printed plot_paper(const Arguments& arguments) {
     for (const fs::path& output : folder.files()) {
         check_not_read(arguments, output.string(), files_of(arguments));
     }
-    const std::vector<report::PaperFigure> figures = report::draw_paper_figures(read_sources(arguments));
+    const ReadSources found = read_sources(arguments);
+    const std::vector<report::PaperFigure> figures = report::draw_paper_figures(found.sources);
 
     Json json = {{"output", arguments.text("output")}, {"figures", Json::array()}};
     Table table;
@@ -274,6 +308,7 @@ Printed plot_paper(const Arguments& arguments) {
     }
     folder.write("captions.md", captions_text(figures, ending));
     folder.publish();
+    append_skipped(found.skipped, json, table);
     table.emplace_back("written to", arguments.text("output"));
     return {std::move(json), std::move(table)};
 }

@@ -295,6 +295,25 @@ Table table_of(const std::vector<Test>& tests, bool sweep) {
     return table;
 }
 
+/// A modulus below this share of the affine one is what rounding leaves, also of a loss.
+constexpr double rounding = 1e-8;
+
+void clear_rounding(Test& test, double affine) {
+    const auto clear = [&](double& modulus) { modulus = std::abs(modulus) < rounding * affine ? 0 : modulus; };
+    for (mechanics::AmplitudeResponse& entry : test.sweep.amplitudes) {
+        clear(entry.storage_modulus);
+        clear(entry.loss_modulus);
+    }
+    const auto [normal, direction] = std::pair(test.orientation.normal, test.orientation.direction);
+    for (mechanics::StrainPoint& point : test.ramp.points) {
+        const double start = test.ramp.points.front().stress(normal, direction);
+        const double change = point.stress(normal, direction) - start;
+        if (std::abs(change) < rounding * affine * std::abs(point.strain)) {
+            point.stress(normal, direction) = point.stress(direction, normal) = start;
+        }
+    }
+}
+
 /// Equilibria of contacts that have no stiffness to begin with are not found but in lattices.
 void check_stiffness_at_rest(const Arguments& arguments, const ContactModel& model) {
     const bool hertzian = !std::isnan(model.young_modulus) && std::isnan(model.work_of_adhesion);
@@ -324,7 +343,7 @@ Findings quasistatic_response(const Arguments& arguments, const Packing& packing
     }
     check_stiffness_at_rest(arguments, model);
     const std::vector<double> amplitudes = sweep ? amplitudes_of(arguments) : std::vector<double>{};
-    const std::vector<Test> tests = run_or_resume(arguments, packing, model, progress, [&](Test& test, const Progress& part) {
+    std::vector<Test> tests = run_or_resume(arguments, packing, model, progress, [&](Test& test, const Progress& part) {
         if (sweep) {
             const mechanics::SweepOptions options = sweep_options(arguments, amplitudes, frequencies, test.orientation);
             test.sweep = mechanics::sweep_amplitudes(packing, bonds, model, options, part);
@@ -332,10 +351,17 @@ Findings quasistatic_response(const Arguments& arguments, const Packing& packing
             test.ramp = mechanics::shear_to(packing, bonds, model, ramp_options(arguments, test.orientation), part);
         }
     });
-    Findings found{.group = "/mechanics/quasistatic", .results = {}, .table = table_of(tests, sweep)};
+    Findings found{.group = "/mechanics/quasistatic", .results = {}};
     append_network(found.results, arguments, bonds, model);
     append_contact_stiffness(found.results, quasistatic_group, packing, bonds, model);
-    append_network_keys(found.results, quasistatic_group, packing, bonds, model, progress);
+    const auto linear = append_network_keys(found.results, quasistatic_group, packing, bonds, model, progress);
+    for (Test& test : tests) {
+        clear_rounding(test, linear ? linear->mean_affine_modulus() : 0);
+    }
+    found.table = table_of(tests, sweep);
+    if (linear) {
+        append_reason(found, packing, bonds, *linear);
+    }
     if (sweep) {
         append_sweeps(found.results, tests, amplitudes);
     } else {

@@ -13,7 +13,9 @@
 #include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 namespace coagula::tools {
@@ -36,6 +38,22 @@ Progress whole_test(const Progress& progress, const std::vector<mechanics::Shear
         progress.update("shearing", reached, said);
         return true;
     });
+}
+
+/// The stress that a network without a modulus shows is its inertia, which a run at a finite rate has, and no modulus of its own.
+constexpr double inertial_modulus = 1e-3;  // over the affine one
+
+void clear_inertia(const mechanics::LinearResponse& linear, mechanics::RheometerResult& result) {
+    for (mechanics::RheometerRun& run : result.runs) {
+        mechanics::Oscillation& last = run.oscillations.back();
+        const double modulus = std::hypot(last.storage_modulus, last.loss_modulus);
+        if (!has_modulus(linear, run.orientation) && modulus < inertial_modulus * linear.mean_affine_modulus()) {
+            last.storage_modulus = last.loss_modulus = last.phase = 0;
+            last.fundamental_storage = last.fundamental_loss = 0;
+            run.rest_modulus = 0;
+            run.rate_error = unset;
+        }
+    }
 }
 
 }  // namespace
@@ -110,12 +128,20 @@ Findings rheometer_response(const Arguments& arguments, const Packing& packing, 
         };
     }
     const Progress whole = whole_test(progress, orientations, options.oscillations);
-    const mechanics::RheometerResult result =
+    mechanics::RheometerResult result =
         with_checkpoint(path, [&] { return mechanics::run_rheometer(packing, bonds, options, orientations, whole, control); });
+    Results keys;
+    const auto linear = append_network_keys(keys, "/mechanics/dem/", packing, bonds, model, progress);
+    if (linear) {
+        clear_inertia(*linear, result);
+    }
     Findings found{.group = "/mechanics/dem",
                    .results = datasets_of(result, options, arguments.quantity("bond-tolerance")),
                    .table = table_of(result, options)};
-    const auto linear = append_network_keys(found.results, "/mechanics/dem/", packing, bonds, model, progress);
+    std::move(keys.begin(), keys.end(), std::back_inserter(found.results));
+    if (linear) {
+        append_reason(found, packing, bonds, *linear);
+    }
     if (options.boundary == mechanics::RheometerBoundary::plates) {
         append_plate_stiffening(found, packing, bonds, linear, result, options.plate_layers, progress);
     }

@@ -7,20 +7,24 @@
 #include "frequency_list.hpp"
 #include "frequency_results.hpp"
 #include "load_structure_results.hpp"
+#include "network_keys.hpp"
 #include "over_structures.hpp"
 #include "quasistatic_run.hpp"
 #include "rheometer_run.hpp"
+#include "shear_conditions.hpp"
 #include "shear_results.hpp"
 #include "stages.hpp"
 
 #include <coagula/characterize/inner_particles.hpp>
 #include <coagula/common/contact_network.hpp>
+#include <coagula/io/conditions.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
 #include <coagula/mechanics/relaxation.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <filesystem>
 #include <iterator>
 #include <optional>
@@ -149,9 +153,14 @@ Findings frequency_response(const Arguments& arguments, const Packing& packing, 
                             const ContactModel& model, const std::vector<double>& frequencies, const Progress& progress) {
     const auto response = mechanics::solve_frequency_sweep(packing, bonds, model, frequencies,
                                                            {.tolerance = arguments.quantity("tolerance")}, progress);
-    return {.group = "/mechanics/frequency",
-            .results = datasets_of(response, arguments.quantity("bond-tolerance"), model),
-            .table = table_of(response)};
+    Findings found{.group = "/mechanics/frequency",
+                   .results = datasets_of(response, arguments.quantity("bond-tolerance"), model),
+                   .table = table_of(response)};
+    const mechanics::FrequencyPoint& last = response.points.back();
+    if ((last.modulus.diagonal().tail<3>().array() == std::complex<double>(0)).any()) {
+        append_reason(found, packing, bonds, progress);
+    }
+    return found;
 }
 
 /// What needs no packing. Returns the contact.
@@ -188,8 +197,15 @@ Shown shear_file(const Arguments& arguments, const std::string& source, const st
     return {std::move(json), std::move(found.table)};
 }
 
+/// Results of the same method in the file itself are replaced by those of the same conditions only.
+void check_replaced(const Arguments& arguments, const std::string& file, const ContactModel& model) {
+    if (!arguments.has("output") && !arguments.flag("force")) {
+        io::check_conditions(file, shear_group(arguments), shear_conditions(arguments, model));
+    }
+}
+
 /// Everything about the files that can be wrong is found before the first is sheared.
-void check_files(const Arguments& arguments, const std::vector<std::string>& files) {
+void check_files(const Arguments& arguments, const std::vector<std::string>& files, const ContactModel& model) {
     for (const char* name : {"output", "checkpoint"}) {
         if (arguments.has(name)) {
             throw InputError(std::string("--") + name + " is for one file, but " + std::to_string(files.size()) +
@@ -202,13 +218,14 @@ void check_files(const Arguments& arguments, const std::vector<std::string>& fil
         if (!seen.insert(std::filesystem::canonical(file)).second) {
             throw InputError(file + " is given twice, but the scatter of the structures is that of different ones");
         }
+        check_replaced(arguments, file, model);
     }
 }
 
-void shear_files(const Arguments& arguments, const std::vector<std::string>& files) {
+void shear_files(const Arguments& arguments, const std::vector<std::string>& files, const ContactModel& model) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
-    check_files(arguments, files);
+    check_files(arguments, files, model);
     std::vector<Json> structures;
     for (const std::string& file : files) {
         Json json = {{"file", file}};
@@ -223,15 +240,17 @@ void shear_files(const Arguments& arguments, const std::vector<std::string>& fil
 }
 
 void run_shear(const Arguments& arguments) {
-    check_options(arguments);
+    const ContactModel model = check_options(arguments);
     const std::vector<std::string> files = arguments.inputs();
     if (files.size() > 1) {
-        shear_files(arguments, files);
+        shear_files(arguments, files, model);
         return;
     }
     const Progress progress = make_progress(arguments.flag("quiet"));
+    const std::string target = checked_target(arguments);
+    check_replaced(arguments, files.front(), model);
     const Packing packing = io::read_structure(files.front()).packing;
-    const Shown shown = shear_file(arguments, files.front(), checked_target(arguments), packing, progress);
+    const Shown shown = shear_file(arguments, files.front(), target, packing, progress);
     report(arguments, shown.json, shown.table);
 }
 
@@ -255,6 +274,9 @@ Sheared shear_packing(const Arguments& arguments, const Packing& packing, const 
     }
     if (rest) {
         append_relaxation(found.group, found.results, found.fields, *rest);
+    }
+    for (io::Dataset& condition : shear_conditions(arguments, model)) {
+        found.results.push_back(std::move(condition));
     }
     check_finite(found.results);
     check_finite(found.bond_results);
@@ -284,7 +306,7 @@ Verb shear_verb() {
              quantity("modulus-tolerance", "1", "iterative solver: estimated relative error of the moduli", "1e-5",
                       within(1e-12, 1e-2)),
              output("write to a new file; results are added to the input file when not given"),
-             flag("force", "replace an existing output file")},
+             flag("force", "replace an existing output file, or results of the same method under other conditions")},
         .run = run_shear,
         .notes = {
             "--method dem takes one --frequency (default 1Hz) and scales the masses so that its time steps are few enough.",

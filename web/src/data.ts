@@ -44,6 +44,8 @@ export interface Stage {
 export interface Structure {
   name: string;
   particles: number;
+  /** The structure of which this is the part in the middle; null where all of it is here. */
+  whole: { particles: number; periodic: boolean; lengths: [number, number, number] } | null;
   periodic: boolean;
   volumeFraction: number;
   lengthUnit: number;
@@ -125,6 +127,12 @@ export async function readPage(): Promise<PageData> {
 export function numberAt(structure: Structure, path: string): number | null {
   const value = structure.results.find((result) => result.path === path)?.value;
   return typeof value === "number" ? value : null;
+}
+
+/** The data set at this path, if the file has it and it is a text. */
+export function textAt(structure: Structure, path: string): string | null {
+  const value = structure.results.find((result) => result.path === path)?.value;
+  return typeof value === "string" ? value : null;
 }
 
 /** A list of numbers; null stands for what is not finite. */

@@ -1,6 +1,6 @@
 // The page of coagula report.
 
-import { numberAt, readPage, type PageData, type Structure } from "./data";
+import { numberAt, readPage, textAt, type PageData, type Structure } from "./data";
 import { el, printed, quantity, quantityWithError } from "./dom";
 import { Chart } from "./plots/chart";
 import type { ChartSpec } from "./plots/chart_spec";
@@ -29,10 +29,11 @@ interface Fact {
 const methods: Record<string, string> = { linear: "G′", dem: "G′, explicit", quasistatic: "G′, quasi-static" };
 
 function factsOf(structure: Structure): Fact[] {
+  const whole = structure.whole ?? structure;
   const list: Fact[] = [
-    { name: "particles", value: String(structure.particles) },
+    { name: "particles", value: String(whole.particles) },
     { name: "radius", value: radiusText(structure), meaning: "mean radius; ± is the standard deviation over the particles" },
-    { name: "box", value: structure.lengths.map((length) => quantity(length * structure.lengthUnit, "m")).join(" × ") + (structure.periodic ? "" : ", open") },
+    { name: "box", value: whole.lengths.map((length) => quantity(length * structure.lengthUnit, "m")).join(" × ") + (whole.periodic ? "" : ", open") },
     { name: "volume fraction", value: printed(numberAt(structure, "/characterization/volume_fraction") ?? structure.volumeFraction) },
   ];
   const add = (name: string, path: string, unit: string, error: string, meaning: string): void => {
@@ -47,6 +48,10 @@ function factsOf(structure: Structure): Fact[] {
   for (const [method, name] of Object.entries(methods)) {
     const group = `/mechanics/${method}/storage_modulus/`;
     add(name, `${group}mean`, "Pa", `${group}std`, "± is the standard deviation over the orientations of this structure");
+  }
+  const loads = textAt(structure, "/mechanics/linear/load_structure/summary");
+  if (loads?.startsWith("G' = 0")) {
+    list.push({ name: "load", value: loads });
   }
   return list;
 }
@@ -65,6 +70,8 @@ function header(data: PageData): HTMLElement {
 
 function notes(structures: Structure[]): HTMLElement | null {
   const lines = structures.flatMap((structure) => [
+    ...(structure.whole ? [`The view of ${structure.name} shows the ${structure.particles} particles in the middle of its ${structure.whole.particles}, ` +
+      "and the bonds between them; figures and tables are of the whole."] : []),
     ...(structure.bondsInFile ? [] : [`${structure.name} holds no bonds; those drawn are contacts found for this page.`]),
     ...(structure.results.length === 0 ? [`${structure.name} holds no results yet; run coagula characterize and coagula shear on it.`] : []),
   ]);

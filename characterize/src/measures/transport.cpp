@@ -15,6 +15,11 @@ void add_value(const DirectionalValue& value, const std::string& name, const std
     result.add("transport/" + name + "/grid_error", value.grid_error, "1", "error of the mean by the finite size of the voxels");
 }
 
+std::string with_grid_error(const DirectionalValue& value, const std::string& bound) {
+    return with_error(value.mean, value.grid_error) +
+           (value.at_bound ? "   (the grid is too coarse to tell it from " + bound + ": give more --voxels-per-radius)" : "");
+}
+
 MeasureResult run_transport(const MeasureInput& input) {
     const Transport found = if_applicable([&] {
         return measure_transport(
@@ -32,8 +37,8 @@ MeasureResult run_transport(const MeasureInput& input) {
                found.permeability_kozeny_carman_stderr);
     result.add("transport/voxels_per_radius", found.voxels_per_radius, "1",
                "mean radius over the edge of a voxel of the finer grid");
-    result.add_line("formation factor", with_error(found.formation_factor.mean, found.formation_factor.grid_error));
-    result.add_line("geodesic tortuosity", with_error(found.tortuosity.mean, found.tortuosity.grid_error));
+    result.add_line("formation factor", with_grid_error(found.formation_factor, "1 over the void fraction"));
+    result.add_line("geodesic tortuosity", with_grid_error(found.tortuosity, "1"));
     result.add_line("permeability", with_unit(found.permeability, "m2") + " estimated from the formation factor, " +
                                         with_unit(found.permeability_kozeny_carman, "m2") + " by Kozeny and Carman");
     return result;

@@ -60,6 +60,13 @@ void add_distribution(const Eigen::VectorXd& volumes, const VoronoiDistribution&
     result.add_vector("voronoi/fit", fit, "1", "k^k / Gamma(k) x^(k-1) exp(-k x)");
 }
 
+/// Why there is no gamma law.
+std::string without_law(const VoronoiDistribution& found) {
+    return found.width < narrowest_gamma_law
+               ? "none: all cells are alike but for " + with_unit(found.width, "1") + " of their free volume, as in a crystal"
+               : "none: some cell is no larger than V_min = 5.55 r^3, the smallest cell of equal spheres that do not overlap";
+}
+
 void add_free_volumes(const Eigen::VectorXd& volumes, const VoronoiDistribution& found, const Eigen::VectorXd& error, double radius,
                       MeasureResult& result) {
     const double smallest = smallest_voronoi_volume * radius * radius * radius;
@@ -73,6 +80,8 @@ void add_free_volumes(const Eigen::VectorXd& volumes, const VoronoiDistribution&
         result.add_line("gamma law of the free volumes",
                         "k = " + with_unit(found.shape, "1") + ", largest difference " + with_unit(found.distance, "1"));
         add_distribution(volumes, found, smallest, result);
+    } else {
+        result.add_line("gamma law of the free volumes", without_law(found));
     }
 }
 

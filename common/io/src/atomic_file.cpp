@@ -1,5 +1,6 @@
 #include <coagula/io/atomic_file.hpp>
 
+#include <coagula/common/failures.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <fcntl.h>

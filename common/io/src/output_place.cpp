@@ -1,6 +1,7 @@
 #include <coagula/io/output_place.hpp>
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/failures.hpp>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -112,7 +113,7 @@ void OutputPlace::check(bool overwrite) const {
         refuse("it is not a regular file");
     }
     if (!overwrite) {
-        throw InputError(path_ + " exists already; give --force to overwrite it");
+        throw ExistsAlready(path_ + " exists already; give --force to overwrite it");
     }
     // A rename would replace it all the same, and so would root.
     if ((found.st_mode & anybody_may_write) == 0 || faccessat(folder_, name_.c_str(), W_OK, AT_EACCESS) != 0) {

@@ -1,4 +1,5 @@
 #include <coagula/io/atomic_file.hpp>
+#include <coagula/io/conditions.hpp>
 #include <coagula/io/structure_file.hpp>
 
 #include <filesystem>
@@ -200,6 +201,9 @@ void add_results(const std::string& source, const std::string& target, const std
     std::error_code missing;
     const bool in_place = std::filesystem::equivalent(source, target, missing);
     OutputFile output(target, overwrite || in_place);  // from here on nobody else adds to the file
+    for (const std::string& group : in_place && !overwrite ? replaced : std::vector<std::string>()) {
+        check_conditions(source, group, results);
+    }
     const Addition added{replaced, bonds, fields, results, provenance, bond_fields};
     const std::string bytes = run_in_child(source, [&](ReadingLimits& limits) {
         const File old = File::open(source);

@@ -101,6 +101,27 @@ TEST(Transport, PoreLengthIsTheSlopeOfTheFormationFactor) {
     EXPECT_NEAR(found.permeability, found.pore_length * found.pore_length / (8 * found.formation_factor.mean), 1e-15);
 }
 
+/// On coarse grids the extrapolated values of thin packings came out below what any pores can have.
+TEST(Transport, NoPathIsShorterThanTheBoxOnAnyGrid) {
+    for (const double fraction : {0.0005, 0.01, 0.1}) {
+        for (const double voxels : {1.0, 2.0, 3.0}) {
+            for (const std::uint64_t seed : {1, 2}) {
+                const double radius = std::cbrt(3 * fraction * 1000 / (4 * pi * 30));
+                const Packing packing = test::random_spheres(30, Eigen::Vector3d::Constant(10), radius, radius, seed);
+                const Transport found = measure_transport(packing, {.voxels_per_radius = voxels, .most_voxels = 2e5});
+                EXPECT_GE(found.tortuosity.by_axis.minCoeff(), 1);
+                EXPECT_GE(found.formation_factor.by_axis.minCoeff(), 1 / found.void_fraction);
+                EXPECT_GE(found.tortuosity.mean, 1);
+                EXPECT_GE(found.diffusive_tortuosity, 1 - 1e-12);
+                EXPECT_GT(found.pore_length, 0);
+                if (found.tortuosity.at_bound) {
+                    EXPECT_GT(found.tortuosity.grid_error, 0);
+                }
+            }
+        }
+    }
+}
+
 TEST(Transport, RefusesWhatItCannotMeasure) {
     Packing packing = cubic_array(0.2);
     EXPECT_THROW(measure_transport(packing, {.voxels_per_radius = 0.5}), std::invalid_argument);

@@ -44,6 +44,10 @@ public:
     /// A line of the table for people.
     void add_line(const std::string& label, const std::string& text);
     void append(const MeasureResult& other);
+    /// Says why a measure has no results: a line, and a text under "left_out/" + its name.
+    void leave_out(const std::string& measure, const std::string& reason);
+    /// Why a measure has no results; empty if it has some.
+    std::string reason_left_out(const std::string& measure) const;
 
     /// A scalar by its name, and its standard error; NaN if there is none.
     double value(const std::string& name) const;
@@ -83,8 +87,10 @@ std::vector<std::string> measure_names();
 std::vector<MeasureOption> measure_options();
 
 /// Runs the measures named in `only` ("all": every one; empty: those of the default), those asked for by an option, and those that
-/// go along. A few facts about the packing itself come first. Throws std::invalid_argument for an unknown name or bad packing,
-/// NotApplicable when a measure asked for by name does not apply.
-MeasureResult run_measures(const MeasureInput& input, const std::vector<std::string>& only = {});
+/// go along. A few facts about the packing itself come first. A measure that fails, or finds what is no number, is left out with a
+/// sentence and takes no other with it. Throws std::invalid_argument for an unknown name or bad packing, NotApplicable when a
+/// measure asked for by name does not apply, std::runtime_error when every measure was left out and one of them failed.
+MeasureResult run_measures(const MeasureInput& input, const std::vector<std::string>& only = {},
+                           const std::vector<Measure>& table = measures());
 
 }  // namespace coagula::characterize

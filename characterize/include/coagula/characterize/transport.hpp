@@ -16,19 +16,22 @@ struct TransportOptions {
 
 /// A value by axis and its mean, extrapolated to voxels of no size from the fine grid and one about 1.5 times as coarse: the change
 /// between them times 1 / (1.5^p - 1) is added, where p is the order of the method. The error of the grid is half of what is added.
+/// A value that comes out below what any pores can have is set to that bound; the error of the grid then is no less than the step.
 struct DirectionalValue {
     Eigen::Vector3d by_axis = Eigen::Vector3d::Constant(unset);
     double mean = unset;
     double grid_error = unset;
+    bool at_bound = false;       ///< the grid is too coarse to tell the value along some axis from its bound
     double axis_stderr = unset;  ///< standard error of the mean from the spread of the three axes
 };
 
 /// The pores conduct, the spheres do not. Periodic packings.
 struct Transport {
     DirectionalValue formation_factor;  ///< F = conductivity of the liquid / effective conductivity, from Laplace's equation on
-                                        ///< finite volumes whose faces count as far as they lie open (p = 2)
+                                        ///< finite volumes whose faces count as far as they lie open (p = 2); at least
+                                        ///< 1 / void fraction
     DirectionalValue tortuosity;  ///< geodesic: mean over the open part of a plane across the box of the shortest path from the
-                                  ///< plane one period before, over the period; first-order fast marching (p = 1)
+                                  ///< plane one period before, over the period; first-order fast marching (p = 1); at least 1
     double diffusive_tortuosity = unset;  ///< F times void fraction: the square of the path stretch that would explain F
     double diffusive_tortuosity_stderr = unset;
     double pore_length = unset;         ///< Johnson's Lambda = 2 / (d ln F / d r) for spheres that all grow by dr [m]
@@ -42,7 +45,8 @@ struct Transport {
     double voxels_per_radius = unset;                ///< smallest over the axes
 };
 
-/// @throws std::invalid_argument if the packing is open, if the spheres leave no path, or if a voxel would be larger than a radius.
+/// @throws std::invalid_argument if the packing is open, if the spheres leave no path, if a voxel would be larger than a radius, or
+/// if the voxels are too coarse for a pore length.
 Transport measure_transport(const Packing& packing, const TransportOptions& options = {}, const Progress& progress = {});
 
 }  // namespace coagula::characterize

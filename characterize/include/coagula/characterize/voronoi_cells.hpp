@@ -29,13 +29,17 @@ VoronoiFaces measure_voronoi_faces(const Packing& packing);
 /// McLaughlin, J. Am. Math. Soc. 23 (2010) 299).
 inline constexpr double smallest_voronoi_volume = 5.550291028515511;
 
+/// A distribution of x narrower than this has no gamma law: k would be above a million. Coordinates of seven digits alone make the
+/// cells of a perfect crystal differ by some 1e-5 of their free volume.
+inline constexpr double narrowest_gamma_law = 1e-3;
+
 /// The distribution of x = (V - V_min) / (mean V - V_min), the free volume of a cell over its mean, with the gamma law
 /// f(x) = k^k / Gamma(k) x^(k-1) exp(-k x) of Aste and Di Matteo, Phys. Rev. E 77 (2008) 021309. Equal spheres.
 struct VoronoiDistribution {
     double mean = unset;       ///< of the volumes [m^3]
     double deviation = unset;  ///< standard deviation of the volumes [m^3]
     double width = unset;      ///< standard deviation of x: 1 / sqrt(k) of the moments; larger is more heterogeneous
-    double shape = unset;      ///< k of largest likelihood; NaN if spheres overlap so much that a cell is below V_min
+    double shape = unset;      ///< k of largest likelihood; NaN if `width` is below narrowest_gamma_law, or a cell below V_min
     double distance = unset;   ///< largest difference between the distribution and the fitted one (Kolmogorov)
     Index cells = 0;
 };

@@ -80,7 +80,8 @@ std::vector<ContactTangent> bond_tangents(const Packing& packing, const ContactN
 ///
 /// Throws std::invalid_argument for impossible options, a bond without normal stiffness or an open cell without `held`,
 /// std::runtime_error when the solver fails, as it does where prestress makes the network unstable.
-/// A network that does not carry load in some direction has modulus zero there: no error.
+/// A network that does not carry load in some direction has modulus zero there: no error. So has one whose modulus is below 1e-8 of
+/// the affine one, which is what rounding leaves.
 LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds, const LinearOptions& options = {},
                             const Progress& progress = {});
 

@@ -89,7 +89,8 @@ Contents read_contents(const std::string& path);
 
 /// Copies `source` to `target` (may be the same file) with the groups in `replaced` removed, then adds bonds (if given), fields,
 /// results and a provenance entry; by temporary file and rename. What coagula does not know in the source is kept.
-/// With target != source an existing target needs `overwrite`. `bond_fields` belong to `bonds`.
+/// With target != source an existing target needs `overwrite`; with target == source so do results that were found under other
+/// conditions (check_conditions). `bond_fields` belong to `bonds`.
 ///
 /// Several processes may add to one file: each waits for the one before and adds to what it wrote. When `provenance` names the
 /// positions that went in and `source` no longer holds them, std::runtime_error says so. Results below /mechanics that were found

@@ -1,0 +1,75 @@
+#include "shear_conditions.hpp"
+
+#include "cli/verbs.hpp"
+#include "frequency_list.hpp"
+
+#include <coagula/io/contact_model_file.hpp>
+#include <coagula/io/structure_file.hpp>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace coagula::tools {
+
+namespace {
+
+const std::vector<std::string>& conditions_of_all() {
+    static const std::vector<std::string> names = {"normal-stiffness", "shear-stiffness", "bond-tolerance", "model", "relax"};
+    return names;
+}
+
+/// The others, by the group of the results.
+const std::map<std::string, std::vector<std::string>>& conditions_by_group() {
+    static const std::map<std::string, std::vector<std::string>> names = {
+        {"/mechanics/linear", {}},
+        {"/mechanics/frequency", {"frequency", "frequency-sweep"}},
+        {"/mechanics/quasistatic",
+         {"rest-length", "orientation", "amplitudes", "down", "cycles", "steps-per-cycle", "ramp", "ramp-steps", "frequency",
+          "frequency-sweep"}},
+        {"/mechanics/dem",
+         {"rest-length", "orientation", "boundary", "amplitude", "constant-amplitude", "oscillations", "steps-per-oscillation",
+          "damping", "density", "frequency", "frequency-sweep"}}};
+    return names;
+}
+
+io::Dataset condition(const Arguments& arguments, const Option& option, const std::string& path) {
+    switch (option.kind) {
+        case Option::Kind::flag:
+            return io::integer(path, 1, option.meaning);
+        case Option::Kind::count:
+            return io::integer(path, arguments.count(option.name), option.meaning);
+        case Option::Kind::quantity:
+            return io::scalar(path, arguments.quantity(option.name), option.unit, option.meaning);
+        case Option::Kind::text:
+            break;
+    }
+    return io::text(path, arguments.text(option.name), option.meaning);
+}
+
+}  // namespace
+
+std::string shear_group(const Arguments& arguments) {
+    const std::string& method = arguments.text("method");
+    return "/mechanics/" + (method == "linear" && !frequencies_of(arguments).empty() ? "frequency" : method);
+}
+
+Results shear_conditions(const Arguments& arguments, const ContactModel& model) {
+    const std::string group = shear_group(arguments);
+    std::vector<std::string> names = conditions_of_all();
+    const std::vector<std::string>& own = conditions_by_group().at(group);
+    names.insert(names.end(), own.begin(), own.end());
+    Results conditions;
+    for (const Option& option : shear_verb().options) {
+        if (std::find(names.begin(), names.end(), option.name) == names.end() || !arguments.has(option.name)) {
+            continue;
+        }
+        std::string path = group + "/conditions/" + option.name;
+        std::replace(path.begin(), path.end(), '-', '_');
+        conditions.push_back(option.name == "model" ? io::text(path, io::contact_model_text(model), "the contact as a TOML file")
+                                                    : condition(arguments, option, path));
+    }
+    return conditions;
+}
+
+}  // namespace coagula::tools
