@@ -212,8 +212,9 @@ private:
             observe();
             const double coordination = sampler_.series().coordination.back();
             if (coordination >= options_.stop_coordination) {
-                throw OutOfReach("the start has " + to_text(coordination) + " contacts per particle, but the stop coordination is " +
-                                 to_text(options_.stop_coordination) + ": it must be higher than that of the start");
+                throw OutOfReach("the start has " + to_text(coordination) +
+                                 " contacts per particle, but the stop coordination is " + to_text(options_.stop_coordination) +
+                                 ": it must be higher than that of the start");
             }
             return;
         }

@@ -39,13 +39,12 @@ void print_program_help() {
         name.resize(20, ' ');
         std::cout << "  " << name << verb.summary << '\n';
     }
-    std::cout
-        << "\noptions:\n"
-           "  -h, --help    print this text; 'coagula VERB --help' lists the options of a verb\n"
-           "  -V, --version print the version\n\n"
-           "Quantities are SI numbers or carry a unit: 0.25um, 100N/m.\n"
-           "Exit codes: 0 done, 1 failed, 2 wrong usage or bad input, 3 what would be written exists already (see --force),\n"
-           "            4 no structure has what was asked for, such as a coordination number.\n";
+    std::cout << "\noptions:\n"
+                 "  -h, --help    print this text; 'coagula VERB --help' lists the options of a verb\n"
+                 "  -V, --version print the version\n\n"
+                 "Quantities are SI numbers or carry a unit: 0.25um, 100N/m.\n"
+                 "Exit codes: 0 done, 1 failed, 2 wrong usage or bad input, 3 what would be written exists already (see --force),\n"
+                 "            4 no structure has what was asked for, such as a coordination number.\n";
 }
 
 /// The end of the sentence about words that begin with no verb; with the two words of a verb like "generate vem", if there are two.

@@ -56,8 +56,9 @@ std::vector<InputFile> files_of(const Arguments& arguments) {
             throw InputError("the folder " + input + " holds no .h5 or .csv file to draw");
         }
         std::sort(inside.begin(), inside.end());
-        std::transform(inside.begin(), inside.end(), std::back_inserter(files),
-                       [](const std::string& path) { return InputFile{path, false}; });
+        std::transform(inside.begin(), inside.end(), std::back_inserter(files), [](const std::string& path) {
+            return InputFile{path, false};
+        });
     }
     return files;
 }

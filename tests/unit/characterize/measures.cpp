@@ -101,7 +101,8 @@ std::vector<Measure> table_with_failures() {
 
 TEST(Measures, OneThatFailsTakesNoOtherWithIt) {
     const MeasureInput input(spheres(60), {{"contact-tolerance", 0.5}});
-    for (const std::vector<std::string>& only : {std::vector<std::string>{}, {"all"}, {"own", "coordination", "first", "memory", "number"}}) {
+    for (const std::vector<std::string>& only :
+         {std::vector<std::string>{}, {"all"}, {"own", "coordination", "first", "memory", "number"}}) {
         const MeasureResult found = run_measures(input, only, table_with_failures());
         EXPECT_EQ(found.value("coordination"), run_measures(input, {"coordination"}).value("coordination"));
         EXPECT_EQ(found.reason_left_out("coordination"), "");
@@ -127,10 +128,13 @@ TEST(Measures, WhereAllFailTheFirstReasonIsAnError) {
 
 TEST(Measures, WhatIsWrongForAllOfThemAndACancelledRunEndThemAll) {
     const MeasureInput input(spheres(60));
-    EXPECT_THROW(run_measures(input, {}, {failing("a", [](const MeasureInput&) -> MeasureResult { throw InputError("no"); })}), InputError);
-    EXPECT_THROW(run_measures(input, {}, {failing("a", [](const MeasureInput&) -> MeasureResult { throw Cancelled(); })}), Cancelled);
-    EXPECT_THROW(run_measures(input, {}, {failing("a", [](const MeasureInput&) -> MeasureResult { throw std::invalid_argument("no"); })}),
-                 std::invalid_argument);
+    EXPECT_THROW(run_measures(input, {}, {failing("a", [](const MeasureInput&) -> MeasureResult { throw InputError("no"); })}),
+                 InputError);
+    EXPECT_THROW(run_measures(input, {}, {failing("a", [](const MeasureInput&) -> MeasureResult { throw Cancelled(); })}),
+                 Cancelled);
+    EXPECT_THROW(
+        run_measures(input, {}, {failing("a", [](const MeasureInput&) -> MeasureResult { throw std::invalid_argument("no"); })}),
+        std::invalid_argument);
 }
 
 /// Positions as files in single precision have them.
@@ -158,8 +162,8 @@ Packing hexagonal_packing(const Eigen::Vector3i& cells) {
 
 TEST(Measures, OfACrystalWithTheNoiseOfSinglePrecision) {
     const double sixteenth = 1.0 / 16;  // apart from the faces of the box
-    for (Packing crystal : {hexagonal_packing({3, 3, 3}), hexagonal_packing({4, 2, 3}), test::simple_cubic({5, 5, 5}, 1), test::face_centred({3, 3, 3}, 1),
-                            test::body_centred({4, 4, 4}, 1)}) {
+    for (Packing crystal : {hexagonal_packing({3, 3, 3}), hexagonal_packing({4, 2, 3}), test::simple_cubic({5, 5, 5}, 1),
+                            test::face_centred({3, 3, 3}, 1), test::body_centred({4, 4, 4}, 1)}) {
         crystal.positions.array() += sixteenth;
         const double volume = crystal.cell.volume() / static_cast<double>(crystal.size());
         const MeasureResult found = run_measures(MeasureInput(in_single_precision(crystal)));
@@ -175,7 +179,8 @@ TEST(Measures, TheGammaLawIsFittedDownToItsLimit) {
     for (const double width : {1e-8, 1e-6, 1e-5, 9e-4, 1.1e-3, 1e-2, 0.3}) {
         Eigen::VectorXd volumes(1000);
         for (Index k = 0; k < volumes.size(); ++k) {  // equal steps have the standard deviation 1 / sqrt(12) of their range
-            volumes[k] = smallest_voronoi_volume + 0.1 * (1 + width * std::sqrt(12.0) * ((static_cast<double>(k) + 0.5) / 1000 - 0.5));
+            volumes[k] =
+                smallest_voronoi_volume + 0.1 * (1 + width * std::sqrt(12.0) * ((static_cast<double>(k) + 0.5) / 1000 - 0.5));
         }
         const VoronoiDistribution found = fit_voronoi_volumes(volumes, 1);
         EXPECT_NEAR(found.width, width, 2e-3 * width + 1e-12);
@@ -189,7 +194,8 @@ TEST(Measures, TheGammaLawIsFittedDownToItsLimit) {
 /// No fraction beyond 0 and 1, no negative variance, length, area or eigenvalue, whatever the packing.
 TEST(Measures, ImpossibleValuesAreNotAmongTheResults) {
     const auto is_signed = [](const std::string& path) {
-        for (const char* name : {"euler", "mean_curvature", "transformed", "fabric/tensor", "gap", "doh/b", "self_stress", "trend"}) {
+        for (const char* name :
+             {"euler", "mean_curvature", "transformed", "fabric/tensor", "gap", "doh/b", "self_stress", "trend"}) {
             if (path.find(name) != std::string::npos) {
                 return true;
             }
@@ -207,13 +213,16 @@ TEST(Measures, ImpossibleValuesAreNotAmongTheResults) {
     packings.push_back(test::simple_cubic({3, 3, 3}, 1));
     packings.push_back(test::lattice({{.1, .1, .1}}, 2, {1, 6, 6}, 0.99));  // a plane
     for (const Packing& packing : packings) {
-        const MeasureInput input(packing, {{"samples", 500}, {"most-voxels", 4000}, {"voxels-per-radius", 1}, {"contact-tolerance", 0.2}});
+        const MeasureInput input(packing,
+                                 {{"samples", 500}, {"most-voxels", 4000}, {"voxels-per-radius", 1}, {"contact-tolerance", 0.2}});
         for (const Dataset& dataset : run_measures(input, {"all"}).datasets) {
             const auto* numbers = std::get_if<std::vector<double>>(&dataset.values);
             for (const double value : numbers != nullptr ? *numbers : std::vector<double>()) {
                 EXPECT_TRUE(std::isfinite(value)) << dataset.path << ", " << packing.size() << " particles";
-                EXPECT_TRUE(is_signed(dataset.path) || value >= 0) << dataset.path << " " << value << ", " << packing.size() << " particles";
-                EXPECT_TRUE(dataset.path.find("fraction") == std::string::npos || value <= 1 + 1e-12) << dataset.path << " " << value;
+                EXPECT_TRUE(is_signed(dataset.path) || value >= 0)
+                    << dataset.path << " " << value << ", " << packing.size() << " particles";
+                EXPECT_TRUE(dataset.path.find("fraction") == std::string::npos || value <= 1 + 1e-12)
+                    << dataset.path << " " << value;
             }
         }
     }
