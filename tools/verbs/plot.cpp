@@ -63,6 +63,14 @@ std::vector<InputFile> files_of(const Arguments& arguments) {
     return files;
 }
 
+std::vector<std::string> paths_of(const Arguments& arguments) {
+    std::vector<std::string> paths;
+    for (const InputFile& file : files_of(arguments)) {
+        paths.push_back(file.path);
+    }
+    return paths;
+}
+
 /// What can be drawn, and a sentence about each file of a folder that is no structure, such as a checkpoint.
 struct ReadSources {
     std::vector<FigureSource> sources;
@@ -209,7 +217,7 @@ Printed plot_figure(const Arguments& arguments) {
     const std::string& path = arguments.text("output");
     const bool force = arguments.flag("force");
     const PictureFormat format = report::picture_format(path, "--output");
-    const std::vector<std::string> files = files_of(arguments);
+    const std::vector<std::string> files = paths_of(arguments);
     check_output(arguments, path, files);
     if (arguments.has("data")) {
         check_output(arguments, arguments.text("data"), files);
@@ -273,7 +281,7 @@ Printed plot_paper(const Arguments& arguments) {
     }
     report::ResultFolder folder(arguments.text("output"), "captions.md", files, arguments.flag("force"));
     for (const fs::path& output : folder.files()) {
-        check_not_read(arguments, output.string(), files_of(arguments));
+        check_not_read(arguments, output.string(), paths_of(arguments));
     }
     const ReadSources found = read_sources(arguments);
     const std::vector<report::PaperFigure> figures = report::draw_paper_figures(found.sources);
