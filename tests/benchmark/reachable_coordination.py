@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Which coordination the void expansion can reach: lowest and highest against volume fraction and voids per particle.
 
     tests/benchmark/reachable_coordination.py [--program build/bin/coagula] [--particles 500] [--picture FILE.png]
@@ -34,7 +34,9 @@ def lowest(program, particles, voids, fraction):
 
 
 def highest(program, particles, voids, fraction):
-    return number(r"the packing comes to ([\d.]+) where", refusal(program, particles, voids, fraction, 5.99), 5.99)
+    """The highest target that the option takes is below 6. None where even that is too low."""
+    sentence = refusal(program, particles, voids, fraction, 5.99)
+    return None if "before any void" in sentence else number(r"the packing comes to ([\d.]+) where", sentence, 5.99)
 
 
 def draw(found, picture):
@@ -45,10 +47,11 @@ def draw(found, picture):
     pyplot.figure(figsize=(5.2, 3.4))
     pyplot.plot(FRACTIONS, [found[fraction, "low"] for fraction in FRACTIONS], "k--", label="lowest")
     for ratio in RATIOS:
-        pyplot.plot(FRACTIONS, [found[fraction, ratio] for fraction in FRACTIONS], "o-", label=f"highest, {ratio:g} voids per particle")
+        reached = [fraction for fraction in FRACTIONS if found[fraction, ratio] is not None]
+        pyplot.plot(reached, [found[fraction, ratio] for fraction in reached], "o-", label=f"highest, {ratio:g} voids a particle")
     pyplot.xlabel("volume fraction")
     pyplot.ylabel("coordination that can be reached")
-    pyplot.legend()
+    pyplot.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncol=2, frameon=False)
     pyplot.savefig(picture, dpi=110, bbox_inches="tight", metadata={"Software": None})
 
 
@@ -67,7 +70,7 @@ def main():
         for ratio in RATIOS:
             found[fraction, ratio] = highest(program, particles, round(ratio * particles), fraction)
         cells = [found[fraction, "low"], *(found[fraction, ratio] for ratio in RATIOS)]
-        print(f"| {fraction:g} | " + " | ".join(f"{cell:.2f}" for cell in cells) + " |", flush=True)
+        print(f"| {fraction:g} | " + " | ".join("none" if cell is None else f"{cell:.2f}" for cell in cells) + " |", flush=True)
     if arguments.picture:
         draw(found, arguments.picture)
 
