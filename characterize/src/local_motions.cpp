@@ -1,8 +1,8 @@
 #include "local_motions.hpp"
 
+#include <coagula/common/dense.hpp>
+
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <map>
@@ -89,12 +89,12 @@ private:
 
     /// Pins as many unknowns as the particle has directions without stiffness, those that span them best; returns the others.
     std::vector<Index> pin_soft(int particle) {
-        const Eigen::SelfAdjointEigenSolver<Block> modes(diagonal_[static_cast<std::size_t>(particle)]);
-        const Index soft = (modes.eigenvalues().array() < no_stiffness).count();
+        const dense::SymmetricModes modes(diagonal_[static_cast<std::size_t>(particle)]);
+        const Index soft = (modes.values.array() < no_stiffness).count();
         if (soft > 0) {
-            const Eigen::ColPivHouseholderQR<Block> best(Block(modes.eigenvectors().leftCols(soft).transpose()));
+            const Eigen::VectorXi best = dense::PivotedQr(modes.vectors.leftCols(soft).transpose()).order;
             for (Index k = 0; k < soft; ++k) {
-                pin(particle, best.colsPermutation().indices()[k]);
+                pin(particle, best[k]);
             }
         }
         std::vector<Index> free;
