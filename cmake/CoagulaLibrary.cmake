@@ -63,7 +63,8 @@ function(coagula_library name)
   cmake_parse_arguments(PARSE_ARGV 1 LIBRARY "GLUE" "" "")
   set(target coagula_${name})
   add_library(coagula::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+    DEFINE_SYMBOL "") # a macro of its own would keep a shared library from taking the precompiled headers of another
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
