@@ -101,13 +101,18 @@ private:
     std::string failure_;  ///< the first
 };
 
+bool reads(const Measure& measure, const std::string& option) {
+    return std::ranges::any_of(measure.options, [&](const MeasureOption& own) { return own.name == option; });
+}
+
 /// Names of the measures to be run. Those in `only` must not fail; the others of a default run may not apply.
-std::set<std::string> chosen_measures(const MeasureInput& input, const std::vector<std::string>& only,
-                                      const std::vector<Measure>& table) {
+/// @param given(option) whether its value is given.
+template <class Given>
+std::set<std::string> chosen_measures(const Given& given, const std::vector<std::string>& only, const std::vector<Measure>& table) {
     std::set<std::string> chosen;
     const bool all = contains(only, "all");
     for (const Measure& measure : table) {
-        const bool by_option = !measure.when_given.empty() && input.given(measure.when_given);
+        const bool by_option = !measure.when_given.empty() && given(measure.when_given);
         const bool wanted = only.empty() ? measure.by_default : contains(only, measure.name) || (all && measure.when_given.empty());
         if (wanted || by_option) {
             chosen.insert(measure.name);
@@ -166,7 +171,7 @@ void MeasureResult::append(const MeasureResult& other) {
 }
 
 void MeasureResult::leave_out(const std::string& measure, const std::string& reason) {
-    add_text("left_out/" + measure, reason, "why there are no results of this measure");
+    add_text("left_out/" + measure, reason, "why the last characterization found nothing for this measure");
     add_line(measure, "left out: " + reason);
 }
 
@@ -209,12 +214,29 @@ std::vector<MeasureOption> measure_options() {
     return options;
 }
 
+void check_options(const std::vector<std::string>& given, const std::vector<std::string>& only) {
+    const std::set<std::string> chosen =
+        chosen_measures([&](const std::string& option) { return contains(given, option); }, only, measures());
+    for (const std::string& option : given) {
+        std::vector<std::string> readers;
+        for (const Measure& measure : measures()) {
+            if (reads(measure, option)) {
+                readers.push_back(measure.name);
+            }
+        }
+        require(std::ranges::any_of(readers, [&](const std::string& reader) { return chosen.contains(reader); }),
+                option + " is read by the measure " + list_of(readers) + ", which is not among those of this call: name " +
+                    (readers.size() > 1 ? "one of them" : "it") + " with --only, or leave the option out");
+    }
+}
+
 MeasureResult run_measures(const MeasureInput& input, const std::vector<std::string>& only, const std::vector<Measure>& table) {
     const std::vector<std::string> names = names_in(table);
     for (const std::string& name : only) {
         require(name == "all" || contains(names, name), "'" + name + "' is not one of " + list_of(names));
     }
-    const std::set<std::string> chosen = chosen_measures(input, only, table);
+    const std::set<std::string> chosen =
+        chosen_measures([&](const std::string& option) { return input.given(option); }, only, table);
     Run run(input, only);
     for (const Measure& measure : table) {
         if (chosen.contains(measure.name)) {

@@ -29,7 +29,8 @@ std::string failure_sentence(const std::exception& error) {
     if (no_memory) {
         return "there is not enough memory for this";
     }
-    const bool own = typeid(error) == typeid(std::runtime_error) || std::string(typeid(error).name()).find("7coagula") != std::string::npos;
+    const bool own =
+        typeid(error) == typeid(std::runtime_error) || std::string(typeid(error).name()).find("7coagula") != std::string::npos;
     return own ? error.what() : "the calculation failed where that was not foreseen (" + on_one_line(error.what()) + ")";
 }
 

@@ -73,7 +73,8 @@ std::pair<ContactNetwork, std::vector<Index>> part_of_bonds(const Packing& packi
     for (Index bond = 0; bond < bonds.size(); ++bond) {
         const auto [first, second] = std::pair(bonds.ends(0, bond), bonds.ends(1, bond));
         const Eigen::Vector3d direct = packing.positions.col(second) - packing.positions.col(first);
-        const bool through_boundary = ((bonds.branch.col(bond) - direct).cwiseAbs().array() > packing.cell.lengths().array() / 2).any();
+        const bool through_boundary =
+            ((bonds.branch.col(bond) - direct).cwiseAbs().array() > packing.cell.lengths().array() / 2).any();
         if (number[static_cast<std::size_t>(first)] >= 0 && number[static_cast<std::size_t>(second)] >= 0 && !through_boundary) {
             kept.push_back(bond);
         }
@@ -122,7 +123,8 @@ PageStructure thinned(const PageStructure& page, Index most) {
     if (page.structure.bonds) {
         auto [bonds, kept] = part_of_bonds(whole, *page.structure.bonds, chosen);
         for (io::Dataset& result : part.results) {
-            const bool of_bonds = result.path.find("/bonds/") != std::string::npos && has_rows(result, page.structure.bonds->size());
+            const bool of_bonds =
+                result.path.find("/bonds/") != std::string::npos && has_rows(result, page.structure.bonds->size());
             result = of_bonds ? chosen_rows(result, kept) : result;
         }
         part.structure.bonds = std::move(bonds);

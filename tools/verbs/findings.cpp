@@ -21,7 +21,7 @@ std::vector<std::string> replaced_groups(const Findings& found) {
     if (found.group != characterization) {
         return {found.group};
     }
-    std::set<std::string> groups;
+    std::set<std::string> groups = {characterization + "/left_out"};  // it tells of the last call
     for (const io::Dataset& dataset : found.results) {
         const std::string name = measured_thing(dataset.path);
         // The noise that moved them is one for all measures of a call.

@@ -297,12 +297,15 @@ Table table_of(const std::vector<Test>& tests, bool sweep) {
 
 /// A modulus below this share of the affine one is what rounding leaves, also of a loss.
 constexpr double rounding = 1e-8;
+constexpr double balance = 1e-6;  // of work against energy, to which equilibria are found
 
 void clear_rounding(Test& test, double affine) {
     const auto clear = [&](double& modulus) { modulus = std::abs(modulus) < rounding * affine ? 0 : modulus; };
     for (mechanics::AmplitudeResponse& entry : test.sweep.amplitudes) {
         clear(entry.storage_modulus);
         clear(entry.loss_modulus);
+        const bool within_balance = std::abs(entry.loss_modulus) < balance * std::abs(entry.storage_modulus);
+        entry.loss_modulus = entry.loss_modulus < 0 && within_balance ? 0 : entry.loss_modulus;  // nothing is gained in a cycle
     }
     const auto [normal, direction] = std::pair(test.orientation.normal, test.orientation.direction);
     for (mechanics::StrainPoint& point : test.ramp.points) {
@@ -327,12 +330,17 @@ void check_stiffness_at_rest(const Arguments& arguments, const ContactModel& mod
 }  // namespace
 
 std::vector<Option> quasistatic_options() {
-    return {text("amplitudes", "LIST", "quasistatic: amplitudes of strain such as 1e-4,1e-3 or FROM:TO:N in logarithmic steps"),
-            flag("down", "quasistatic: repeat the amplitudes in descending order"),
-            count("cycles", "quasistatic: cycles per amplitude, of which the last is measured", "1", within(1, 1000)),
-            count("steps-per-cycle", "quasistatic: equilibria in a cycle, a multiple of 4", "32", within(4, 100000)),
-            quantity("ramp", "1", "quasistatic: shear to this strain instead of cycles", "", within(-10, 10)),
-            count("ramp-steps", "quasistatic: equally spaced equilibria on the ramp", "50", within(1, 100000))};
+    std::vector<Option> options = {
+        text("amplitudes", "LIST", "quasistatic: amplitudes of strain such as 1e-4,1e-3 or FROM:TO:N in logarithmic steps"),
+        flag("down", "quasistatic: repeat the amplitudes in descending order"),
+        count("cycles", "quasistatic: cycles per amplitude, of which the last is measured", "1", within(1, 1000)),
+        count("steps-per-cycle", "quasistatic: equilibria in a cycle, a multiple of 4", "32", within(4, 100000)),
+        quantity("ramp", "1", "quasistatic: shear to this strain instead of cycles", "", within(-10, 10)),
+        count("ramp-steps", "quasistatic: equally spaced equilibria on the ramp", "50", within(1, 100000))};
+    read_only_with(options, {"amplitudes", "ramp"}, "method", {"quasistatic"});
+    read_only_with(options, {"down", "cycles", "steps-per-cycle"}, "amplitudes");
+    read_only_with(options, {"ramp-steps"}, "ramp");
+    return options;
 }
 
 Findings quasistatic_response(const Arguments& arguments, const Packing& packing, const ContactNetwork& bonds,

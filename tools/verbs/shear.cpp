@@ -41,11 +41,25 @@ mechanics::LinearSolver chosen_solver(const std::string& name) {
     return name == "iterative" ? mechanics::LinearSolver::iterative : mechanics::LinearSolver::automatic;
 }
 
+/// The model file would replace the option without a word.
+void check_given_once(const Arguments& arguments, const std::string& option, double given, double used) {
+    if (arguments.given(option) && given != used) {
+        throw InputError("--" + option + " is " + to_text(given) + " N/m, but " + arguments.text("model") + " has " +
+                         to_text(used) + " N/m: give it in one of the two places");
+    }
+}
+
 /// The contact: springs from the options, and what the model file says.
 ContactModel contact_model(const Arguments& arguments) {
     const ContactModel springs{.normal_stiffness = arguments.quantity("normal-stiffness"),
                                .shear_stiffness = arguments.quantity("shear-stiffness")};
-    return arguments.has("model") ? io::read_contact_model(arguments.text("model"), springs) : springs;
+    if (!arguments.has("model")) {
+        return springs;
+    }
+    ContactModel model = io::read_contact_model(arguments.text("model"), springs);
+    check_given_once(arguments, "normal-stiffness", springs.normal_stiffness, model.normal_stiffness);
+    check_given_once(arguments, "shear-stiffness", springs.shear_stiffness, model.shear_stiffness);
+    return model;
 }
 
 /// Losses act at a frequency only.
@@ -163,11 +177,25 @@ Findings frequency_response(const Arguments& arguments, const Packing& packing, 
     return found;
 }
 
+/// An equilibrium has no frequency, and a sweep of amplitudes, in which contacts age between the points, has one.
+void check_frequencies(const Arguments& arguments, const std::vector<double>& frequencies) {
+    if (arguments.text("method") != "quasistatic" || frequencies.empty()) {
+        return;
+    }
+    if (!arguments.has("amplitudes")) {
+        throw InputError("--method quasistatic reads a frequency only with --amplitudes: a ramp has none");
+    }
+    if (frequencies.size() > 1) {
+        throw InputError("--method quasistatic runs at one frequency, but " + std::to_string(frequencies.size()) + " are given");
+    }
+}
+
 /// What needs no packing. Returns the contact.
 ContactModel check_options(const Arguments& arguments) {
-    const bool at_a_frequency = !frequencies_of(arguments).empty();
+    const std::vector<double> frequencies = frequencies_of(arguments);
+    check_frequencies(arguments, frequencies);
     const ContactModel model = contact_model(arguments);
-    if (!at_a_frequency && arguments.text("method") == "linear") {
+    if (frequencies.empty() && arguments.text("method") == "linear") {
         check_elastic(arguments, model);
     }
     return model;
@@ -186,8 +214,8 @@ Shown shear_file(const Arguments& arguments, const std::string& source, const st
     progress.update("writing", 1.0);
     Json json = to_json(found.results, found.group);
     std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
-    io::add_results(source, target, replaced_groups(found), bonds, found.fields, found.results, describe_call(arguments, &packing, clock),
-                    arguments.flag("force"), found.bond_fields);
+    io::add_results(source, target, replaced_groups(found), bonds, found.fields, found.results,
+                    describe_call(arguments, &packing, clock), arguments.flag("force"), found.bond_fields);
     if (json.value("floppy_modes", 0) < 0) {
         json["floppy_modes"] = nullptr;
     }
@@ -321,6 +349,12 @@ Verb shear_verb() {
     for (const std::vector<Option>& own : {rheometer_options(), quasistatic_options()}) {
         verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
     }
+    const std::vector<std::string> of_solver = {"solver", "memory-limit", "modulus-tolerance"};
+    read_only_with(verb.options, {"solver", "memory-limit", "modulus-tolerance", "tolerance"}, "method", {"linear"});
+    not_read_with(verb.options, of_solver, "frequency");
+    not_read_with(verb.options, of_solver, "frequency-sweep");
+    read_only_with(verb.options, {"memory-limit"}, "solver", {"auto"});
+    read_only_with(verb.options, {"modulus-tolerance"}, "solver", {"auto", "iterative"});
     return verb;
 }
 

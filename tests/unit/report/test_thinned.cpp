@@ -31,7 +31,8 @@ PageStructure lattice_page(int n) {
     }
     PageStructure page{.name = "lattice", .structure = {packing, bonds}};
     page.fields = {io::columns("/VTKHDF/PointData/number", numbers, "1", "")};
-    page.results = {io::integers("/mechanics/linear/xy/bonds/sum", sums, ""), io::scalar("/characterization/coordination", 6, "1", "")};
+    page.results = {io::integers("/mechanics/linear/xy/bonds/sum", sums, ""),
+                    io::scalar("/characterization/coordination", 6, "1", "")};
     page.pores.centres = packing.positions.array() + 1;
     page.pores.radii = Eigen::VectorXd::Constant(packing.size(), 0.7);
     return page;
@@ -84,8 +85,8 @@ TEST(Thinned, ValuesGoWithTheirParticlesAndBonds) {
         for (Index bond = 0; bond < bonds.size(); ++bond) {
             const auto number = [&](Index end) { return numbers[static_cast<std::size_t>(2 * bonds.ends(end, bond))]; };
             EXPECT_EQ(static_cast<double>(sums[static_cast<std::size_t>(bond)]), number(0) + number(1));
-            const Eigen::Vector3d direct =
-                part.structure.packing.positions.col(bonds.ends(1, bond)) - part.structure.packing.positions.col(bonds.ends(0, bond));
+            const Eigen::Vector3d direct = part.structure.packing.positions.col(bonds.ends(1, bond)) -
+                                           part.structure.packing.positions.col(bonds.ends(0, bond));
             EXPECT_EQ(direct, bonds.branch.col(bond));
         }
         EXPECT_EQ(part.results[1].shape, page.results[1].shape);

@@ -22,8 +22,8 @@ struct OutOfReach : InputError {
 /// lack of memory is called so; what a library throws (Boost.Math, CGAL, a JSON parser) is quoted as the reason.
 std::string failure_sentence(const std::exception& error);
 
-/// A terminate handler: prints the sentence of the exception that nobody could catch, such as one in a parallel region, and ends the
-/// program with exit code 1.
+/// A terminate handler: prints the sentence of the exception that nobody could catch, such as one in a parallel region, and ends
+/// the program with exit code 1.
 [[noreturn]] void end_with_sentence();
 
 }  // namespace coagula
