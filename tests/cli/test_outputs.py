@@ -210,7 +210,7 @@ class MeasuresAreKept(ProgramTest):
 
     def test_a_default_run_keeps_what_it_does_not_measure(self):
         self.copy_of_packing("measured.h5")
-        self.succeed("characterize", "measured.h5", "--only", "bond_order")
+        self.succeed("characterize", "measured.h5", "--only", "rigidity")
         more = self.results()
         self.succeed("characterize", "measured.h5")
         after = self.results()

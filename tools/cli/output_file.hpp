@@ -8,8 +8,8 @@
 
 namespace coagula::tools {
 
-/// Throws InputError unless a new file can be made at `path` or, with --force, replace one there, and the call neither reads that file
-/// nor writes it twice. Files are told apart by what they are, whatever their names.
+/// Throws InputError unless a new file can be made at `path` or, with --force, replace one there, and the call neither reads that
+/// file nor writes it twice. Files are told apart by what they are, whatever their names.
 /// @param also_read files that the call reads and no option names.
 void check_output(const Arguments& arguments, const std::string& path, const std::vector<std::string>& also_read = {});
 

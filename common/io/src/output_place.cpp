@@ -51,7 +51,8 @@ fs::path behind_links(const std::string& path) {
             refuse_path(path, "too many symbolic links lead to one another");
         }
         if (!is_trusted(place)) {
-            refuse_path(path, "it is a symbolic link of another user in a folder where others may write; give the name of the file itself");
+            refuse_path(
+                path, "it is a symbolic link of another user in a folder where others may write; give the name of the file itself");
         }
         const fs::path target = fs::read_symlink(place, ignored);
         place = place.parent_path() / target;
@@ -141,7 +142,7 @@ void OutputPlace::fail_in_folder() const {
     const std::string folder = "the folder " + folder_name_.string();
     refuse(reason == EACCES || reason == EPERM ? "no permission to write in " + folder
            : reason == ENOENT                  ? "no file can be made in " + folder + "; it may have been removed"
-                                               : "no file can be made in " + folder + ": " + std::generic_category().message(reason));
+                              : "no file can be made in " + folder + ": " + std::generic_category().message(reason));
 }
 
 void OutputPlace::refuse(const std::string& reason) const {

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -27,6 +28,8 @@ protected:
             write(folder_ / name, text);
         }
     }
+    ResultFolders(const ResultFolders&) = delete;
+    ResultFolders& operator=(const ResultFolders&) = delete;
     ~ResultFolders() override { fs::remove_all(root_); }
 
     static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }

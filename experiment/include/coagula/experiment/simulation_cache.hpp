@@ -8,8 +8,8 @@
 
 namespace coagula::experiment {
 
-/// Empty when there is no such file. Throws InputError when a line does not have the checksum with which it was written: a number that
-/// is not the one that was simulated changes a diagnosis.
+/// Empty when there is no such file. Throws InputError when a line does not have the checksum with which it was written: a number
+/// that is not the one that was simulated changes a diagnosis.
 diagnose::SimulationCache read_cache(const std::filesystem::path& path);
 /// The text of such a file. Results that are not finite are left out, so that they are simulated again.
 std::string cache_text(const diagnose::SimulationCache& cache);

@@ -10,10 +10,11 @@
 
 namespace coagula::report {
 
-/// Files are first written into the hidden folder .new inside the target; whatever fails meanwhile leaves the target as it was. When
-/// all of them are on the disk, `publish` renames .new to .whole, and from there they go to their places. A run that is killed on that
-/// way has lost nothing: the next one that names the folder goes on. The key file goes first and comes last, so that where it stands,
-/// all files are of one run. From the first file on the target is locked: another run waits, then removes what a killed one left.
+/// Files are first written into the hidden folder .new inside the target; whatever fails meanwhile leaves the target as it was.
+/// When all of them are on the disk, `publish` renames .new to .whole, and from there they go to their places. A run that is killed
+/// on that way has lost nothing: the next one that names the folder goes on. The key file goes first and comes last, so that where
+/// it stands, all files are of one run. From the first file on the target is locked: another run waits, then removes what a killed
+/// one left.
 class ResultFolder {
 public:
     /// Throws InputError when `folder` is a file, or one of the files is a folder, or is there already and `force` is not given.

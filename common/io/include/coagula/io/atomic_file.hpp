@@ -18,9 +18,9 @@ public:
     /// std::runtime_error ("cannot write FILE: reason").
     OutputFile(const std::string& path, bool overwrite);
 
-    /// Writes the bytes to a hidden file beside, brings them to the disk, reads them back, renames the file and brings the folder to the
-    /// disk. A file that is replaced gives the new one its mode and, as far as allowed, its owner. When anything fails, nothing is left
-    /// behind and an older file is untouched.
+    /// Writes the bytes to a hidden file beside, brings them to the disk, reads them back, renames the file and brings the folder
+    /// to the disk. A file that is replaced gives the new one its mode and, as far as allowed, its owner. When anything fails,
+    /// nothing is left behind and an older file is untouched.
     void publish(std::span<const char> bytes);
 
 private:

@@ -66,9 +66,9 @@ struct Addition {
     std::vector<BondField> bond_fields = {};  ///< of `bonds`
 };
 
-/// Writes a new file as write_file in atomic_file.hpp does, with what `later` stages added to it. Throws InputError when `path` exists
-/// and `overwrite` is false, std::runtime_error (naming the file) when it cannot be written, e.g. on a full disk; nothing is left
-/// behind then.
+/// Writes a new file as write_file in atomic_file.hpp does, with what `later` stages added to it. Throws InputError when `path`
+/// exists and `overwrite` is false, std::runtime_error (naming the file) when it cannot be written, e.g. on a full disk; nothing is
+/// left behind then.
 void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
                      const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
                      const std::vector<Addition>& later = {});
