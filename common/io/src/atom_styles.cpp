@@ -71,7 +71,7 @@ std::optional<AtomStyle> hybrid_style(const std::string& name, const std::vector
     std::string shape;
     for (const std::string& part : parts) {
         const std::optional<AtomStyle> style = find_atom_style(part);
-        if (!style || part == "hybrid" || contains(style->columns(), "...")) {
+        if (!style || part == "hybrid" || style->is_open_ended()) {
             return std::nullopt;
         }
         shape = style->shape().empty() ? shape : style->shape();
@@ -86,8 +86,11 @@ std::optional<AtomStyle> hybrid_style(const std::string& name, const std::vector
 
 /// What a column of this name holds in every file that LAMMPS reads. Types may have labels.
 bool can_hold(const std::string& column, std::string_view word) {
-    if (column == "id" || column == "mol" || column == "flag") {
+    if (column == "id" || column == "mol") {
         return is_whole_number(word);
+    }
+    if (column == "flag") {
+        return word == "0" || word == "1";
     }
     if (column == "type") {
         const std::optional<double> label = read_number(word);
@@ -108,7 +111,9 @@ AtomStyle::AtomStyle(std::string name, const std::vector<std::string>& columns, 
         open_ended_ = true;
         columns_.pop_back();
     }
-    const auto place_of = [&](const char* column) { return std::find(columns_.begin(), columns_.end(), column) - columns_.begin(); };
+    const auto place_of = [&](const char* column) {
+        return std::find(columns_.begin(), columns_.end(), column) - columns_.begin();
+    };
     position_ = static_cast<std::size_t>(place_of("x"));
     if (contains(columns_, "diameter")) {
         diameter_ = static_cast<std::size_t>(place_of("diameter"));

@@ -20,6 +20,8 @@ public:
     const std::string& shape() const { return shape_; }
     std::size_t position() const { return position_; }
     std::optional<std::size_t> diameter() const { return diameter_; }
+    /// Whether more columns may follow, as many as the input script of LAMMPS says.
+    bool is_open_ended() const { return open_ended_; }
     /// Whether a line of so many words has all columns and, if it has more, three image flags.
     bool has_width(std::size_t words) const;
     /// The first column that the words of a line contradict, such as a type that is not whole; nothing when all hold.

@@ -117,19 +117,22 @@ Layout parse_properties(const LineReader& file, const std::string& properties) {
     return layout;
 }
 
+std::optional<bool> truth_of(std::string_view flag) {
+    const std::string word = lower_case(flag);
+    const bool is_true = word == "t" || word == "true" || word == "1";
+    const bool is_false = word == "f" || word == "false" || word == "0";
+    return is_true || is_false ? std::optional(is_true) : std::nullopt;
+}
+
+/// One flag for all axes or one for each.
 bool parse_periodicity(const LineReader& file, std::string text) {
-    bool periodic = true;
     const auto flags = entries_of(text);
     for (const std::string_view flag : flags) {
-        const std::string word = lower_case(flag);
-        const bool is_true = word == "t" || word == "true" || word == "1";
-        const bool is_false = word == "f" || word == "false" || word == "0";
-        periodic = &flag == flags.data() ? is_true : periodic;
-        if ((flags.size() != 3 && flags.size() != 1) || is_true == is_false || is_true != periodic) {
+        if ((flags.size() != 3 && flags.size() != 1) || !truth_of(flag) || truth_of(flag) != truth_of(flags[0])) {
             file.fail("pbc must be \"T T T\" or \"F F F\": coagula knows boxes that are periodic along all axes or along none");
         }
     }
-    return periodic;
+    return flags.empty() || *truth_of(flags[0]);
 }
 
 /// Edge lengths of the box; the entries of Lattice are its three vectors one after the other.

@@ -1,4 +1,5 @@
-// Which columns of the section Atoms are what (LAMMPS manual, read_data). The lines of hybrid styles are those that LAMMPS itself writes.
+// Which columns of the section Atoms are what (LAMMPS manual, read_data). The lines of hybrid styles are those that LAMMPS itself
+// writes.
 #include <coagula/io/text_formats.hpp>
 
 #include <gtest/gtest.h>
@@ -97,9 +98,14 @@ TEST_F(LammpsData, EveryStyleByItsName) {
 }
 
 TEST_F(LammpsData, StylesOfOtherParticlesAreRefusedByName) {
-    for (const auto& [style, shape] : {std::pair{"ellipsoid", "ellipsoids"}, {"line", "lines"}, {"tri", "triangles"}, {"body", "bodies"},
-                                       {"electron", "electrons"}, {"smd", "parts of deforming bodies"},
-                                       {"mesont", "segments of nanotubes"}, {"hybrid sphere ellipsoid", "ellipsoids"}}) {
+    for (const auto& [style, shape] : {std::pair{"ellipsoid", "ellipsoids"},
+                                       {"line", "lines"},
+                                       {"tri", "triangles"},
+                                       {"body", "bodies"},
+                                       {"electron", "electrons"},
+                                       {"smd", "parts of deforming bodies"},
+                                       {"mesont", "segments of nanotubes"},
+                                       {"hybrid sphere ellipsoid", "ellipsoids"}}) {
         EXPECT_EQ(refusal(style, {"1 1 1 1 1 2 3"}, in_micrometres()),
                   ", line 10: atoms of the style '" + std::string(style) + "' are " + shape + ", but coagula reads spheres");
     }
@@ -107,20 +113,23 @@ TEST_F(LammpsData, StylesOfOtherParticlesAreRefusedByName) {
               ", line 10: the atom style 'spheres' is none that coagula knows; if it is not that of the file, give --atom-style");
     EXPECT_EQ(refusal("hybrid", {"1 1 1 2 3 1 1 1"}, in_micrometres()),
               ", line 10: the style hybrid needs the names of its sub-styles: give them as in --atom-style 'hybrid sphere bond'");
-    EXPECT_NE(refusal("hybrid sphere tdpd", {"1 1 1 2 3 1 1 1"}, in_micrometres()).find("none that coagula knows"), std::string::npos);
+    EXPECT_NE(refusal("hybrid sphere tdpd", {"1 1 1 2 3 1 1 1"}, in_micrometres()).find("none that coagula knows"),
+              std::string::npos);
 }
 
 TEST_F(LammpsData, WithoutANameTheColumnsDecideWhereOneStyleHolds) {
     const ImportOptions options = in_micrometres();
     // A density below zero or a type with a fraction rules out one of sphere and full.
     EXPECT_TRUE(refusal("", {"1 1 2 -0.8 1 2 3", "2 1 1 0.8 4 5 6"}, options).starts_with(" names no radii"));
-    EXPECT_TRUE(read_atoms("", {"1 1 0.75 0.4 1 2 3", "2 1 0.5 0.4 4 5 6"}, options).radii.isApprox(Eigen::Vector2d(0.375e-6, 0.25e-6)));
-    EXPECT_EQ(read_atoms("", {"1 7 1 0.75 0.4 1 2 3"}, options).radii[0], 0.375e-6) << "bpm/sphere";
+    EXPECT_TRUE(
+        read_atoms("", {"1 1 0.75 0.4 1 2 3", "2 1 0.5 0.4 4 5 6"}, options).radii.isApprox(Eigen::Vector2d(0.375e-6, 0.25e-6)));
+    EXPECT_EQ(read_atoms("", {"1 7 1 0.75 0.4 1.5 2 3"}, options).radii[0], 0.375e-6) << "bpm/sphere";
     // Styles that give the same spheres need no decision.
     ImportOptions with_radius = options;
     with_radius.radius = 1e-6;
-    for (const std::string line : {"1 1 4 5 6", "1 1 4 5 6 0 0 1", "1 1 1 4 5 6", "1 2 -0.5 4 5 6 0 0 -1", "1 2 -0.5 4 5 6 0 0 0"}) {
-        EXPECT_TRUE(read_atoms("", {line}, with_radius).positions.isApprox(Eigen::Vector3d(4e-6, 5e-6, 6e-6), 1e-14)) << line;
+    for (const std::string line :
+         {"1 1 4.5 5 6", "1 1 4.5 5 6 0 0 1", "1 1 1 4.5 5 6", "1 2 -0.5 4.5 5 6 0 0 -1", "1 2 -0.5 4.5 5 6 0 0 0"}) {
+        EXPECT_TRUE(read_atoms("", {line}, with_radius).positions.isApprox(Eigen::Vector3d(4.5e-6, 5e-6, 6e-6), 1e-14)) << line;
     }
 }
 
@@ -132,8 +141,9 @@ TEST_F(LammpsData, WithoutANameDoubtIsRefused) {
               ", line 10: the section Atoms names no atom style, and its columns can be those of body, ellipsoid, full, sphere: "
               "give --atom-style");
     EXPECT_EQ(read_atoms("", {"1 1 1 0.8 1 2 3"}, in_micrometres("sphere")).radii[0], 0.5e-6);
-    for (const std::string line : {"1 1.5 4 5 6", "1 1 4 5 6 0.5 0 0", "1 1 x 4 5", "1 1 2", "1 0 -2 -3 4 5 6"}) {
-        EXPECT_NE(refusal("", {line}, options).find("line 12: the section Atoms names no atom style, and its columns are those of none of"),
+    for (const std::string line : {"1 1.5 4 5 6", "1 1 4.5 5 6 0.5 0 0", "1 1 x 4 5", "1 1 2", "1 0 -2 -3 4 5 6"}) {
+        EXPECT_NE(refusal("", {line}, options)
+                      .find("line 12: the section Atoms names no atom style, and its columns are those of none of"),
                   std::string::npos)
             << line;
     }
@@ -143,7 +153,8 @@ TEST_F(LammpsData, ANamedStyleMustHold) {
     const ImportOptions options = in_micrometres();
     EXPECT_EQ(refusal("sphere", {"1 1 1 -0.8 1 2 3"}, options), ", line 12: '-0.8' cannot be density of an atom of style sphere");
     EXPECT_EQ(refusal("full", {"1 1 0.5 2.5 1 2 3"}, options), ", line 12: '0.5' cannot be type of an atom of style full");
-    EXPECT_EQ(refusal("atomic", {"1 1 1 2 3 0 0.5 0"}, options), ", line 12: '0.5' cannot be an image flag of an atom of style atomic");
+    EXPECT_EQ(refusal("atomic", {"1 1 1 2 3 0 0.5 0"}, options),
+              ", line 12: '0.5' cannot be an image flag of an atom of style atomic");
     EXPECT_EQ(refusal("full", {"1 1 1 2 3"}, options),
               ", line 12: there are 5 columns, but atom style full has 7 (and three image flags)");
     EXPECT_EQ(refusal("full", {"1 1 1 0.8 1 2 3"}, in_micrometres("sphere")),
@@ -171,8 +182,10 @@ TEST_F(LammpsData, WhatOtherProgramsWrote) {
     EXPECT_TRUE(found.cell.lengths().isApprox(Eigen::Vector3d::Constant(3e-6)));
     EXPECT_TRUE(found.radii.isApprox(Eigen::VectorXd::Constant(108, 3.5355339e-7), 1e-8));
     metres.atom_style.clear();
-    EXPECT_NE(sentence<InputError>([&] { reading("rtb2.data", metres); }).find("--atom-style 'hybrid sphere bond'"), std::string::npos);
-    EXPECT_NE(sentence<InputError>([&] { reading("full_no_hint.data", in_micrometres()); }).find("names no radii"), std::string::npos);
+    EXPECT_NE(sentence<InputError>([&] { reading("rtb2.data", metres); }).find("--atom-style 'hybrid sphere bond'"),
+              std::string::npos);
+    EXPECT_NE(sentence<InputError>([&] { reading("full_no_hint.data", in_micrometres()); }).find("names no radii"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST_F(TextFormats, CommentsWithoutAHeaderStayComments) {
     const std::string path = write("a.csv", "# measured on Monday\n# by us\n1 2 3 4\n");
     EXPECT_EQ(sentence<InputError>([&] { read_text(path, TextFormat::csv, in_box()); }),
               path +
-                  ", line 3: there is no column x among 1 2 3 4; the first line must be a header that names x, y and z, or give "
+                  ", line 3: there is no column x among 1, 2, 3, 4; the first line must be a header that names x, y and z, or give "
                   "--columns x=HEADING");
 }
 
