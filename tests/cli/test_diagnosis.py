@@ -151,7 +151,7 @@ class Diagnosis(ProgramTest):
         self.write("experiment.toml", EXPERIMENT.replace('[structures]\nfiles = ["packing.h5"]\n', ""))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="experiment.toml: [structures] gives no structures")
         self.assertIn("names no structures yet", self.succeed("diagnose", "--check", "experiment.toml"))
-        self.fail_with(2, "diagnose", "experiment.toml", "-o", "sweep.csv", says="no folder")
+        self.fail_with(2, "diagnose", "experiment.toml", "-o", "sweep.csv", says="is not a folder")
 
 
 if __name__ == "__main__":

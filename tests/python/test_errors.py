@@ -31,7 +31,7 @@ class Sentences(ModuleTest):
                 (lambda: coagula.shear(made, normal_stiffness="1s"), "^normal_stiffness: .*see help\\(coagula.shear\\)"),
                 (lambda: coagula.shear(made, amplitudes=[1e-3], ramp=0.01, method="quasistatic"), "^amplitudes and ramp exclude"),
                 (lambda: coagula.shear(made, method="dem", frequency=[1, 2]), "^method='dem' runs at one frequency"),
-                (lambda: coagula.shear(made, orientation="xx"), "^orientation: 'xx' "),
+                (lambda: coagula.shear(made, orientation="xx", method="quasistatic"), "^orientation: 'xx' "),
                 (lambda: coagula.calibrate([made], from_=100, to="10N/m"), "^from_ is 100 N/m and to 10 N/m"),
                 (lambda: coagula.characterize(made, only="--samples"), "^only: '--samples' is not one of"),
                 (lambda: coagula.generate_brownian(particles=30), "^generate_brownian\\(\\) needs [a-z_]+"),
@@ -48,6 +48,29 @@ class Sentences(ModuleTest):
         for name in coagula.__all__:
             about = re.sub(r"`[^`]*`", "", getattr(coagula, name).__doc__)  # commands of the program apart
             self.assertNotRegex(about, r"--[a-z]", name)
+
+    def test_tolerance_of_contacts(self):
+        made = self.made(particles=100, voids=50)
+        self.assertEqual(len(coagula.find_contacts(made, 0.01)), len(made.bonds))
+        for tolerance in (100, 1e300, -0.5, float("nan"), float("inf")):
+            with self.assertRaisesRegex(coagula.InputError, "^tolerance is .*must be 0 .. 1"):
+                coagula.find_contacts(made, tolerance)
+
+    def test_radii_beside_what_they_replace(self):
+        radii = [1e-7] * 100
+        for given, says in (({"particles": 60}, "particles is 60, but 100 radii are given"), ({"radius": "1um"}, "radius is not read"),
+                            ({"size_distribution": "normal:0.1"}, "size_distribution is not read")):
+            with self.assertRaisesRegex(coagula.InputError, says):
+                coagula.generate_vem(radii=radii, volume_fraction=0.4, **given)
+            with self.assertRaisesRegex(coagula.InputError, says):
+                coagula.generate_brownian(radii=radii, volume_fraction=0.2, surface_potential="15mV", stop_time="1us", **given)
+        self.assertEqual(len(coagula.generate_vem(radii=radii, particles=100, volume_fraction=0.3).packing), 100)
+
+    def test_start_beside_what_it_replaces(self):
+        made = self.made(particles=100, voids=50)
+        for given in ({"particles": 100}, {"volume_fraction": 0.4}, {"equilibration_time": 1e-6}):
+            with self.assertRaisesRegex(coagula.InputError, "is not read where the run goes on from a packing"):
+                coagula.generate_brownian(start=made, surface_potential="15mV", stop_time="1us", **given)
 
     def test_model(self):
         made = self.made(particles=100, voids=50)

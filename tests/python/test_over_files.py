@@ -2,6 +2,7 @@
 
 import csv
 import io
+import os
 import shutil
 import unittest
 from xml.etree import ElementTree
@@ -22,7 +23,8 @@ class OverFiles(ModuleTest):
 
 class Tables(OverFiles):
     def test_columns_are_those_of_the_program(self):
-        files = self.files(others=["plain.h5", "2"])
+        files = self.files(others=["plain.h5", "two.h5"])
+        files[3] = os.rename("two.h5", "2") or "2"  # a name that is a number stays a text
         columns = coagula.table(files).columns()
         printed = list(csv.DictReader(io.StringIO(self.run_program("info", *files, "--csv").stdout)))
         self.assertEqual(list(columns), list(printed[0]))
