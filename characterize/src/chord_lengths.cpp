@@ -115,11 +115,15 @@ constexpr int groups_per_side = 5;
 constexpr Index groups = Index{groups_per_side} * groups_per_side;
 
 /// Lines on the points of a Kronecker sequence with the plastic number, which fill the square evenly for any number of lines.
-Chords chords_along(const Packing& packing, int axis, Index lines, BlockSums& void_length) {
+Chords chords_along(const Packing& packing, int axis, Index lines, BlockSums& void_length, const Progress& progress) {
     constexpr double plastic = 1.3247179572447460;
+    constexpr Index looks = 1000;  // lines between two looks at the progress callback
     const Shadow shadow(packing, axis);
     Chords chords;
     for (Index line = 0; line < lines; ++line) {
+        if (line % looks == 0) {
+            progress.update("chord lengths", (axis + static_cast<double>(line) / static_cast<double>(lines)) / 3);
+        }
         const Eigen::Array2d turns = (static_cast<double>(line) + 0.5) * Eigen::Array2d(1 / plastic, 1 / (plastic * plastic));
         const Eigen::Array2d fraction = turns - turns.floor();
         const Eigen::Array2i block = (groups_per_side * fraction).cast<int>().min(groups_per_side - 1);
@@ -195,7 +199,7 @@ void add_errors(const std::array<Chords, 3>& chords, ChordLengths& result) {
 
 }  // namespace
 
-ChordLengths measure_chord_lengths(const Packing& packing, const ChordOptions& options) {
+ChordLengths measure_chord_lengths(const Packing& packing, const ChordOptions& options, const Progress& progress) {
     check(packing);
     require(packing.cell.is_periodic(), "chords are measured in periodic packings only, and this one is open");
     require(options.lines >= 1 && options.bins >= 1, "the chord lengths need at least one line along each axis and one bin");
@@ -204,7 +208,7 @@ ChordLengths measure_chord_lengths(const Packing& packing, const ChordOptions& o
     std::array<Chords, 3> chords;
     for (int axis = 0; axis < 3; ++axis) {
         BlockSums void_length(groups);
-        chords[static_cast<std::size_t>(axis)] = chords_along(packing, axis, options.lines, void_length);
+        chords[static_cast<std::size_t>(axis)] = chords_along(packing, axis, options.lines, void_length, progress);
         result.void_fraction += void_length.mean() / 3;
         result.void_fraction_stderr += void_length.mean_stderr() / 3;
     }

@@ -67,16 +67,40 @@ class Interruption(ProgramTest):
                 self.interrupt(self.start("export", "packing.h5", "--format", "csv"), number)
                 self.assertFalse((self.folder / "packing.csv").exists())
 
+    def blocked(self):
+        """A call that waits in a write, and the end of the pipe that nobody reads."""
+        reading, writing = os.pipe()
+        self.addCleanup(os.close, reading)
+        fcntl.fcntl(writing, fcntl.F_SETPIPE_SZ, 4096)
+        process = subprocess.Popen([PROGRAM, "man", "shear"], stdout=writing, stderr=subprocess.PIPE, text=True)
+        os.close(writing)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        self.addCleanup(process.stderr.close)
+        time.sleep(0.5)
+        return process
+
+    def test_what_does_not_answer_ends_within_two_seconds(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = self.blocked()
+            begun = time.monotonic()
+            process.send_signal(number)
+            self.assertEqual(process.wait(10), 1)
+            self.assertLess(time.monotonic() - begun, 2)
+            self.check_sentence(process.stderr.read(), "interrupted: what was not complete is not written")
+
+    def test_measures_look_at_the_request(self):
+        source = self.copy_of_packing()
+        before = checksum(source)
+        process = self.start("characterize", "packing.h5", "--only", "chord_lengths", "--chord-lines", "20000000")
+        process.send_signal(signal.SIGINT)
+        errors = process.communicate(timeout=10)[1]
+        self.assertEqual((process.returncode, errors), (1, "coagula: interrupted: nothing was written\n"))
+        self.assertEqual(checksum(source), before)
+
     def test_second_signal_ends_what_does_not_answer(self):
         for first, second in ((signal.SIGTERM, signal.SIGINT), (signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGTERM)):
-            reading, writing = os.pipe()  # nobody reads: the program waits in its write
-            fcntl.fcntl(writing, fcntl.F_SETPIPE_SZ, 4096)
-            process = subprocess.Popen([PROGRAM, "man", "shear"], stdout=writing)
-            os.close(writing)
-            self.addCleanup(os.close, reading)
-            self.addCleanup(process.wait)
-            self.addCleanup(process.kill)
-            time.sleep(0.5)
+            process = self.blocked()
             process.send_signal(first)
             time.sleep(0.2)
             self.assertIsNone(process.poll())

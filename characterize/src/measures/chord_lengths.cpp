@@ -22,8 +22,8 @@ void add_phase(const ChordDistribution& found, const std::string& phase, Measure
 }
 
 MeasureResult run_chord_lengths(const MeasureInput& input) {
-    const ChordLengths found =
-        if_applicable([&] { return measure_chord_lengths(input.packing(), {.lines = input.count("chord-lines")}); });
+    const ChordLengths found = if_applicable(
+        [&] { return measure_chord_lengths(input.packing(), {.lines = input.count("chord-lines")}, input.progress()); });
     MeasureResult result;
     add_phase(found.voids, "void", result);
     add_phase(found.solid, "solid", result);

@@ -44,8 +44,8 @@ bool FileLock::is_current() const {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// It is to be tried again when the process before has just removed the file. The lock is not the one by which HDF5 keeps readers away
-/// (flock).
+/// It is to be tried again when the process before has just removed the file. The lock is not the one by which HDF5 keeps readers
+/// away (flock).
 FileLock::Outcome FileLock::attempt() {
     constexpr int flags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
     descriptor_ = openat(place_.folder(), name_.c_str(), flags | O_CREAT | O_EXCL, 0600);
@@ -69,6 +69,7 @@ FileLock::Outcome FileLock::attempt() {
     const bool busy = !locked && (errno == EAGAIN || errno == EACCES);
     if (!busy && is_current()) {
         left_ = left_ && locked;
+        unfinished_.emplace(place_.folder(), name_);
         return Outcome::taken;
     }
     close(std::exchange(descriptor_, -1));

@@ -63,6 +63,9 @@ TemporaryFile::TemporaryFile(const OutputPlace& place) : place_(place) {
 bool TemporaryFile::make(mode_t mode) {
     name_ = random_name(place_);
     descriptor_ = openat(place_.folder(), name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    if (descriptor_ >= 0) {
+        unfinished_.emplace(place_.folder(), name_);
+    }
     return descriptor_ >= 0;
 }
 
@@ -70,7 +73,7 @@ TemporaryFile::~TemporaryFile() {
     if (descriptor_ >= 0) {
         close(descriptor_);
     }
-    if (descriptor_ >= 0 && !renamed_) {
+    if (unfinished_) {
         unlinkat(place_.folder(), name_.c_str(), 0);
     }
 }
@@ -109,7 +112,8 @@ void TemporaryFile::sync(std::span<const char> bytes) {
     bool same = fstat(descriptor_, &found) == 0 && found.st_size == static_cast<off_t>(bytes.size());
     std::vector<char> buffer(std::min(bytes.size(), std::size_t{1} << 20));
     for (std::size_t done = 0; same && done < bytes.size();) {
-        const ssize_t count = pread(descriptor_, buffer.data(), std::min(buffer.size(), bytes.size() - done), static_cast<off_t>(done));
+        const ssize_t count =
+            pread(descriptor_, buffer.data(), std::min(buffer.size(), bytes.size() - done), static_cast<off_t>(done));
         if (count < 0 && errno == EINTR) {
             continue;
         }
@@ -117,7 +121,8 @@ void TemporaryFile::sync(std::span<const char> bytes) {
         done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
     }
     if (!same) {
-        throw std::runtime_error("cannot write " + place_.path() + ": what was read back is not what was written; nothing was replaced");
+        throw std::runtime_error("cannot write " + place_.path() +
+                                 ": what was read back is not what was written; nothing was replaced");
     }
 }
 
@@ -139,8 +144,8 @@ bool TemporaryFile::rename_to_new() const {
 
 void TemporaryFile::rename(bool overwrite) {
     const int folder = place_.folder();
-    renamed_ = overwrite ? renameat2(folder, name_.c_str(), folder, place_.name().c_str(), 0) == 0 : rename_to_new();
-    if (!renamed_) {
+    const bool renamed = overwrite ? renameat2(folder, name_.c_str(), folder, place_.name().c_str(), 0) == 0 : rename_to_new();
+    if (!renamed) {
         const int reason = errno;
         if (reason == EEXIST) {
             place_.check(overwrite);
@@ -148,6 +153,7 @@ void TemporaryFile::rename(bool overwrite) {
         errno = reason;
         place_.fail();
     }
+    unfinished_.reset();
 }
 
 void TemporaryFile::remove_leftovers(const OutputPlace& place) {

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <coagula/io/output_place.hpp>
+#include <coagula/io/unfinished_file.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 
 namespace coagula::io {
 
-/// A new file beside the one at `place`, under a name that nobody can foresee (.NAME.<random>.tmp). It is removed again unless it was
-/// renamed. All functions throw as OutputPlace::fail does.
+/// A new file beside the one at `place`, under a name that nobody can foresee (.NAME.<random>.tmp). It is removed again unless it
+/// was renamed. All functions throw as OutputPlace::fail does.
 class TemporaryFile {
 public:
     /// Bytes by which its name is longer than that of the file.
@@ -37,7 +39,7 @@ private:
     const OutputPlace& place_;
     std::string name_;
     int descriptor_ = -1;
-    bool renamed_ = false;
+    std::optional<UnfinishedFile> unfinished_;  ///< until it is renamed
 };
 
 }  // namespace coagula::io

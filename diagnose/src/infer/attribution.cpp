@@ -109,7 +109,7 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
     }
     const auto weight = [](const Compared& one) { return one.log_weight(); };
     const std::size_t best = heaviest_cause(all, weight);
-    const Detection rest = detect(inference, all[best].fit, possible, options.seed, options.bootstrap);
+    const Detection rest = detect(inference, all[best].fit, possible, options.seed, options.bootstrap, progress);
     const auto add_pair = [&](const Mechanism* one, const Mechanism* other) {
         progress.update("attributing", 0.8, "pairs");
         all.push_back({inference.fit({one, other}), priors.pair});
@@ -130,9 +130,10 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
         find_remainders(inference, rest.p_value < with_ease ? most_with_remainder : few_with_remainder, all);
     }
     comparison.winner = heaviest_cause(all, [&](const Compared& one) { return one.log_total(priors); });
-    comparison.p_value = comparison.winner == best
-                             ? rest.p_value
-                             : detect(inference, all[comparison.winner].fit, possible, options.seed, options.bootstrap).p_value;
+    comparison.p_value =
+        comparison.winner == best
+            ? rest.p_value
+            : detect(inference, all[comparison.winner].fit, possible, options.seed, options.bootstrap, progress).p_value;
     return comparison;
 }
 

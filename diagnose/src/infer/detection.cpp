@@ -268,12 +268,16 @@ Eigen::RowVectorXd evaluate(const MisfitStatistic& statistic, const Eigen::Matri
 /// The residuals of data that are drawn, and last those of the measured ones, without what the fitted quantities move.
 /// @param about prediction of the fit. @param basis orthonormal, of what these move.
 Eigen::MatrixXd drawn_residuals(const Inference& inference, const Departures& departures, const Prediction& about,
-                                const Eigen::MatrixXd& basis, std::uint64_t seed, int bootstrap) {
+                                const Eigen::MatrixXd& basis, std::uint64_t seed, int bootstrap, const Progress& progress) {
+    constexpr int looks = 100;  // data sets between two looks at the progress callback
     const Index rows = departures.residual.size();
     const Index last_error = std::isfinite(inference.stiffness_departure(0)) ? rows - 1 : rows;
     Eigen::MatrixXd drawn(rows, bootstrap + 1);
     drawn.col(bootstrap) = departures.residual;
     for (int sample = 0; sample < bootstrap; ++sample) {
+        if (sample % looks == 0) {
+            progress.update("drawing data sets", static_cast<double>(sample) / bootstrap);
+        }
         const Eigen::VectorXd errors = inference.errors().draw(seed, static_cast<std::uint64_t>(sample));
         drawn.col(sample).head(errors.size()) = errors;
         const auto normal = [&](Index row) {
@@ -359,16 +363,18 @@ double coordinate_of(const Observation& observation, Coordinate coordinate) {
     }
 }
 
-Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap) {
+Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap,
+                 const Progress& progress) {
     const Departures departures = departures_of(inference, fit);
     const Eigen::MatrixXd basis = orthonormal_basis(departures.jacobian);
     const Prediction about = inference.prediction(fit.model);
-    const Eigen::MatrixXd residuals = drawn_residuals(inference, departures, about, basis, seed, bootstrap);
+    const Eigen::MatrixXd residuals = drawn_residuals(inference, departures, about, basis, seed, bootstrap, progress);
     Detection result;
     result.statistics = statistics_of(inference, fit, about, causes, residuals.rows(), basis);
     const auto kinds = static_cast<Index>(result.statistics.size());
     Eigen::MatrixXd values(kinds, bootstrap + 1);
     for (Index kind = 0; kind < kinds; ++kind) {
+        progress.update("testing the fit", static_cast<double>(kind) / static_cast<double>(kinds));
         MisfitStatistic& statistic = result.statistics[static_cast<std::size_t>(kind)];
         const Eigen::RowVectorXd own = evaluate(statistic, residuals);
         statistic.value = own[bootstrap];

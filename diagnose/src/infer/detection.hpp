@@ -3,6 +3,8 @@
 
 #include "departures.hpp"
 
+#include <coagula/common/progress.hpp>
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -54,6 +56,7 @@ struct Detection {
 /// The statistics of the residuals, standardised, and the p-value of the largest: the part of data sets drawn from the fitted model
 /// and fitted again (linearised at the fit) whose largest one is as large.
 /// @param inference, fit the model and where it was fitted. @param causes towards which steps are looked for.
-Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap);
+Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap,
+                 const Progress& progress = {});
 
 }  // namespace coagula::diagnose

@@ -282,7 +282,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     progress.update("fitting the base model", 0.1);
     const Fit base = inference.fit({});
     diagnosis.base = cause_of(base, inference);
-    const Detection detection = detect(inference, base, possible, options.seed, options.bootstrap);
+    const Detection detection = detect(inference, base, possible, options.seed, options.bootstrap, progress);
     diagnosis.p_value = detection.p_value;
     diagnosis.detected = diagnosis.p_value <= options.level;
     keep_statistics(detection, diagnosis);

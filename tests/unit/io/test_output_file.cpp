@@ -1,6 +1,7 @@
 // Files that several processes write, or whose writers were killed.
 #include <coagula/io/atomic_file.hpp>
 #include <coagula/io/structure_file.hpp>
+#include <coagula/io/unfinished_file.hpp>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -154,6 +155,22 @@ TEST_F(OutputFiles, AHiddenNameThatLeadsElsewhereIsNotFollowed) {
     EXPECT_EQ(read(other), "precious");
 }
 
+TEST_F(OutputFiles, WhatIsNotCompleteCanBeRemovedAtAnyTime) {
+    const OutputPlace place(file("a"));
+    {
+        const OutputFile locked(file("b"), false);
+        const TemporaryFile one(place);
+        const TemporaryFile other(place);
+        EXPECT_EQ(entries().size(), 3U);
+        remove_unfinished_files();
+        EXPECT_EQ(entries().size(), 0U);
+    }
+    write_file(file("a"), std::string("whole"), false);
+    remove_unfinished_files();
+    EXPECT_EQ(read(file("a")), "whole");
+    EXPECT_EQ(entries().size(), 1U);
+}
+
 TEST_F(OutputFiles, WaitsForTheWriterBefore) {
     write_structure(file("a.h5"), example(), {}, {}, stage("generate"), false);
     const int held = open(file(".a.h5.lock").c_str(), O_RDWR | O_CREAT | O_EXCL, 0600);
@@ -184,7 +201,8 @@ TEST_F(OutputFiles, LinksLeadToTheFileThatIsWritten) {
         EXPECT_TRUE(std::filesystem::is_symlink(file(name))) << name;
     }
     std::filesystem::create_symlink("round", file("round"));
-    EXPECT_NE(sentence<InputError>([&] { write_file(file("round"), std::string("x"), true); }).find("symbolic links"), std::string::npos);
+    EXPECT_NE(sentence<InputError>([&] { write_file(file("round"), std::string("x"), true); }).find("symbolic links"),
+              std::string::npos);
 }
 
 /// In a folder where others may write.
@@ -201,7 +219,8 @@ TEST_F(OutputFiles, ALinkOfAnotherUserIsNotFollowed) {
     for (const mode_t mode : {01777U, 0777U, 0775U}) {
         ASSERT_EQ(chmod(file("shared").c_str(), mode), 0);
         for (const std::string& name : {link, file("over")}) {
-            EXPECT_NE(sentence<InputError>([&] { write_file(name, std::string("x"), true); }).find("another user"), std::string::npos);
+            EXPECT_NE(sentence<InputError>([&] { write_file(name, std::string("x"), true); }).find("another user"),
+                      std::string::npos);
             EXPECT_THROW(check_output(name, true), InputError);
         }
     }

@@ -3,6 +3,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
 
 #include <Eigen/Core>
 
@@ -36,6 +37,6 @@ struct ChordLengths {
 
 /// Source: Torquato and Lu, Phys. Rev. E 47 (1993) 2950. Throws std::invalid_argument for an open packing, and if no line meets
 /// both phases.
-ChordLengths measure_chord_lengths(const Packing& packing, const ChordOptions& options = {});
+ChordLengths measure_chord_lengths(const Packing& packing, const ChordOptions& options = {}, const Progress& progress = {});
 
 }  // namespace coagula::characterize

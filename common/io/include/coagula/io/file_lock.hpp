@@ -2,7 +2,9 @@
 #pragma once
 
 #include <coagula/io/output_place.hpp>
+#include <coagula/io/unfinished_file.hpp>
 
+#include <optional>
 #include <string>
 
 namespace coagula::io {
@@ -31,6 +33,7 @@ private:
     const OutputPlace& place_;
     std::string name_;
     int descriptor_ = -1;
+    std::optional<UnfinishedFile> unfinished_;  ///< while this process has it
     bool left_ = false;
 };
 
