@@ -2,6 +2,7 @@
 
 #include <coagula/common/cell_list.hpp>
 #include <coagula/common/checks.hpp>
+#include <coagula/common/parallel.hpp>
 
 #include <algorithm>
 
@@ -25,18 +26,22 @@ ContactNetwork collect_pairs(const Packing& packing, double cutoff, Reach&& reac
     const CellList cells(packing.cell, packing.positions, cutoff);
     const Index particles = packing.size();
     std::vector<std::vector<Pair>> rows(static_cast<std::size_t>(particles));
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < particles; ++i) {
-        auto& row = rows[static_cast<std::size_t>(i)];
-        cells.for_each_near(packing.positions.col(i), [&](int j, const Eigen::Vector3d& branch) {
-            const double limit = reach(i, j);
-            const bool counted = j > i || (j == i && branch.squaredNorm() > 0 && points_up(branch));
-            if (counted && branch.squaredNorm() < limit * limit) {
-                row.push_back({j, branch});
-            }
-        });
-        std::stable_sort(row.begin(), row.end(), [](const Pair& a, const Pair& b) { return a.other < b.other; });
-    }
+    constexpr Index block = 1024;
+    const auto blocks = static_cast<std::size_t>((particles + block - 1) / block);
+    run_together(blocks, [&](std::size_t number) {
+        const Index begin = static_cast<Index>(number) * block;
+        for (Index i = begin; i < std::min(begin + block, particles); ++i) {
+            auto& row = rows[static_cast<std::size_t>(i)];
+            cells.for_each_near(packing.positions.col(i), [&](int j, const Eigen::Vector3d& branch) {
+                const double limit = reach(i, j);
+                const bool counted = j > i || (j == i && branch.squaredNorm() > 0 && points_up(branch));
+                if (counted && branch.squaredNorm() < limit * limit) {
+                    row.push_back({j, branch});
+                }
+            });
+            std::stable_sort(row.begin(), row.end(), [](const Pair& a, const Pair& b) { return a.other < b.other; });
+        }
+    });
     Index count = 0;
     for (const auto& row : rows) {
         count += static_cast<Index>(row.size());

@@ -9,7 +9,7 @@ from ._spelling import VERBS, argument, in_python
 
 # What each call has besides the options of the verb.
 PROGRESS = "Called as progress(stage, fraction, remark) now and then, at most 20 times a second; what it raises stops the call."
-THREADS = "Number of threads; all cores when None."
+THREADS = "Number of threads, at most one for each processor, which is also the default."
 
 
 def _word(value):

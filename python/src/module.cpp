@@ -1,4 +1,5 @@
 // The extension module below the Python package `coagula`, which is what people import.
+#include "running.hpp"
 #include "values.hpp"
 
 #include <coagula/common/checks.hpp>
@@ -46,6 +47,7 @@ void define_exceptions(py::module_& module) {
 
 PYBIND11_MODULE(_coagula, module) {
     coagula::io::occupy_standard_descriptors();
+    coagula::python::prepare_for_forks();
     coagula::python::define_exceptions(module);
     coagula::python::define_values(module);
     coagula::python::define_stages(module);

@@ -1,6 +1,9 @@
 #include "running.hpp"
 
+#include <coagula/common/parallel.hpp>
+
 #include <omp.h>
+#include <pthread.h>
 
 namespace coagula::python {
 
@@ -48,13 +51,15 @@ void Reporter::rethrow() const {
 }
 
 ThreadCount::ThreadCount(std::optional<int> count) : before_(omp_get_max_threads()) {
-    if (count) {
-        omp_set_num_threads(*count);
-    }
+    omp_set_num_threads(usable_threads(count.value_or(before_)));
 }
 
 ThreadCount::~ThreadCount() {
     omp_set_num_threads(before_);
+}
+
+void prepare_for_forks() {
+    pthread_atfork([] { omp_pause_resource_all(omp_pause_hard); }, nullptr, nullptr);
 }
 
 }  // namespace coagula::python

@@ -52,6 +52,10 @@ private:
     int before_;
 };
 
+/// A forked child has none of the threads of OpenMP and would wait for them for ever. With this they end before every fork, and
+/// both processes start new ones when they need them.
+void prepare_for_forks();
+
 /// Calls work(progress) without the lock of the interpreter.
 template <class Work>
 auto run(const py::object& callback, std::optional<int> threads, const Work& work) {

@@ -161,6 +161,11 @@ void define_bonds(py::module_& module) {
     module.def(
         "find_contacts",
         [](const Packing& packing, double tolerance) {
+            if (!(tolerance >= 0 && tolerance <= 1)) {
+                throw InputError("tolerance is " + to_text(tolerance) +
+                                 ", but must be 0 .. 1: pairs nearer than (1 + tolerance) "
+                                 "(r_i + r_j) are in contact");
+            }
             return std::make_shared<ContactNetwork>(find_contacts(packing, tolerance));
         },
         py::arg("packing"), py::arg("tolerance") = 0.01, py::call_guard<py::gil_scoped_release>());

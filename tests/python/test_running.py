@@ -1,5 +1,6 @@
 """Long calls: they tell how far they have come, can be stopped, leave the interpreter to other threads, and files stay readable."""
 
+import multiprocessing
 import signal
 import subprocess
 import sys
@@ -57,7 +58,38 @@ class Interruption(ModuleTest):
         self.assertEqual(child.wait(30), 7)
 
 
+def coordination_of(seed):
+    return coagula.generate_vem(particles=200, voids=100, volume_fraction=0.4, radius="1um", seed=seed, threads=2).coordination
+
+
+class Forks(ModuleTest):
+    def test_a_forked_child_of_a_process_that_has_calculated(self):
+        alone = [coordination_of(seed) for seed in (1, 2, 3)]
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            self.assertEqual(pool.map_async(coordination_of, (1, 2, 3)).get(timeout=60), alone)
+        self.assertEqual(coordination_of(1), alone[0])  # the parent goes on
+
+    def test_a_child_forked_from_another_thread(self):
+        coordination_of(1)
+        ended = []
+
+        def fork():
+            child = multiprocessing.get_context("fork").Process(target=coordination_of, args=(1,))
+            child.start()
+            child.join(60)
+            ended.append(child.exitcode)
+            child.kill()
+
+        thread = threading.Thread(target=fork)
+        thread.start()
+        thread.join()
+        self.assertEqual(ended, [0])
+
+
 class Threads(ModuleTest):
+    def test_more_than_there_are_processors(self):
+        np.testing.assert_array_equal(*(self.made(particles=60, voids=30, threads=threads).packing.positions for threads in (1, 4096)))
+
     def test_another_thread_goes_on(self):
         """While the call runs, a thread of Python counts; with the lock of the interpreter held it could not."""
         counts = []

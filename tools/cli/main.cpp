@@ -7,17 +7,21 @@
 #include "verbs.hpp"
 
 #include <coagula/common/failures.hpp>
+#include <coagula/common/parallel.hpp>
 #include <coagula/common/spelling.hpp>
 #include <coagula/io/standard_descriptors.hpp>
 #include <coagula/report/printable.hpp>
 
 #include <omp.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -39,12 +43,15 @@ void print_program_help() {
         name.resize(20, ' ');
         std::cout << "  " << name << verb.summary << '\n';
     }
-    std::cout << "\noptions:\n"
-                 "  -h, --help    print this text; 'coagula VERB --help' lists the options of a verb\n"
-                 "  -V, --version print the version\n\n"
-                 "Quantities are SI numbers or carry a unit: 0.25um, 100N/m.\n"
-                 "Exit codes: 0 done, 1 failed, 2 wrong usage or bad input, 3 what would be written exists already (see --force),\n"
-                 "            4 no structure has what was asked for, such as a coordination number.\n";
+    std::cout
+        << "\noptions:\n"
+           "  -h, --help    print this text; 'coagula VERB --help' lists the options of a verb\n"
+           "  -V, --version print the version\n\n"
+           "Quantities are SI numbers or carry a unit: 0.25um, 100N/m.\n"
+           "Exit codes: 0 done, 1 failed, 2 wrong usage or bad input, 3 what would be written exists already (see --force),\n"
+           "            4 no structure has what was asked for, such as a coordination number.\n"
+           "An option that nothing would read beside the others is refused. Ctrl-C ends the program within two seconds; what is\n"
+           "not complete by then is not written.\n";
 }
 
 /// The end of the sentence about words that begin with no verb; with the two words of a verb like "generate vem", if there are two.
@@ -102,9 +109,8 @@ void run(std::vector<std::string> words) {
         flush_output();
         return;
     }
-    if (arguments.has("threads")) {
-        omp_set_num_threads(static_cast<int>(arguments.count("threads")));
-    }
+    omp_set_num_threads(
+        usable_threads(arguments.has("threads") ? static_cast<int>(arguments.count("threads")) : omp_get_max_threads()));
     verb.run(arguments);
 }
 
@@ -123,21 +129,35 @@ std::string threads_asked_for(char** argv) {
     return {};
 }
 
-bool set_if_unset(const char* variable, const std::string& value) {
-    return std::getenv(variable) == nullptr && setenv(variable, value.c_str(), 1) == 0;
+/// Whether the variable had another value.
+bool set(const char* variable, const std::string& value) {
+    const char* before = std::getenv(variable);
+    return (before == nullptr || before != value) && setenv(variable, value.c_str(), 1) == 0;
+}
+
+bool address_space_is_limited() {
+    rlimit limit{};
+    return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
 /// Threads that wait for each other shall spin for some microseconds only before they sleep: on a machine that also does other
-/// work a spinning thread keeps its partner from the processor, and the void expansion took four times as long. And no library
-/// shall take more threads than were asked for: CHOLMOD's loops ask for four of their own. libgomp reads its environment before
-/// main, so the program starts itself once more; if that fails, it goes on as it is.
+/// work a spinning thread keeps its partner from the processor, and the void expansion took four times as long. No library shall
+/// take more threads than were asked for or can be had: CHOLMOD's loops ask for four of their own. OpenBLAS shall not begin with a
+/// thread and a buffer for each processor, for which it would wait for ever where there is no room. The libraries read their
+/// environment before main, so the program starts itself once more; if that fails, it goes on as it is.
 void restart_with_thread_settings(char** argv) {
-    const std::string threads = threads_asked_for(argv);
+    const std::string word = threads_asked_for(argv);
     // libgomp has a sentence of its own for what is no number of threads; the program says it once.
-    const bool number = threads.find_first_not_of("0123456789") == std::string::npos && threads.size() < 5;
-    const bool limited = number && !threads.empty() && threads.front() != '0' && set_if_unset("OMP_THREAD_LIMIT", threads);
-    const bool spinning = std::getenv("OMP_WAIT_POLICY") == nullptr && set_if_unset("GOMP_SPINCOUNT", "3000");
-    if (limited || spinning) {
+    const bool number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos && word.size() < 5;
+    const int asked = number ? std::max(1, std::stoi(word)) : std::numeric_limits<int>::max();
+    bool changed = set("OPENBLAS_NUM_THREADS", "1");
+    if (std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr) {
+        changed = set("GOMP_SPINCOUNT", "3000") || changed;
+    }
+    if (!changed || !address_space_is_limited()) {  // otherwise the buffers of OpenBLAS would count as taken
+        changed = set("OMP_THREAD_LIMIT", std::to_string(usable_threads(asked))) || changed;
+    }
+    if (changed) {
         execv("/proc/self/exe", argv);
     }
 }

@@ -4,14 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <omp.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
 
 namespace {
 
 using coagula::run_together;
+using coagula::threads_within_limits;
+using coagula::usable_threads;
 
 /// As many threads as a test asks for, whatever the machine has.
 class RunTogether : public testing::Test {
@@ -44,6 +50,28 @@ TEST_F(RunTogether, KeepsToAsManyAtOnceAsAreAllowed) {
             },
             static_cast<std::size_t>(allowed));
         EXPECT_LE(most, allowed);
+    }
+}
+
+/// Threads can be had as many as there is address space for: 192 MB each.
+TEST(ThreadsWithinLimits, FollowTheAddressSpace) {
+    EXPECT_EQ(threads_within_limits(3), 3);
+    const int most = std::min(omp_get_num_procs(), omp_get_thread_limit());
+    EXPECT_EQ(usable_threads(1), 1);
+    EXPECT_EQ(usable_threads(4096), most);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t used = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    for (const int expected : {0, 1, 2}) {
+        const rlimit limit{used + static_cast<rlim_t>(expected) * (rlim_t{200} << 20) + (rlim_t{40} << 20), before.rlim_max};
+        ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+        const int found = threads_within_limits(4);
+        const int usable = usable_threads(4);
+        ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+        EXPECT_EQ(found, expected);
+        EXPECT_EQ(usable, std::max(1, std::min(expected, most)));
     }
 }
 

@@ -7,6 +7,7 @@ namespace coagula {
 /// The bits of a factor depend on that number, so it is fixed by the kind of work and not by the user's number of threads.
 class BlasThreads {
 public:
+    /// Throws std::runtime_error where the limits of the process leave no room for them.
     explicit BlasThreads(int threads);
     ~BlasThreads();
     BlasThreads(const BlasThreads&) = delete;

@@ -12,4 +12,12 @@ namespace coagula {
 void run_together(std::size_t count, const std::function<void(std::size_t)>& work,
                   std::size_t at_once = std::numeric_limits<std::size_t>::max());
 
+/// How many of `wanted` threads, the calling one among them, can be had at once within the limits of the process (threads, address
+/// space), each with what the libraries below take for a thread. 0: not even the calling one has room for that.
+int threads_within_limits(int wanted);
+
+/// The number of threads to work with: at most `wanted`, at most one for each processor, within the limits; at least 1. OpenMP ends
+/// the program where it gets fewer threads than it was told.
+int usable_threads(int wanted);
+
 }  // namespace coagula
