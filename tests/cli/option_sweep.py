@@ -55,8 +55,10 @@ COMPANIONS = {"yukawa-energy": "--yukawa-length 1nm", "yukawa-length": "--yukawa
               "density-difference": "--gravity 10", "friction": "--tangential-stiffness 1", "rolling-stiffness": "--tangential-stiffness 1",
               "rolling-friction": "--tangential-stiffness 1 --rolling-stiffness 1", "plateau-time": "--stop-plateau mean-gap",
               "plateau-change": "--stop-plateau mean-gap", "checkpoint-interval": "--checkpoint state.h5",
-              "cycles": "--amplitudes 1e-4", "steps-per-cycle": "--amplitudes 1e-4", "ramp-steps": "--ramp 1e-4"}
-WITHOUT = {"stop-coordination": "--stop-time 1us"}  # parts of a call that would hide the option
+              "cycles": "--amplitudes 1e-4", "steps-per-cycle": "--amplitudes 1e-4", "ramp-steps": "--ramp 1e-4",
+              "modulus-tolerance": "--solver iterative", "noise-replicas": "--position-noise 5nm",
+              "voxels-per-radius": "--only transport", "most-voxels": "--only transport"}
+WITHOUT = {"stop-coordination": "--stop-time 1us", "voxels-per-radius": "--radii 20", "most-voxels": "--radii 20"}  # parts of a call that would hide the option
 # Numbers that may be missing, as the documentation says: ends of an interval that the data do not bound, errors of a line through two
 # points, ratios to a structure without load, a barrier that is not there, strengths that are found
 # too rarely, the model of a cause where none is found.

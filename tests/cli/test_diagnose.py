@@ -266,10 +266,10 @@ class BadInput(ProgramTest):
     def test_options_that_would_not_be_heeded(self):
         self.write("experiment.toml", experiment(SWEEP))
         for words, says in (
-            (("--check", "--power"), "--check has no meaning with --power"),
-            (("--check", "-o", "out"), "--output has no meaning with --check"),
-            (("--check", "--causes", "ageing"), "--causes has no meaning with --check"),
-            (("-o", "out", "--diagnoses", "1"), "--diagnoses has no meaning without --power"),
+            (("--check", "--power"), "--check is not read with --power"),
+            (("--check", "-o", "out"), "--output is not read with --check"),
+            (("--check", "--causes", "ageing"), "--causes is not read with --check"),
+            (("-o", "out", "--diagnoses", "1"), "--diagnoses is read only with --power"),
         ):
             with self.subTest(words=words):
                 self.fail_with(2, "diagnose", "experiment.toml", *words, says=says)

@@ -108,6 +108,64 @@ class WrongUsage(ProgramTest):
             with self.subTest(words=words):
                 self.fail_with(2, *words, says=part, may_say_nan="nan" in words)
 
+    def test_options_that_nobody_reads(self):
+        """Each call lacks what would make the program read the option; the sentence names it."""
+        self.copy_of_packing("a.h5")
+        self.write("model.toml", 'normal_stiffness = "50 N/m"\n')
+        self.write("sizes.csv", "radius [um],fraction\n1,1\n2,1\n")
+        shear, brownian = ["shear", "a.h5"], ["generate", "brownian", "-o", "b.h5", "--stop-time", "1us", "--surface-potential", "15mV"]
+        suspension = [*brownian, "--particles", "50", "--volume-fraction", "0.2", "--radius", "100nm"]
+        calls = [
+            ([*shear, "--damping", "0.5"], "--damping is read only with --method dem"),
+            ([*shear, "--method", "quasistatic", "--amplitude", "0.01"], "--amplitude is read only with --method dem"),
+            ([*shear, "--orientation", "xy"], "--orientation is read only with --method quasistatic or dem"),
+            ([*shear, "--checkpoint", "c.h5"], "--checkpoint is read only with --method quasistatic or dem"),
+            ([*shear, "--amplitudes", "1e-4"], "--amplitudes is read only with --method quasistatic"),
+            ([*shear, "--method", "quasistatic", "--down"], "--down is read only with --amplitudes"),
+            ([*shear, "--method", "quasistatic", "--ramp-steps", "7"], "--ramp-steps is read only with --ramp"),
+            ([*shear, "--method", "quasistatic", "--ramp", "0.1", "--frequency", "1Hz"], "only with --amplitudes"),
+            ([*shear, "--method", "quasistatic", "--amplitudes", "1e-4", "--frequency", "1Hz,2Hz"], "at one frequency"),
+            ([*shear, "--method", "dem", "--solver", "direct"], "--solver is read only with --method linear"),
+            ([*shear, "--frequency", "1Hz", "--solver", "direct"], "--solver is not read with --frequency"),
+            ([*shear, "--solver", "iterative", "--memory-limit", "1GB"], "--memory-limit is read only with --solver auto"),
+            ([*shear, "--solver", "direct", "--modulus-tolerance", "1e-6"], "only with --solver auto or iterative"),
+            ([*shear, "--model", "model.toml", "--normal-stiffness", "70N/m"], "in one of the two places"),
+            (["calibrate", "a.h5", "--boundary", "periodic"], "--boundary is read only with --method dem"),
+            (["characterize", "a.h5", "--noise-replicas", "3"], "--noise-replicas is read only with --position-noise"),
+            (["characterize", "a.h5", "--voxels-per-radius", "2"], "--voxels-per-radius is read by the measure transport"),
+            (["characterize", "a.h5", "--only", "overlap", "--chord-lines", "9"], "--chord-lines is read by the measure chord_lengths"),
+            (["characterize", "a.h5", "a.h5", "--compare", "--largest-ring", "5"], "--largest-ring is read by the measure rings"),
+            (["generate", "vem", "-o", "b.h5", "--volume-fraction", "0.4", "--radius", "1um", "--size-distribution", "sizes.csv"],
+             "--radius is not read with --size-distribution"),
+            ([*brownian, "--start", "a.h5", "--particles", "9"], "--particles is not read with --start"),
+            ([*brownian, "--start", "a.h5", "--equilibration-time", "1us"], "--equilibration-time is not read with --start"),
+            ([*suspension, "--friction", "0.5"], "--friction is read only with --tangential-stiffness"),
+            ([*suspension, "--density-difference", "100"], "--density-difference is read only with --gravity"),
+            ([*suspension, "--plateau-time", "1us"], "--plateau-time is read only with --stop-plateau coordination or mean-gap"),
+            ([*suspension, "--checkpoint-interval", "1s"], "--checkpoint-interval is read only with --checkpoint"),
+            ([*suspension, "--picture", "p.svg"], "--picture is read only with --potential-curve"),
+            ([*suspension, "--potential-curve"], "is not read with --potential-curve"),
+            (["plot", "a.h5", "--figure", "packing", "-o", "p.svg", "--format", "png"], "--format is read only with --paper"),
+            (["plot", "a.h5", "--figure", "packing", "-o", "p.svg", "--resolution", "100"], "--resolution is read for a PNG only"),
+            (["diagnose", "e.toml", "--new", "--level", "0.1"], "--level is not read with --new"),
+            (["diagnose", "e.toml", "--power", "--bootstrap", "999"], "--bootstrap is at most 199 with --power"),
+            (["diagnose", "e.toml", "--check", "--seed", "2"], "--seed is not read with --check"),
+            (["diagnose", "--catalogue", "--causes", "ageing"], "--causes is not read with --catalogue"),
+        ]
+        for words, part in calls:
+            with self.subTest(words=words):
+                self.fail_with(2, *words, says=part)
+
+    def test_options_beside_what_reads_them(self):
+        self.copy_of_packing("a.h5")
+        self.write("model.toml", 'normal_stiffness = "50 N/m"\n')
+        for words in (["shear", "a.h5", "--solver", "iterative", "--modulus-tolerance", "1e-3", "-o", "b.h5"],
+                      ["shear", "a.h5", "--frequency", "1Hz", "--tolerance", "1e-6", "-o", "c.h5"],
+                      ["shear", "a.h5", "--model", "model.toml", "--normal-stiffness", "50N/m", "-o", "d.h5"],
+                      ["characterize", "a.h5", "--only", "rings", "--largest-ring", "5", "-o", "e.h5"],
+                      ["characterize", "a.h5", "--only", "overlap", "--samples", "1000", "-o", "f.h5"]):
+            self.succeed(*words)
+
     def test_misspelt_keys(self):
         self.copy_of_packing("a.h5")
         self.write("model.toml", "normal_stifness = 1\n")

@@ -149,6 +149,15 @@ std::vector<std::string> with_units_joined(const std::vector<Option>& options, c
     return joined;
 }
 
+/// "--method quasistatic or dem".
+std::string as_typed(const Condition& condition) {
+    std::string text = "--" + condition.option;
+    for (std::size_t k = 0; k < condition.values.size(); ++k) {
+        text += (k == 0 ? " " : " or ") + condition.values[k];
+    }
+    return text;
+}
+
 /// A word as a shell would have to read it.
 std::string quoted(const std::string& word) {
     const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
@@ -192,6 +201,9 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& typed) : 
         if (!given && option.fallback.empty()) {
             continue;
         }
+        if (given) {
+            given_.insert(option.name);
+        }
         if (option.file != Option::File::none) {
             files_[option.name] = option.file;
         }
@@ -204,6 +216,25 @@ Arguments::Arguments(const Verb& verb, const std::vector<std::string>& typed) : 
             store(option, is_flag ? "" : (given ? word_of(map[option.name]) : option.fallback));
         } catch (const InputError& error) {
             throw InputError(name + ": " + error.what() + hint(verb.name));
+        }
+    }
+    check_conditions(options);
+}
+
+bool Arguments::holds(const Condition& condition) const {
+    const bool any = condition.values.empty();
+    return any ? given(condition.option)
+               : has(condition.option) && std::ranges::count(condition.values, text(condition.option)) > 0;
+}
+
+/// An option that nobody reads would be taken for one that had an effect.
+void Arguments::check_conditions(const std::vector<Option>& options) const {
+    for (const Option& option : options) {
+        for (const Condition& condition : option.conditions) {
+            if (given(option.name) && holds(condition) != condition.wanted) {
+                throw InputError("--" + option.name + " is " + (condition.wanted ? "read only" : "not read") + " with " +
+                                 as_typed(condition) + hint(verb_));
+            }
         }
     }
 }

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -28,6 +29,8 @@ public:
     /// Whether the option has a value, given or default.
     bool has(const std::string& name) const { return values_.contains(name); }
     bool flag(const std::string& name) const { return has(name); }
+    /// Whether the option was given.
+    bool given(const std::string& name) const { return given_.contains(name); }
     std::int64_t count(const std::string& name) const;
     double quantity(const std::string& name) const;
     std::optional<double> optional_quantity(const std::string& name) const;
@@ -60,10 +63,13 @@ private:
     using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
 
     void store(const Option& option, const std::string& word);
+    bool holds(const Condition& condition) const;
+    void check_conditions(const std::vector<Option>& options) const;
 
     std::string verb_;
     std::string command_line_;
     std::map<std::string, Value> values_;
+    std::set<std::string> given_;
     std::map<std::string, Option::File> files_;  ///< options that name files
     bool help_wanted_ = false;
 };

@@ -2,6 +2,8 @@
 
 #include <coagula/common/checks.hpp>
 
+#include <algorithm>
+
 namespace coagula::tools {
 
 namespace {
@@ -11,8 +13,16 @@ std::vector<Option> common_options() {
     Option help = flag("help", "print this text");
     help.letter = 'h';
     return {flag("json", "print one JSON object and nothing else on standard output"),
-            count("threads", "number of threads; all cores when not given", "", within(1, 4096)),
+            count("threads", "number of threads, at most one for each processor, which is also the default", "", within(1, 4096)),
             flag("quiet", "no progress bar and no table"), help};
+}
+
+void add_condition(std::vector<Option>& options, const std::vector<std::string>& names, const Condition& condition) {
+    for (Option& option : options) {
+        if (std::find(names.begin(), names.end(), option.name) != names.end()) {
+            option.conditions.push_back(condition);
+        }
+    }
 }
 
 }  // namespace
@@ -109,6 +119,16 @@ Option output(std::string meaning) {
     Option option = writes(text("output", "FILE", std::move(meaning)));
     option.letter = 'o';
     return option;
+}
+
+void read_only_with(std::vector<Option>& options, const std::vector<std::string>& names, const std::string& other,
+                    const std::vector<std::string>& values) {
+    add_condition(options, names, {other, values, true});
+}
+
+void not_read_with(std::vector<Option>& options, const std::vector<std::string>& names, const std::string& other,
+                   const std::vector<std::string>& values) {
+    add_condition(options, names, {other, values, false});
 }
 
 std::vector<Option> all_options(const Verb& verb) {

@@ -37,6 +37,13 @@ inline constexpr Range modulus{1e-9, 1e18};     // Pa
 inline constexpr Range strain{1e-15, 10};
 }  // namespace physical
 
+/// What must hold of another option so that one is read.
+struct Condition {
+    std::string option;
+    std::vector<std::string> values;  ///< the option has one of these; empty: it is given
+    bool wanted;                      ///< false: the opposite must hold
+};
+
 struct Option {
     enum class Kind { flag, count, quantity, text };
     enum class File { none, read, written };
@@ -50,10 +57,11 @@ struct Option {
     Range range = {};                       ///< of counts and quantities, in `unit`
     std::vector<std::string> choices = {};  ///< of a text; empty: any
     bool required = false;
-    char letter = 0;  ///< short name
+    char letter = 0;         ///< short name
     File file = File::none;  ///< whether its text names a file, and what becomes of that
     /// Of a length: a number above this without a unit is more likely a unit forgotten than what is meant, and refused.
     double largest_bare = std::numeric_limits<double>::infinity();
+    std::vector<Condition> conditions = {};  ///< under which the option is read; otherwise it is refused
 };
 
 Option flag(std::string name, std::string meaning);
@@ -72,6 +80,13 @@ Option reads(Option option);
 Option writes(Option option);
 /// -o FILE
 Option output(std::string meaning);
+
+/// The options of these names are read only beside another one: where that has one of the values or, without values, is given.
+void read_only_with(std::vector<Option>& options, const std::vector<std::string>& names, const std::string& other,
+                    const std::vector<std::string>& values = {});
+/// They are not read beside it.
+void not_read_with(std::vector<Option>& options, const std::vector<std::string>& names, const std::string& other,
+                   const std::vector<std::string>& values = {});
 
 class Arguments;
 

@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace coagula::tools {
 
@@ -97,11 +98,51 @@ private:
     Time began_;
 };
 
+/// One line about a run that will take minutes, once its pace is known. Programs that run others read it in their log.
+class Forecast {
+public:
+    explicit Forecast(std::string faster) : faster_(std::move(faster)) {}
+
+    /// @return the line, where it is time to say it.
+    std::string look(std::string_view stage, double fraction) {
+        const auto now = std::chrono::steady_clock::now();
+        if (said_ || stage != stage_) {
+            stage_ = stage;
+            first_ = fraction;
+            began_ = now;
+            return {};
+        }
+        const double elapsed = std::chrono::duration<double>(now - began_).count();
+        if (elapsed < sure_after || fraction <= first_) {
+            return {};
+        }
+        const double left = elapsed * (1 - fraction) / (fraction - first_);
+        said_ = true;
+        return left < worth_saying ? ""
+                                   : "coagula: " + stage_ + ": about " + time_left(left) + " at the pace so far" +
+                                         (faster_.empty() ? "" : "; " + faster_) + "\n";
+    }
+
+private:
+    static constexpr double sure_after = 10;     // s
+    static constexpr double worth_saying = 120;  // s
+
+    std::string faster_;
+    std::string stage_;
+    double first_ = 0;
+    bool said_ = false;
+    std::chrono::steady_clock::time_point began_;
+};
+
 }  // namespace
 
-Progress make_progress(bool quiet) {
+Progress make_progress(bool quiet, std::string faster) {
     const auto bar = quiet || isatty(STDERR_FILENO) == 0 ? nullptr : std::make_shared<ProgressBar>();
-    return Progress([bar](std::string_view stage, double fraction, std::string_view remark) {
+    const auto forecast = quiet ? nullptr : std::make_shared<Forecast>(std::move(faster));
+    return Progress([bar, forecast](std::string_view stage, double fraction, std::string_view remark) {
+        if (const std::string line = forecast ? forecast->look(stage, fraction) : ""; !line.empty()) {
+            std::fputs(((bar ? "\r\033[K" : "") + line).c_str(), stderr);
+        }
         if (bar) {
             bar->draw(stage, fraction, remark);
         }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 
 namespace coagula::tools {
 
@@ -37,13 +38,21 @@ std::vector<std::string> chosen_measures(const Arguments& arguments) {
     return chosen;
 }
 
-std::map<std::string, double> option_values(const Arguments& arguments) {
+/// The values of the options that are given. Each is read by one of the measures.
+std::map<std::string, double> option_values(const Arguments& arguments, const std::vector<std::string>& only) {
     std::map<std::string, double> values;
     for (const MeasureOption& option : characterize::measure_options()) {
-        if (arguments.has(option.name)) {
+        if (arguments.given(option.name)) {
             values[option.name] =
                 option.unit.empty() ? static_cast<double>(arguments.count(option.name)) : arguments.quantity(option.name);
         }
+    }
+    std::vector<std::string> given;
+    std::ranges::transform(values, std::back_inserter(given), [](const auto& entry) { return entry.first; });
+    try {
+        characterize::check_options(given, only);
+    } catch (const std::invalid_argument& reason) {
+        throw InputError(std::string("--") + reason.what());
     }
     return values;
 }
@@ -64,7 +73,7 @@ Eigen::Vector3d parse_noise(const std::string& text) {
 void add_noise_shifts(const Arguments& arguments, const Packing& packing, const std::vector<std::string>& only,
                       const Progress& progress, characterize::MeasureResult& found) {
     const characterize::PositionNoise noise{arguments.parsed("position-noise", parse_noise), arguments.count("noise-replicas")};
-    found.append(characterize::measure_noise_shifts(packing, found, noise, option_values(arguments), only,
+    found.append(characterize::measure_noise_shifts(packing, found, noise, option_values(arguments, only), only,
                                                     static_cast<std::uint64_t>(arguments.count("seed")), progress));
 }
 
@@ -95,8 +104,8 @@ void check_comparison(const Arguments& arguments) {
 characterize::HeterogeneityComparison compare(const Arguments& arguments, const std::array<std::string, 2>& names,
                                               const std::array<Packing, 2>& packings, const Progress& progress) {
     const auto input = [&](const Packing& packing) {
-        return characterize::MeasureInput(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
-                                          progress);
+        return characterize::MeasureInput(packing, option_values(arguments, {"doh", "voronoi"}),
+                                          static_cast<std::uint64_t>(arguments.count("seed")), progress);
     };
     return characterize::compare_heterogeneity(input(packings[0]), input(packings[1]), names);
 }
@@ -136,7 +145,7 @@ void run_characterize(const Arguments& arguments) {
     }
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
-    chosen_measures(arguments);
+    option_values(arguments, chosen_measures(arguments));
     const Packing packing = io::read_structure(arguments.input()).packing;
     const std::string target = checked_target(arguments);
     forecast_characterization(arguments, packing.size());
@@ -174,6 +183,7 @@ std::vector<Option> all_options() {
     options.push_back(count("seed", "seed of the random numbers", "1", at_least(0)));
     options.push_back(output("write to a new file; results are added to the input file when not given"));
     options.push_back(flag("force", "replace an existing output file"));
+    read_only_with(options, {"noise-replicas"}, "position-noise");
     return options;
 }
 
@@ -194,9 +204,9 @@ std::vector<std::string> measure_notes() {
 }  // namespace
 
 Findings characterize_packing(const Arguments& arguments, const Packing& packing, const Progress& progress) {
-    const characterize::MeasureInput input(packing, option_values(arguments), static_cast<std::uint64_t>(arguments.count("seed")),
-                                           progress);
     const std::vector<std::string> only = chosen_measures(arguments);
+    const characterize::MeasureInput input(packing, option_values(arguments, only),
+                                           static_cast<std::uint64_t>(arguments.count("seed")), progress);
     characterize::MeasureResult found = characterize::run_measures(input, only);
     if (arguments.has("position-noise")) {
         add_noise_shifts(arguments, packing, only, progress, found);

@@ -215,13 +215,17 @@ void report_check(const Arguments& arguments, const CheckedExperiment& found) {
     report(arguments, json, lines);
 }
 
-/// Options that this way of working would not heed.
-void refuse_options(const Arguments& arguments, const std::string& mode, const std::vector<std::string>& names) {
-    for (const std::string& name : names) {
-        if (arguments.has(name)) {
-            throw InputError("--" + name + " has no meaning " + mode);
-        }
-    }
+/// What each way of working reads.
+void add_conditions_of_modes(std::vector<Option>& options) {
+    const std::vector<std::string> of_inference = {"causes", "level", "bootstrap", "seed"};
+    not_read_with(options, of_inference, "catalogue");
+    not_read_with(options, of_inference, "new");
+    not_read_with(options, of_inference, "check");
+    not_read_with(options, {"output", "force", "check", "power", "new"}, "catalogue");
+    not_read_with(options, {"output", "force"}, "check");
+    not_read_with(options, {"check", "power"}, "new");
+    not_read_with(options, {"check"}, "power");
+    read_only_with(options, {"data-sets", "diagnoses"}, "power");
 }
 
 void run_diagnose(const Arguments& arguments) {
@@ -233,22 +237,17 @@ void run_diagnose(const Arguments& arguments) {
         return;
     }
     if (arguments.flag("new")) {
-        refuse_options(arguments, "with --new", {"check", "power", "causes", "data-sets", "diagnoses"});
         run_new(arguments);
         return;
     }
     if (arguments.flag("power")) {
-        refuse_options(arguments, "with --power", {"check"});
         run_power(arguments);
         return;
     }
-    refuse_options(arguments, "without --power", {"data-sets", "diagnoses"});
-    if (arguments.flag("check")) {
-        refuse_options(arguments, "with --check, which writes nothing and tries no causes", {"output", "force", "causes"});
-    } else if (!arguments.has("output")) {
-        throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
-    }
     if (!arguments.flag("check")) {
+        if (!arguments.has("output")) {
+            throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
+        }
         run_diagnosis(arguments);
         return;
     }
@@ -281,6 +280,7 @@ Verb diagnose_verb() {
         .alone = "catalogue"};
     const std::vector<Option> own = diagnosis_options();
     verb.options.insert(verb.options.end(), own.begin(), own.end());
+    add_conditions_of_modes(verb.options);
     return verb;
 }
 

@@ -149,10 +149,20 @@ Table power_table(const Power& power, const diagnose::PowerOptions& options) {
     return table;
 }
 
+/// Many data sets are diagnosed, each with fewer draws than a single diagnosis.
+int bootstrap_of(const Arguments& arguments) {
+    constexpr std::int64_t most = 199;
+    if (arguments.given("bootstrap") && arguments.count("bootstrap") > most) {
+        throw InputError("--bootstrap is at most " + std::to_string(most) + " with --power, which diagnoses many data sets");
+    }
+    return static_cast<int>(std::min(arguments.count("bootstrap"), most));
+}
+
 }  // namespace
 
 void run_power(const Arguments& arguments) {
     const Stopwatch clock;
+    const int bootstrap = bootstrap_of(arguments);
     std::optional<ResultFolder> folder;
     if (arguments.has("output")) {
         folder.emplace(arguments.text("output"), "power.json", std::vector<std::string>{}, arguments.flag("force"));
@@ -175,7 +185,7 @@ void run_power(const Arguments& arguments) {
     options.data_sets = given("data-sets", 200);
     options.diagnoses = given("diagnoses", 4);
     options.diagnosis.level = arguments.quantity("level");
-    options.diagnosis.bootstrap = static_cast<int>(std::min<std::int64_t>(arguments.count("bootstrap"), 199));
+    options.diagnosis.bootstrap = bootstrap;
     options.diagnosis.seed = static_cast<std::uint64_t>(arguments.count("seed"));
     ExperimentStructures structures = naming(arguments.input(), [&] {
         ExperimentStructures found = check_structures(file.experiment);

@@ -54,19 +54,55 @@ BrownianOptions brownian_options(const Arguments& arguments) {
     return options;
 }
 
+/// What only a suspension has that is made here.
+const std::vector<std::string> of_suspension = {"particles",         "volume-fraction",         "radius",
+                                                "size-distribution", "equilibration-potential", "equilibration-time"};
+
+/// Of Python's `start` the table of options knows nothing. A packing that is there has no double layer but that of the run.
+void check_beside_start(const Arguments& arguments) {
+    std::vector<std::string> not_read = of_suspension;
+    if (arguments.has("potential-table")) {
+        not_read.insert(not_read.end(),
+                        {"debye-length", "ionic-strength", "double-layer", "hamaker-constant", "permittivity", "valency"});
+    }
+    for (const std::string& name : not_read) {
+        if (arguments.given(name)) {
+            throw InputError("--" + name + " is not read where the run goes on from a packing" +
+                             (arguments.has("potential-table") ? " by a table of the potential" : ""));
+        }
+    }
+}
+
+/// What the options need to be read.
+void add_conditions(std::vector<Option>& options) {
+    std::vector<std::string> of_run;  // those of the potential apart, and what a picture needs
+    for (const Option& option : options) {
+        of_run.push_back(option.name);
+    }
+    for (const Option& option : potential_options()) {
+        std::erase(of_run, option.name);
+    }
+    for (const char* name : {"radius", "start", "force"}) {
+        std::erase(of_run, name);
+    }
+    not_read_with(options, of_suspension, "start");
+    not_read_with(options, of_run, "potential-curve");
+    read_only_with(options, {"picture"}, "potential-curve");
+    read_only_with(options, {"friction"}, "tangential-stiffness");
+    read_only_with(options, {"rolling-friction"}, "rolling-stiffness");
+    read_only_with(options, {"density-difference"}, "gravity");
+    read_only_with(options, {"plateau-time", "plateau-change"}, "stop-plateau", {"coordination", "mean-gap"});
+    read_only_with(options, {"checkpoint-interval"}, "checkpoint");
+}
+
 /// Random positions, brought to equilibrium at a high surface potential.
 Packing suspension_of(const Arguments& arguments, const BrownianOptions& run, const Eigen::VectorXd& given,
                       const Progress& progress) {
     if (!arguments.has("volume-fraction")) {
         throw InputError("coagula generate brownian needs --volume-fraction, or --start");
     }
-    const Eigen::VectorXd radii =
-        given.size() > 0
-            ? given
-            : draw_radii(parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
-                         arguments.count("particles"), run.seed);
     return stabilised_suspension(
-        {arguments.quantity("volume-fraction"), radii, run.seed},
+        {arguments.quantity("volume-fraction"), radii_of(arguments, given, run.seed), run.seed},
         [&](double radius) { return make_potential(arguments, radius, arguments.quantity("equilibration-potential")); }, run,
         arguments.optional_quantity("equilibration-time").value_or(unset), progress);
 }
@@ -167,6 +203,9 @@ Generated generate_brownian(const Arguments& arguments, const std::optional<Pack
     if (!start && !std::isnan(radius)) {
         choose_time_step(make_potential(arguments, radius), radius, radius, options);
     }
+    if (start) {
+        check_beside_start(arguments);
+    }
     const Packing first = start ? *start : suspension_of(arguments, options, radii, progress);
     const PairPotential potential = make_potential(arguments, mean_radius(first));
     BrownianRun made = run_or_resume(arguments, first, potential, options, progress);
@@ -190,9 +229,10 @@ Verb generate_brownian_verb() {
         quantity("volume-fraction", "1", "volume of the spheres over that of the box; required without --start", "",
                  between(0, 0.55)),
         particle_radius("mean radius of the particles; required, unless a table or a file gives the radii"),
-        reads(text("size-distribution", "NAME",
-                   "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) or FILE.csv (columns radius, fraction)",
-                   "monodisperse")),
+        reads(text(
+            "size-distribution", "NAME",
+            "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) or FILE.csv (columns radius, fraction)",
+            "monodisperse")),
         reads(text("start", "FILE", "go on from the packing in this file instead of a suspension in equilibrium")),
         quantity("equilibration-potential", "V", "surface potential at which the suspension is brought to equilibrium", "50mV",
                  within(1e-6, 1)),
@@ -246,6 +286,7 @@ Verb generate_brownian_verb() {
         output("HDF5 file to write"),
         flag("force", "replace an existing file")};
     options.insert(options.end(), rest.begin(), rest.end());
+    add_conditions(options);
     return {.name = "generate brownian",
             .summary = "coagulate a stabilised suspension by Brownian dynamics with DLVO forces",
             .input = "",

@@ -18,18 +18,13 @@ const std::string vem_group = "/generation/vem/";
 
 generators::VoidExpansionOptions expansion_options(const Arguments& arguments, const Eigen::VectorXd& radii) {
     generators::VoidExpansionOptions options;
-    options.particles = radii.size() > 0 ? radii.size() : arguments.count("particles");
+    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
+    options.radii = radii_of(arguments, radii, options.seed);
+    options.particles = options.radii.size();
     options.voids = arguments.has("voids") ? arguments.count("voids") : options.particles / 2;
     options.volume_fraction = arguments.quantity("volume-fraction");
     options.target_coordination = arguments.quantity("target-coordination");
     options.contact_tolerance = arguments.quantity("contact-tolerance");
-    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    options.radii = radii;
-    if (radii.size() == 0) {
-        options.radii = generators::draw_radii(
-            parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")), options.particles,
-            options.seed);
-    }
     return options;
 }
 

@@ -109,6 +109,13 @@ void append_skipped(const std::vector<std::string>& skipped, Json& json, Table& 
     }
 }
 
+/// Only a PNG is made of dots.
+void check_resolution(const Arguments& arguments, PictureFormat format) {
+    if (arguments.given("resolution") && format != PictureFormat::png) {
+        throw InputError("--resolution is read for a PNG only: a picture in SVG or PDF has no dots");
+    }
+}
+
 PictureSize size_of(const Arguments& arguments, const Drawing& drawing) {
     PictureSize size = report::default_size(drawing);
     const double shape = size.height / size.width;
@@ -217,6 +224,7 @@ Printed plot_figure(const Arguments& arguments) {
     const std::string& path = arguments.text("output");
     const bool force = arguments.flag("force");
     const PictureFormat format = report::picture_format(path, "--output");
+    check_resolution(arguments, format);
     const std::vector<std::string> files = paths_of(arguments);
     check_output(arguments, path, files);
     if (arguments.has("data")) {
@@ -274,6 +282,7 @@ Printed plot_paper(const Arguments& arguments) {
     }
     const std::string ending = "." + arguments.text("format");
     const PictureFormat format = report::picture_format(ending, "--format");
+    check_resolution(arguments, format);
     std::vector<std::string> files;
     for (int figure = 1; figure <= 6; ++figure) {
         files.push_back("figure" + std::to_string(figure) + ending);
@@ -351,7 +360,7 @@ Verb plot_verb() {
     notes.insert(notes.begin(), "Figures (docs/figures.md shows them):");
     notes.insert(notes.end(), {"Several files are drawn in one figure. A folder stands for all .h5 and .csv files in it.",
                                "--paper draws figures 1 - 6 of Schenker et al. 2012 into the folder that --output names."});
-    return {
+    Verb verb{
         .name = "plot",
         .summary = "a figure of result files for a paper, as SVG, PNG or PDF",
         .input = "FILE ...",
@@ -375,6 +384,8 @@ Verb plot_verb() {
         .run = run_plot,
         .notes = notes,
         .many_inputs = true};
+    read_only_with(verb.options, {"format"}, "paper");
+    return verb;
 }
 
 }  // namespace coagula::tools

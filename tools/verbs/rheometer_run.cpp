@@ -67,22 +67,28 @@ std::string run_signature(const Arguments& arguments, const Packing& packing, co
 }
 
 std::vector<Option> rheometer_options() {
-    return {choice("boundary", {"plates", "periodic"},
-                   "dem: shear between plates of three layers of particles, or of a periodic cell", "plates"),
-            quantity("amplitude", "1", "dem: strain amplitude of the last oscillation; amplitudes grow linearly up to it", "0.001",
-                     within(1e-15, 1)),
-            flag("constant-amplitude", "dem: all oscillations have the strain of --amplitude"),
-            count("oscillations", "dem: number of oscillations", "10", within(1, 100000)),
-            count("steps-per-oscillation", "dem: time steps of an oscillation, a multiple of 100", "24000", within(100, 100000000)),
-            quantity("damping", "1", "dem: coefficient of the local damping", "0.9", within(0, 0.999)),
-            quantity("density", "kg/m3", "dem: density of the particles, from which follows by how much their masses are scaled",
-                     "3690kg/m3", within(1e-3, 1e6)),
-            choice("rest-length", {"found", "radii"},
-                   "dem, quasistatic: distance at which a bond bears no force, that in the packing or r_i + r_j", "found"),
-            text("orientation", "LIST", "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all", "all"),
-            writes(text("checkpoint", "FILE",
-                        "dem, quasistatic: file for what is done, written after every oscillation or orientation; a run that finds "
-                        "it goes on from there"))};
+    std::vector<Option> options = {
+        choice("boundary", {"plates", "periodic"}, "dem: shear between plates of three layers of particles, or of a periodic cell",
+               "plates"),
+        quantity("amplitude", "1", "dem: strain amplitude of the last oscillation; amplitudes grow linearly up to it", "0.001",
+                 within(1e-15, 1)),
+        flag("constant-amplitude", "dem: all oscillations have the strain of --amplitude"),
+        count("oscillations", "dem: number of oscillations", "10", within(1, 100000)),
+        count("steps-per-oscillation", "dem: time steps of an oscillation, a multiple of 100", "24000", within(100, 100000000)),
+        quantity("damping", "1", "dem: coefficient of the local damping", "0.9", within(0, 0.999)),
+        quantity("density", "kg/m3", "dem: density of the particles, from which follows by how much their masses are scaled",
+                 "3690kg/m3", within(1e-3, 1e6)),
+        choice("rest-length", {"found", "radii"},
+               "dem, quasistatic: distance at which a bond bears no force, that in the packing or r_i + r_j", "found"),
+        text("orientation", "LIST", "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all", "all"),
+        writes(text("checkpoint", "FILE",
+                    "dem, quasistatic: file for what is done, written after every oscillation or orientation; a run that finds "
+                    "it goes on from there"))};
+    read_only_with(options,
+                   {"boundary", "amplitude", "constant-amplitude", "oscillations", "steps-per-oscillation", "damping", "density"},
+                   "method", {"dem"});
+    read_only_with(options, {"rest-length", "orientation", "checkpoint"}, "method", {"quasistatic", "dem"});
+    return options;
 }
 
 mechanics::RheometerOptions rheometer_options_of(const Arguments& arguments, const ContactModel& model,

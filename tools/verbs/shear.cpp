@@ -250,9 +250,21 @@ void check_files(const Arguments& arguments, const std::vector<std::string>& fil
     }
 }
 
+std::string how_to_have_it_faster(const Arguments& arguments) {
+    const std::string& method = arguments.text("method");
+    if (method == "linear") {
+        return {};
+    }
+    const std::string shorter = method == "dem"               ? "--oscillations and --steps-per-oscillation"
+                                : arguments.has("amplitudes") ? "amplitudes, of which the largest take most, and --steps-per-cycle"
+                                                              : "--ramp-steps";
+    return (arguments.text("orientation") == "all" ? "--orientation xy takes a sixth of it, and fewer " : "fewer ") + shorter +
+           " take less";
+}
+
 void shear_files(const Arguments& arguments, const std::vector<std::string>& files, const ContactModel& model) {
     const Stopwatch clock;
-    const Progress progress = make_progress(arguments.flag("quiet"));
+    const Progress progress = make_progress(arguments.flag("quiet"), how_to_have_it_faster(arguments));
     check_files(arguments, files, model);
     std::vector<Json> structures;
     for (const std::string& file : files) {
@@ -274,7 +286,7 @@ void run_shear(const Arguments& arguments) {
         shear_files(arguments, files, model);
         return;
     }
-    const Progress progress = make_progress(arguments.flag("quiet"));
+    const Progress progress = make_progress(arguments.flag("quiet"), how_to_have_it_faster(arguments));
     const std::string target = checked_target(arguments);
     check_replaced(arguments, files.front(), model);
     const Packing packing = io::read_structure(files.front()).packing;

@@ -1,12 +1,12 @@
 #include "size_distribution_text.hpp"
 
-#include "cli/arguments.hpp"
-
 #include <coagula/common/checks.hpp>
+#include <coagula/generators/size_distribution.hpp>
 #include <coagula/io/table.hpp>
 #include <coagula/io/units.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 namespace coagula::tools {
@@ -40,8 +40,7 @@ SizeDistribution read_size_table(const std::string& path) {
     return sizes;
 }
 
-}  // namespace
-
+/// @param mean_radius of the particles [m]; a table has its own.
 SizeDistribution parse_size_distribution(const std::string& text, std::optional<double> mean_radius) {
     const std::size_t colon = text.find(':');
     const std::string name = text.substr(0, colon);
@@ -53,6 +52,9 @@ SizeDistribution parse_size_distribution(const std::string& text, std::optional<
             throw InputError("--size-distribution: there is no file '" + text +
                              "'; give monodisperse, normal:S, lognormal:S or a CSV file");
         }
+        if (mean_radius) {
+            throw InputError("--radius is not read with --size-distribution " + text + ", which gives the radii itself");
+        }
         return read_size_table(text);
     }
     if (!mean_radius) {
@@ -60,6 +62,30 @@ SizeDistribution parse_size_distribution(const std::string& text, std::optional<
     }
     sizes.mean_radius = *mean_radius;
     return sizes;
+}
+
+void check_beside_radii(const Arguments& arguments, Index radii) {
+    if (arguments.given("particles") && arguments.count("particles") != radii) {
+        throw InputError("--particles is " + std::to_string(arguments.count("particles")) + ", but " + std::to_string(radii) +
+                         " radii are given: leave one of the two out");
+    }
+    for (const char* name : {"radius", "size-distribution"}) {
+        if (arguments.given(name)) {
+            throw InputError(std::string("--") + name + " is not read where the radii of the particles are given");
+        }
+    }
+}
+
+}  // namespace
+
+Eigen::VectorXd radii_of(const Arguments& arguments, const Eigen::VectorXd& given, std::uint64_t seed) {
+    if (given.size() > 0) {
+        check_beside_radii(arguments, given.size());
+        return given;
+    }
+    return generators::draw_radii(
+        parse_size_distribution(arguments.text("size-distribution"), arguments.optional_quantity("radius")),
+        arguments.count("particles"), seed);
 }
 
 }  // namespace coagula::tools

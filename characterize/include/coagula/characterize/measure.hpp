@@ -86,6 +86,10 @@ std::vector<std::string> measure_names();
 /// The options of all measures, each once.
 std::vector<MeasureOption> measure_options();
 
+/// Throws std::invalid_argument where none of the measures that run_measures(input, only) runs reads one of the options that are
+/// given.
+void check_options(const std::vector<std::string>& given, const std::vector<std::string>& only);
+
 /// Runs the measures named in `only` ("all": every one; empty: those of the default), those asked for by an option, and those that
 /// go along. A few facts about the packing itself come first. A measure that fails, or finds what is no number, is left out with a
 /// sentence and takes no other with it. Throws std::invalid_argument for an unknown name or bad packing, NotApplicable when a
