@@ -9,7 +9,9 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace coagula::report {
 
@@ -54,8 +56,26 @@ private:
     int descriptor_;
 };
 
-/// @return the exit status, or -1 when gnuplot could not be started.
-int spawn_gnuplot(const MemoryFile& commands, const MemoryFile& picture, const MemoryFile& complaints) {
+/// The environment without what gnuplot would take for settings: a terminal, files that it reads at its start.
+std::vector<char*> environment_of_gnuplot() {
+    std::vector<char*> kept;
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string_view variable = *entry;
+        if (!variable.starts_with("GNU") && !variable.starts_with("FIT_")) {
+            kept.push_back(*entry);
+        }
+    }
+    kept.push_back(nullptr);
+    return kept;
+}
+
+/// How gnuplot ended.
+struct End {
+    int not_started = 0;  ///< errno; 0: it ran
+    int status = 0;       ///< its exit status
+};
+
+End spawn_gnuplot(const MemoryFile& commands, const MemoryFile& picture, const MemoryFile& complaints) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, commands.descriptor(), STDIN_FILENO);
@@ -63,14 +83,20 @@ int spawn_gnuplot(const MemoryFile& commands, const MemoryFile& picture, const M
     posix_spawn_file_actions_adddup2(&actions, complaints.descriptor(), STDERR_FILENO);
     std::array<std::string, 3> words{"gnuplot", "--default-settings", "-"};
     std::array<char*, 4> arguments{words[0].data(), words[1].data(), words[2].data(), nullptr};
+    std::vector<char*> environment = environment_of_gnuplot();
     pid_t child = 0;
-    const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+    const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);
-    int status = 0;
-    if (failed != 0 || waitpid(child, &status, 0) != child) {
-        return -1;
+    if (failed != 0) {
+        return {.not_started = failed};
     }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) {
+            return {};  // SIGCHLD is ignored in this process, and nobody knows the status: the picture tells
+        }
+    }
+    return {.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1};
 }
 
 /// gnuplot repeats the command before it says what is wrong with it.
@@ -101,11 +127,13 @@ GnuplotOutput run_gnuplot(const std::string& commands) {
     const MemoryFile picture;
     const MemoryFile complaints;
     script.fill(commands);
-    const int status = spawn_gnuplot(script, picture, complaints);
+    const End end = spawn_gnuplot(script, picture, complaints);
     GnuplotOutput output;
-    if (status < 0 || status == 127) {
+    if (end.not_started == ENOENT || end.status == 127) {
         output.problem = "gnuplot is not installed (Debian: apt-get install gnuplot-nox)";
-    } else if (output.picture = status == 0 ? picture.text() : ""; output.picture.empty()) {
+    } else if (end.not_started != 0) {
+        output.problem = std::string("gnuplot cannot be started: ") + std::strerror(end.not_started);
+    } else if (output.picture = end.status == 0 ? picture.text() : ""; output.picture.empty()) {
         output.problem = "gnuplot failed: " + last_line(complaints.text());
     }
     return output;

@@ -1,6 +1,9 @@
 """Names and texts that mean harm: no interpreter carries them out, no reader hangs, and one sentence says what is wrong."""
 
+import csv
+import io
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -54,6 +57,57 @@ class Terminal(ProgramTest):
         self.copy_of_packing(name)
         for shown in (complaint, self.succeed("info", name), self.succeed("characterize", name, "--only", "overlap")):
             self.assertNotRegex(shown, "[\x00-\x09\x0b-\x1f\x7f-\x9f]")
+
+
+class Spreadsheets(ProgramTest):
+    def test_a_name_is_no_formula(self):
+        names = ['=HYPERLINK("http:)', "+1+1.h5", "-2*3", "@SUM(1)", "\t=1", "plain.h5"]
+        for name in names:
+            self.copy_of_packing(name)
+        printed = self.succeed("info", "--csv", *("./" + name for name in names))
+        self.assertNotIn("'", printed)  # nothing begins with one of the characters
+        os.mkdir(self.folder / "-1")
+        self.copy_of_packing("-1/a.h5")
+        rows = list(csv.reader(io.StringIO(self.succeed("info", "--csv", "--", *names, "-1/a.h5"))))
+        self.assertEqual([row[0] for row in rows[1:]], ["'" + name for name in names[:5]] + ["plain.h5", "'-1/a.h5"])
+
+
+class MissingData(ProgramTest):
+    def test_the_units_database(self):
+        self.copy_of_packing("a.h5")
+        missing = {**os.environ, "UDUNITS2_XML_PATH": "/nowhere"}
+        self.write("a.csv", "x [nm],y [nm],z [nm]\n1,2,3\n")
+        for words in (["info", "a.h5"], ["import", "a.csv", "--radius", "1nm", "--box", "9nm", "-o", "b.h5"],
+                      ["calibrate", "a.h5", "--measured", "1MPa"], ["shear", "a.h5", "--normal-stiffness", "1N/m"]):
+            self.fail_with(1, *words, says="the units database of UDUNITS-2 cannot be read", env=missing)
+
+
+class Limits(ProgramTest):
+    """Little address space, few threads: a sentence or a result, and never a program that does not end."""
+
+    def limited(self, megabytes, *words):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+
+        return subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=60, preexec_fn=limit,
+                              env={**os.environ, "OPENBLAS_NUM_THREADS": "8"})
+
+    def test_linear_algebra_without_room(self):
+        self.copy_of_packing("a.h5")
+        for megabytes in (200, 300, 450):
+            for words in (["shear", "a.h5", "--threads", "1"], ["shear", "a.h5", "--solver", "iterative"],
+                          ["shear", "a.h5", "--frequency", "1Hz"], ["characterize", "a.h5", "--only", "rigidity"]):
+                done = self.limited(megabytes, *words, "-o", f"{megabytes}.h5", "--force")
+                self.assertIn(done.returncode, (0, 1), done.stderr)
+                if done.returncode == 1:
+                    self.check_sentence(done.stderr)
+
+    def test_more_threads_than_there_can_be(self):
+        self.succeed(*SMALL, "--threads", "4096", "-o", "a.h5")
+        done = self.limited(1000, *SMALL, "--threads", "4096", "-o", "b.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.limited(1000, "shear", "b.h5", "--threads", "16")
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 class Names(ProgramTest):

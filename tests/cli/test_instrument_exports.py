@@ -58,7 +58,7 @@ class NewExperiment(ProgramTest):
         self.fail_with(2, "diagnose", "--new", creep, DATA / "drilling_suspensions/RheogramSet.txt", "-o", "e.toml",
                        says=("none of the 386 tables can be diagnosed as it is", "table 1 of ", "; ..."))
         self.succeed("diagnose", "--new", creep, JAPANESE, "-o", "e.toml")  # one that can be used is enough
-        self.fail_with(2, "diagnose", "--new", JAPANESE, "-o", "e.toml", says="e.toml")  # is there already
+        self.fail_with(3, "diagnose", "--new", JAPANESE, "-o", "e.toml", says="e.toml")  # is there already
 
     def test_flow_curves_are_of_an_oil(self):
         self.assertEqual(self.accepted(LINSEED), 12 * ["flow-curve"])
@@ -70,12 +70,13 @@ class NewExperiment(ProgramTest):
         self.assertEqual(len(self.succeed_json("diagnose", "--check", "e.toml")["measurements"]), 25)
 
     def test_names_that_toml_must_quote(self):
-        for name in ('a "b" c.csv', "back\\slash.csv", "tab\tand\nline.csv"):
+        for name in ('a "b" c.csv', "back\\slash.csv", "tab\tand\nline.csv", "a\x7fb\x1b.csv", "\x85 c.csv"):
             self.write(name, "ω [rad/s],G' (Pa),mine [m]\n" + "".join(f"{w},{100 + w},1\n" for w in range(1, 8)))
             self.succeed("diagnose", "--new", name, "-o", "e.toml", "--force")
-            if "\n" not in name:
-                (table,) = self.succeed_json("diagnose", "--check", "e.toml")["measurements"]
-                self.assertEqual((table["kind"], table["not_understood"]), ("frequency-sweep", ["'mine [m]'"]))
+            (table,) = self.succeed_json("diagnose", "--check", "e.toml")["measurements"]
+            self.assertEqual((table["kind"], table["not_understood"]), ("frequency-sweep", ["'mine [m]'"]))
+            self.assertEqual(table["sample"], name[:-len(".csv")])
+            self.assertNotRegex((self.folder / "e.toml").read_text(), "[\x00-\x09\x0b-\x1f\x7f-\x9f]")
 
     def test_the_page_shows_what_the_program_reads(self):
         done = subprocess.run([sys.executable, ROOT / "scripts/update-instrument-exports", "--check"], capture_output=True, text=True)
@@ -85,7 +86,7 @@ class NewExperiment(ProgramTest):
         self.fail_with(2, "diagnose", "--new", says="needs EXPERIMENT.toml")
         self.fail_with(2, "diagnose", "--new", "absent.csv", says="absent.csv")
         self.fail_with(2, "diagnose", "--new", DATA / XML, says="which is not read: export the measurement as text")
-        self.fail_with(2, "diagnose", "--new", "--check", JSON, says="--check has no meaning with --new")
+        self.fail_with(2, "diagnose", "--new", "--check", JSON, says="--check is not read with --new")
         self.fail_with(2, "diagnose", JSON, JSON, says="takes one EXPERIMENT.toml")
 
 

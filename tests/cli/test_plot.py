@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import unittest
 from xml.etree import ElementTree
 
@@ -191,6 +192,17 @@ class Plot(ProgramTest):
         self.write("b.svg", "precious")
         self.fail_with(3, "plot", path, *figure, "-o", "b.svg", says=["b.svg", "--force"])
         self.assertEqual((self.folder / "b.svg").read_text(), "precious")
+
+    def test_settings_of_gnuplot_and_of_the_caller_do_not_matter(self):
+        path = self.copy_of_measured("a.h5")
+        self.succeed("plot", path, "--figure", "contacts", "-o", "a.svg")
+        pictures = [(self.folder / "a.svg").read_bytes()]
+        for variable, value in (("GNUTERM", "nonsense"), ("GNUTERM", "dumb"), ("GNUPLOT_LIB", "/nowhere"), ("FIT_LOG", "/nowhere/log")):
+            self.succeed("plot", path, "--figure", "contacts", "-o", "a.svg", "--force", env={**os.environ, variable: value})
+            pictures.append((self.folder / "a.svg").read_bytes())
+        self.succeed("plot", path, "--figure", "contacts", "-o", "a.svg", "--force",
+                     preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+        self.assertEqual({*pictures, (self.folder / "a.svg").read_bytes()}, {pictures[0]})
 
     def test_without_gnuplot_nothing_is_written(self):
         path = self.copy_of_measured("a.h5")

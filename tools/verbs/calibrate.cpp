@@ -75,7 +75,7 @@ Moduli measured_moduli(const Arguments& arguments, std::size_t structures) {
     try {
         std::transform(words.begin(), words.end(), moduli.begin(),
                        [](const std::string& word) { return parse_quantity(word, "Pa", physical::modulus); });
-    } catch (const std::exception& error) {
+    } catch (const InputError& error) {
         throw InputError(std::string("--measured: ") + error.what());
     }
     return moduli;

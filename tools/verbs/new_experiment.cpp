@@ -5,10 +5,13 @@
 #include <coagula/report/printable.hpp>
 #include <coagula/report/results.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <string_view>
 
 namespace coagula::tools {
 
@@ -22,13 +25,23 @@ using diagnose::MeasurementKind;
 
 constexpr std::size_t long_table = 40;  // rows, from which on some can be left out
 
-/// A text of TOML.
+/// A text of TOML that stands for the same characters: JSON writes the control characters as TOML does, but for the last two kinds.
 std::string quoted(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : printable(text)) {
-        quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+    const std::string json = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::string quoted;
+    for (std::size_t place = 0; place < json.size(); ++place) {
+        const auto byte = static_cast<unsigned char>(json[place]);
+        const bool delete_character = byte == 0x7f;
+        const bool second_control = byte == 0xc2 && static_cast<unsigned char>(json[place + 1]) < 0xa0;  // U+0080 to U+009F
+        if (delete_character || second_control) {
+            constexpr std::string_view digits = "0123456789abcdef";
+            const auto code = static_cast<unsigned char>(json[place += second_control ? 1 : 0]);
+            quoted += std::string("\\u00") + digits[code >> 4U] + digits[code & 15U];
+        } else {
+            quoted += json[place];
+        }
     }
-    return quoted + '"';
+    return quoted;
 }
 
 std::string stem_of(const io::MeasuredFile& file) {

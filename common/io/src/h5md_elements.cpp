@@ -23,7 +23,7 @@ double per_metre(const File& file, const std::string& object, const std::optiona
     }
     try {
         return unit_factor("m", unit == "A" ? "angstrom" : unit);  // H5MD files name the angstrom so; UDUNITS means the ampere
-    } catch (const std::exception&) {
+    } catch (const InputError&) {
         if (length_unit) {
             return 1 / *length_unit;  // a name such as "sigma", whose length the user gives
         }
@@ -131,7 +131,8 @@ std::vector<Eigen::Vector3d> read_edges(const File& file, const std::string& edg
             file.fail(element.data, "is a sheared box, which coagula does not read");
         }
         if ((matrix.diagonal().array() <= 0).any()) {
-            file.fail(edges, "has an edge of " + to_text(matrix.diagonal().minCoeff()) + " m, but edges must be finite and positive");
+            file.fail(edges,
+                      "has an edge of " + to_text(matrix.diagonal().minCoeff()) + " m, but edges must be finite and positive");
         }
         lengths.emplace_back(matrix.diagonal());
     }

@@ -3,7 +3,10 @@
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/units.hpp>
 
+#include <charconv>
 #include <cmath>
+#include <string_view>
+#include <system_error>
 
 #include <coagula/io/atomic_file.hpp>
 #include "csv_reader.hpp"
@@ -38,8 +41,20 @@ void check_value(const LineReader& file, const TableColumn& column, double value
     }
 }
 
+bool is_number(const std::string& field) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    return error == std::errc{} && end == field.data() + field.size();
+}
+
+/// A spreadsheet takes a text that begins with one of these for a formula and runs it: an apostrophe in front makes it a text.
+std::string harmless(const std::string& field) {
+    const bool formula = !field.empty() && std::string_view("=+-@\t\r").find(field.front()) != std::string_view::npos;
+    return formula && !is_number(field) ? "'" + field : field;
+}
+
 std::string quoted(const std::string& field) {
-    if (field.find_first_of(",;\t\"\n") == std::string::npos) {
+    if (field.find_first_of(",;\t\"\n\r") == std::string::npos) {
         return field;
     }
     std::string text = "\"";
@@ -98,7 +113,7 @@ std::string csv_text(const std::vector<std::vector<std::string>>& rows) {
     std::string out;
     for (const std::vector<std::string>& row : rows) {
         for (std::size_t k = 0; k < row.size(); ++k) {
-            out += (k > 0 ? "," : "") + quoted(row[k]);
+            out += (k > 0 ? "," : "") + quoted(harmless(row[k]));
         }
         out += '\n';
     }

@@ -138,7 +138,7 @@ double per_metre(const LineReader& file, const std::string& object, const std::s
     }
     try {
         return unit_factor("m", unit);
-    } catch (const std::exception&) {
+    } catch (const InputError&) {
         file.fail(object + " has the unit '" + unit + "', which is not a length");
     }
 }

@@ -104,7 +104,9 @@ Conversion conversion(const std::string& from, const std::string& to, const std:
     }
     const std::lock_guard lock(units.mutex);
     const Unit target(ut_parse(units.system.get(), to.c_str(), UT_UTF8), ut_free);
-    require(target != nullptr, "'" + to + "' is not a unit");
+    if (!target) {
+        throw InputError("'" + to + "' is not a unit");
+    }
     const Unit source(digits_are_exponents(from) ? ut_parse(units.system.get(), from.c_str(), UT_UTF8) : nullptr, ut_free);
     if (!source) {
         throw InputError(what + ": '" + from + "' is not a unit (expected: a unit such as " + to + ")");

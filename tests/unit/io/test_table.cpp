@@ -59,6 +59,11 @@ TEST_F(Table, KeepsTheRangeOfAColumn) {
               path + ", line 3: a is -2e-09 m, but must be 1e-09 .. 1e-06 m");
 }
 
+TEST_F(Table, WritesNoFormulas) {
+    EXPECT_EQ(csv_text({{"=1+1", "+1", "-1e-3", "-x", "@a", "a=b", "+", "-inf"}}), "'=1+1,'+1,-1e-3,'-x,'@a,a=b,'+,-inf\n");
+    EXPECT_EQ(csv_text({{"\t=1", "=a,b", "\r=1"}}), "\"'\t=1\",\"'=a,b\",\"'\r=1\"\n");
+}
+
 TEST_F(Table, WritesWhatItReads) {
     write_rows(file("t.csv"), {{"name", "a", "modulus [Pa]"}, {"x, \"y\"", to_text(0.1), to_text(1.0 / 3)}, {"", "2", "3e6"}},
                false);

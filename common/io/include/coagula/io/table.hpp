@@ -30,7 +30,8 @@ std::vector<Eigen::VectorXd> read_table(const std::string& path, const std::vect
 /// The fields of one column of such a file as they stand, one per line. Throws InputError where there is no such column.
 std::vector<std::string> read_text_column(const std::string& path, const std::string& name);
 
-/// Rows of fields as CSV; fields with separators or quotes are quoted.
+/// Rows of fields as CSV; fields with separators or quotes are quoted. A text that a spreadsheet would run as a formula ("=...",
+/// "+...", "-...", "@...") has an apostrophe in front; numbers stay as they are.
 std::string csv_text(const std::vector<std::vector<std::string>>& rows);
 
 /// Writes them through a temporary file and a rename. Throws as write_structure does.
