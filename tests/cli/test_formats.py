@@ -102,7 +102,7 @@ class Gsd(ProgramTest):
             return list(file["particles/trajectory/radius"][:])
 
     def refuse(self, *says, words=()):
-        self.fail_with(2, "import", "hoomd.gsd", "--length-unit", "1um", *words, "-o", "a.h5", says=["hoomd.gsd", *says])
+        self.fail_with(2, "import", "hoomd.gsd", "--length-unit", "1um", *words, "-o", "none.h5", says=["hoomd.gsd", *says])
 
     def test_two_dimensions_are_refused(self):
         for lz, dimensions in ((1, 2), (0, 2), (0, None), (8, 2)):
@@ -130,13 +130,16 @@ class Gsd(ProgramTest):
                             ({"type": "Sphere"}, "no number 'diameter'"), ({"type": 3}, "shape 3")):
             self.write_one(types=["A", "rod"], typeid=[0, 1, 0], type_shapes=[{}, shape])
             self.refuse("type 'rod'", says)
-        self.assertEqual(self.succeed_json("import", "hoomd.gsd", "--length-unit", "1um", "--radius", "0.1um", "-o", "b.h5")["radius_mean"], 1e-7)
+        found = self.succeed_json("import", "hoomd.gsd", "--length-unit", "1um", "--radius", "0.1um", "-o", "b.h5")
+        self.assertAlmostEqual(found["radius_mean"], 1e-7, delta=1e-15)
 
     def test_state_of_monte_carlo(self):
-        self.write_one(types=["A", "B"], typeid=[0, 1, 0], state={"hpmc/sphere/radius": [0.25, 0.75], "hpmc/integrate/d": [0.1, 0.1]})
+        self.write_one(types=["A", "B"], typeid=[0, 1, 0], state={"hpmc/sphere/radius": [0.25, 0.75]})
         self.assertEqual(self.radii(), [250, 750, 250])
-        self.write_one(state={"hpmc/convex_polyhedron/N": [3]})
+        self.write_one(state={"hpmc/convex_polyhedron/N": [1], "hpmc/convex_polyhedron/vertices": [[0, 0, 1]]})
         self.refuse("convex_polyhedron")
+        self.write_one(state={"hpmc/ellipsoid/a": [0.5], "hpmc/ellipsoid/b": [0.5], "hpmc/ellipsoid/c": [0.6]})
+        self.refuse("Ellipsoid")
         self.write_one(types=["A"], state={"hpmc/sphere/radius": [0.25]}, type_shapes=[{"type": "Sphere", "diameter": 1.5}])
         self.refuse("1.5", "0.5", "Monte Carlo")
 
@@ -235,10 +238,10 @@ class H5md(ProgramTest):
         numpy.testing.assert_allclose(box, [6, 7, 8])
 
     def test_units_of_the_file_come_first(self):
-        self.write_h5md(radius=[5.0, 6.0, 7.0], unit="Angstrom")
+        self.write_h5md(radius=[0.1, 0.2, 0.3], unit="Angstrom")
         positions, radii, box = self.found("--length-unit", "1um")
         numpy.testing.assert_allclose(positions, self.POSITIONS[1] * 1e-4)
-        numpy.testing.assert_allclose(radii, numpy.array([5, 6, 7]) * 1e-4)
+        numpy.testing.assert_allclose(radii, numpy.array([0.1, 0.2, 0.3]) * 1e-4)
         self.write_h5md(radius=[0.5, 0.5, 0.5], unit="sigma")
         self.fail_with(2, "import", "a.h5md", "-o", "c.h5", says=["'sigma'", "not a length"])
         numpy.testing.assert_allclose(self.found("--length-unit", "1um")[0], self.POSITIONS[1])

@@ -66,7 +66,7 @@ class Plausible(ProgramTest):
         self.assertIn("warning ", self.succeed("import", "fcc.csv", "--length-unit", "1um", "--radius", "0.1um", "--box", "4um", "-o", "b.h5"))
 
     def test_twice_the_same_and_flat(self):
-        self.write("a.csv", "x [um],y [um],z [um]\n1,1,1\n2,1,1\n3,1,1\n4,1,1\n1.1,1,1\n")
+        self.write("a.csv", "x [um],y [um],z [um]\n1,1,1\n2,1,1\n3,1,1\n4,1,1\n5,1,1\n6,1,1\n1.1,1,1\n")
         words = ["import", "a.csv", "--radius", "0.5um", "-o", "a.h5", "--force"]
         self.assertIn("0.1 diameters apart", "".join(self.succeed_json(*words, "--open")["warnings"]))
         self.assertIn("two-dimensional", "".join(self.succeed_json(*words, "--box", "8um,8um,1um", "--wrap")["warnings"]))
