@@ -28,7 +28,8 @@ std::string pair_text(double first, double second, const std::string& unit) {
     return to_text(first) + unit + "," + to_text(second) + unit;
 }
 
-/// gnuplot counts PNG in pixels: 8 points at 300 dots per inch are 33 of them.
+/// gnuplot counts PNG in pixels: 8 points at 300 dots per inch are 33 of them. Its terminals on Cairo take a point for 4/3 of a
+/// unit.
 std::string terminal(PictureFormat format, const PictureSize& size) {
     const std::string font = font_of(size);
     if (format == PictureFormat::svg) {
@@ -37,12 +38,12 @@ std::string terminal(PictureFormat format, const PictureSize& size) {
     }
     if (format == PictureFormat::pdf) {
         return "set terminal pdfcairo enhanced size " + pair_text(100 * size.width, 100 * size.height, "cm") + " " + font +
-               " fontscale 1 linewidth 1.3 rounded\n";
+               " fontscale 0.75 linewidth 1.3 rounded\n";
     }
     const double dots = size.resolution / 72.0;
     return "set terminal pngcairo enhanced size " +
            pair_text(std::round(size.width / inch * size.resolution), std::round(size.height / inch * size.resolution), "") + " " +
-           font + " fontscale " + to_text(dots) + " linewidth " + to_text(0.7 * dots) + " pointscale " + to_text(dots) +
+           font + " fontscale " + to_text(0.75 * dots) + " linewidth " + to_text(0.7 * dots) + " pointscale " + to_text(dots) +
            " background rgb 'white' rounded\n";
 }
 

@@ -123,12 +123,14 @@ std::string six_digits(double value) {
 
 /// Ticks with their numbers, and smaller ones at the whole multiples of powers of ten between.
 std::string logarithmic_ticks(const SettledAxis& axis) {
+    const bool even_steps = axis.high < 10 * axis.low;
+    const bool powers = even_steps ? wants_powers(axis) : axis.powers;
     std::string ticks;
     for (const double place : numbered_places(axis.low, axis.high)) {
-        ticks += (ticks.empty() ? "\"" : ", \"") + (axis.powers ? as_power(place) : six_digits(place)) + "\" " + to_text(place);
+        ticks += (ticks.empty() ? "\"" : ", \"") + (powers ? as_power(place) : six_digits(place)) + "\" " + to_text(place);
     }
-    for (int power = static_cast<int>(std::floor(std::log10(axis.low)));
-         axis.high >= 10 * axis.low && std::pow(10.0, power) <= axis.high; ++power) {
+    for (int power = static_cast<int>(std::floor(std::log10(axis.low))); !even_steps && std::pow(10.0, power) <= axis.high;
+         ++power) {
         for (int digit = 1; digit < 10; ++digit) {
             const double place = digit * std::pow(10.0, power);
             ticks += place < axis.low || place > axis.high ? std::string{} : ", \"\" " + to_text(place) + " 1";
@@ -204,7 +206,11 @@ SettledAxis settle(const ChartAxis& axis, const std::vector<double>& values) {
 }
 
 bool wants_powers(const SettledAxis& axis) {
-    return axis.axis.logarithmic && (axis.high >= few_decades * axis.low || axis.high < 0.01 || axis.high > 1e5);
+    constexpr double least_plain = 0.01;
+    constexpr double largest_plain = 1e4;
+    const std::vector<double> places = axis.axis.logarithmic ? numbered_places(axis.low, axis.high) : std::vector<double>{};
+    return std::any_of(places.begin(), places.end(),
+                       [](double place) { return place < 0.999 * least_plain || place > 1.001 * largest_plain; });
 }
 
 std::string axis_commands(const SettledAxis& axis, const std::string& name) {

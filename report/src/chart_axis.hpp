@@ -15,7 +15,7 @@ struct SettledAxis {
     std::string unit;  ///< as shown; empty: a pure number
     double low = 0;    ///< as shown
     double high = 1;
-    bool powers = false;  ///< the numbers of a logarithmic axis are powers of ten
+    bool powers = false;  ///< its numbers are powers of ten, if it is logarithmic over a decade or more
 };
 
 /// Throws InputError where the ends that are asked for leave no range, or one that is not above zero on a logarithmic axis.

@@ -65,7 +65,7 @@ class StructurePage(ProgramTest):
         self.assertEqual(browser.run("return performance.getEntriesByType('resource').map((entry) => entry.name).filter((name) => !name.startsWith('blob:'))"), [])
 
     def canvas_of(self, browser, view=0):
-        canvas = browser.find_all(".stage canvas")[view]
+        canvas = browser.find_all(".stage canvas[role=img]")[view]
         browser.run("arguments[0].scrollIntoView({block: 'nearest'})", canvas)
         return canvas
 
@@ -332,7 +332,7 @@ class StructurePage(ProgramTest):
                 browser.wait_for("return coagula.views.stages[0].viewer.canvas.clientWidth < innerWidth")
                 self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), width, "the page is wider than the window")
             for name in ("role", "aria-label"):
-                self.assertTrue(all(plot.get_attribute(name) for plot in browser.find_all(".plot, .stage canvas, .surfaces canvas")))
+                self.assertTrue(all(plot.get_attribute(name) for plot in browser.find_all(".plot, .stage canvas[role=img], .surfaces canvas")))
             self.check_console(browser)
 
     def test_two_structures_are_compared(self):
@@ -346,15 +346,15 @@ class StructurePage(ProgramTest):
         self.succeed("report", "a.h5", "b.h5", "-o", "report.html")
         with Browser() as browser:
             browser.open(self.folder / "report.html")
-            self.assertEqual(len(browser.find_all(".stage canvas")), 2)
+            self.assertEqual(len(browser.find_all(".stage canvas[role=img]")), 2)
             browser.drag(self.canvas_of(browser, 0), 80, 30)
             numpy.testing.assert_allclose(self.camera(browser, 0)["eye"], self.camera(browser, 1)["eye"], rtol=1e-9)
             next(label for label in browser.find_all("label.check") if label.text == "linked cameras").click()
             browser.drag(self.canvas_of(browser, 1), 80, 30)
             self.assertGreater(numpy.linalg.norm(numpy.subtract(self.camera(browser, 0)["eye"], self.camera(browser, 1)["eye"])), 1)
             keys = browser.run("return [...document.querySelectorAll('figure')].find((figure) => figure.textContent.includes('Bond-orientational')).querySelectorAll('.key')")
-            self.assertEqual([key.text[2:] for key in keys], ["a.h5: q₄", "a.h5: q₆", "b.h5: q₄", "b.h5: q₆"])
-            looks = {(key.text[:2], key.find_element("css selector", "i").get_attribute("style")) for key in keys}
+            self.assertEqual([key.text.split("\n")[-1] for key in keys], ["a.h5: q₄", "a.h5: q₆", "b.h5: q₄", "b.h5: q₆"])
+            looks = {(key.text.split("\n")[0], key.find_element("css selector", "i").get_attribute("style")) for key in keys}
             self.assertEqual(len(looks), 4, looks)  # colour and kind of line together tell the curves apart
             rows = {row.find_element("css selector", "th").text: row.text for row in browser.find_all(".differences tbody tr")}
             self.assertIn("+100 %", rows["mechanics / linear / storage modulus / mean"].replace("\u00a0", " "))

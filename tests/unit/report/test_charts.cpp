@@ -87,7 +87,7 @@ TEST(Charts, LogarithmicAxesHaveTicksHoweverNarrow) {
 }
 
 TEST(Charts, LogarithmicAxesOfOneFigureWriteTheirNumbersAlike) {
-    Chart chart = chart_of({.name = "a", .x = {0.1, 1e5}, .y = {600, 2500}, .mark = Mark::line});
+    Chart chart = chart_of({.name = "a", .x = {0.1, 1e5}, .y = {600, 9000}, .mark = Mark::line});
     chart.x.logarithmic = chart.y.logarithmic = true;
     const std::string commands = gnuplot_commands({.panels = {chart}, .caption = ""});
     EXPECT_TRUE(contains(commands, "\"10^{4}\" 10000"));
