@@ -160,12 +160,13 @@ class Restart(ProgramTest):
         shared = self.folder / "shared"
         shared.mkdir()
         shared.chmod(0o1777)
-        words = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "1s", "--checkpoint", "shared/state.h5", "--checkpoint-interval", "1s"]
+        words = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "1s", "--checkpoint", "shared/state.h5", "--checkpoint-interval", "1.5s"]
         run = subprocess.Popen([PROGRAM, *words, "-o", "x.h5"], cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
         self.addCleanup(run.kill)
         while not (shared / ".state.h5.run").exists():
             self.assertIsNone(run.poll())
             time.sleep(0.01)
+        time.sleep(0.5)  # until it has seen that there is no checkpoint yet
         os.symlink(victim, shared / "state.h5")
         os.chown(shared / "state.h5", 65534, 65534, follow_symlinks=False)
         _, complaint = run.communicate(timeout=60)

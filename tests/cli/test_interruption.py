@@ -2,6 +2,7 @@
 
 import fcntl
 import os
+import select
 import signal
 import struct
 import subprocess
@@ -77,7 +78,7 @@ class Interruption(ProgramTest):
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         self.addCleanup(process.stderr.close)
-        time.sleep(0.5)
+        self.assertTrue(select.select([reading], [], [], 60)[0], "nothing was written")
         return process
 
     def test_what_does_not_answer_ends_within_two_seconds(self):

@@ -104,7 +104,7 @@ class ClosedDescriptors(ProgramTest):
                 self.assertEqual(self.run_without(closed, "shear", "packing.h5", "--quiet"), 0)
                 self.assertEqual(self.run_without(closed, "export", "packing.h5", "-o", "packing.csv", "--force", "--quiet"), 0)
                 found = self.succeed_json("info", "packing.h5")["results"]
-                self.assertIn("/characterization/coordination_all", found)
+                self.assertIn("/characterization/coordination", found)
                 self.assertIn("/mechanics/linear/storage_modulus/mean", found)
                 self.assertEqual(len((self.folder / "packing.csv").read_text().splitlines()), 501)
 
@@ -162,7 +162,7 @@ class InputsAreKept(ProgramTest):
         (self.folder / "tables" / "figure1.csv").write_text(table)
         self.refuse("tables/figure1.csv", "plot", "tables", "--figure", "packing", "-o", "f.svg", "--data", "tables/figure1.csv", "--force")
         self.refuse("tables/figure1.csv", "plot", "tables", "--paper", "-o", "tables", "--force")
-        sweep = "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]\n" + "".join(f"{k},1e5,{2e4 + 10 * k}\n" for k in range(1, 8))
+        sweep = "frequency [Hz],storage_modulus [Pa],loss_modulus [Pa]\n" + "".join(f"{k},{1e5 + 20 * k},{2e4 + 10 * k}\n" for k in range(1, 8))
         (self.folder / "tables" / "report.html").write_text(sweep)
         self.write("experiment.toml", '[sample]\nparticle_radius = "0.25 um"\n[structures]\nfiles = ["packing.h5"]\n'
                                       '[[measurement]]\nkind = "frequency-sweep"\nfile = "tables/report.html"\nsample = "a"\n')
@@ -194,7 +194,7 @@ class MeasuresAreKept(ProgramTest):
         self.assertEqual(after.keys(), before.keys())
         changed = {path for path in before if before[path] != after[path]}
         self.assertIn("/characterization/contact_tolerance", changed)
-        self.assertIn("/characterization/coordination_all", changed)
+        self.assertIn("/characterization/coordination", changed)
         self.assertFalse({path for path in changed if path.count("/") > 2 and "/uncertainty/" not in path}, changed)
 
     def test_nothing_of_the_older_measure_is_left(self):
@@ -245,8 +245,8 @@ class Conditions(ProgramTest):
 
     METHODS = {"linear": (["--bond-tolerance", "0.02"], ["--normal-stiffness", "150N/m"], ["--relax", "minimise"]),
                "frequency": (["--frequency", "1Hz"], ["--frequency", "2Hz"], ["--frequency-sweep", "1Hz:10Hz:2"]),
-               "quasistatic": (["--orientation", "zx"], ["--amplitudes", "1e-4", "--steps-per-cycle", "4", "--orientation", "zx"],
-                               ["--ramp", "1e-5", "--ramp-steps", "1", "--orientation", "zx"]),
+               "quasistatic": (["--orientation", "zx"], ["--orientation", "zx", "--steps-per-cycle", "4", "--amplitudes", "1e-4"],
+                               ["--orientation", "zx", "--ramp-steps", "1", "--ramp", "1e-5"]),
                "dem": (["--orientation", "zx"], ["--orientation", "zx", "--amplitude", "0.002"], ["--orientation", "xy"])}
     QUICK = ["--boundary", "periodic", "--oscillations", "1", "--steps-per-oscillation", "100"]
 
@@ -258,21 +258,32 @@ class Conditions(ProgramTest):
         return ["shear", "a.h5", "--quiet", *words, *([] if method == "frequency" else ["--method", method]),
                 *(self.QUICK if method == "dem" else [])]
 
-    def test_other_conditions_need_force(self):
-        for method, (first, *others) in self.METHODS.items():
-            self.succeed(*self.shear(method, first))
-            self.succeed(*self.shear(method, first))  # the same again
-            before = checksum(self.folder / "a.h5")
-            for words in others:
-                call = self.shear(method, words)
-                option = words[0][2:].replace("-", "_")
-                self.fail_with(3, *call, says=["a.h5", f"/mechanics/{method}", option, "--force", "-o"])
-                self.assertEqual(checksum(self.folder / "a.h5"), before)
-            self.succeed(*call, "-o", "copy.h5")
+    def other_conditions_need_force(self, method):
+        first, *others = self.METHODS[method]
+        self.succeed(*self.shear(method, first))
+        self.succeed(*self.shear(method, first))  # the same again
+        before = checksum(self.folder / "a.h5")
+        for words in others:
+            call = self.shear(method, words)
+            option = words[-2][2:].replace("-", "_")
+            self.fail_with(3, *call, says=["a.h5", f"/mechanics/{method}", option, "--force", "-o"])
             self.assertEqual(checksum(self.folder / "a.h5"), before)
-            self.succeed(*call, "--force")
-            self.succeed(*call)
-            os.remove(self.folder / "copy.h5")
+        self.succeed(*call, "-o", "copy.h5")
+        self.assertEqual(checksum(self.folder / "a.h5"), before)
+        self.succeed(*call, "--force")
+        self.succeed(*call)
+
+    def test_other_conditions_need_force_linear(self):
+        self.other_conditions_need_force("linear")
+
+    def test_other_conditions_need_force_frequency(self):
+        self.other_conditions_need_force("frequency")
+
+    def test_other_conditions_need_force_quasistatic(self):
+        self.other_conditions_need_force("quasistatic")
+
+    def test_other_conditions_need_force_dem(self):
+        self.other_conditions_need_force("dem")
 
     def test_how_it_is_computed_is_no_condition(self):
         self.succeed(*self.shear("linear", []))

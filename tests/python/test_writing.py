@@ -68,7 +68,7 @@ class Writing(ModuleTest):
         second = coagula.characterize(made, only="overlap")
         coagula.write("a.h5", made, first, coagula.shear(made), second)
         read = coagula.read("a.h5")
-        self.assertEqual(read.characterization.coordination_all, first.coordination_all)
+        self.assertEqual(read.characterization.coordination, first.coordination)
         self.assertEqual(read.characterization.overlap.mean, second.overlap.mean)
         self.assertEqual([entry["stage"] for entry in read.history], ["generate vem", "characterize", "shear", "characterize"])
         with self.assertRaisesRegex(RuntimeError, "another packing"):
