@@ -149,7 +149,7 @@ class OtherVerbs(ProgramTest):
         self.succeed(*SMALL, "--seed", "3", "--target-coordination", "4.2", "-o", "few.h5")
         self.succeed("generate", "vem", "--particles", "61", "--volume-fraction", "0.35", "--radius", "1um", "--seed", "4", "-o", "usual.h5")
         self.succeed("generate", "brownian", "--particles", "50", "--surface-potential", "0mV", "--volume-fraction", "0.2", "--radius",
-                     "0.25um", "--stop-time", "10us", "--seed", "5", "-o", "moving.h5")
+                     "0.25um", "--equilibration-time", "1us", "--stop-time", "10us", "--seed", "5", "-o", "moving.h5")
         self.write("p.csv", "x [um],y [um],z [um]\n1,1,1\n2,2,2\n")
         self.succeed("import", "p.csv", "--radius", "0.2um", "--box", "4um", "-o", "points.h5")
         rows = list(csv.DictReader(io.StringIO(self.succeed("info", "few.h5", "usual.h5", "moving.h5", "points.h5", "--csv"))))
