@@ -61,7 +61,7 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
         const Names sentences = verdict_sentences(found);
         ASSERT_EQ(sentences.size(), 3U);
         EXPECT_EQ(sentences[0], verdict_sentence(found));
-        EXPECT_EQ(sentences[1], "The best cause, wall-slip, leaves something over: G' lies above the model by up to 9 % of |G*|.");
+        EXPECT_EQ(sentences[1], "The best cause, wall-slip, leaves a deviation: G' lies above the model by up to 9 % of |G*|.");
         EXPECT_EQ(sentences[2], "To decide, measure an oil.");
     }
     found.remainder.most = true;
