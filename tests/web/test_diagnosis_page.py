@@ -126,13 +126,15 @@ class DiagnosisPage(ProgramTest):
         """Where some measured moduli are negative, as raw ones of a heavy tool, all of them are drawn on the logarithmic axis."""
         text = (self.folder / "results" / "report.html").read_text(encoding="utf-8")
         data = json.loads(re.search(r'id="data">(.*?)</script>', text, re.DOTALL).group(1))
-        points = next(series for series in data["charts"][0]["series"] if series["kind"] == "points")
-        data["charts"][0]["y"]["logarithmic"] = True
+        moduli = next(chart for chart in data["charts"] if chart["title"] == "Moduli")  # the first figure on the page
+        points = next(series for series in moduli["series"] if series["kind"] == "points")
+        moduli["y"]["logarithmic"] = True
         for sign in (1, -1):
             points["y"] = [sign * abs(value) if k % 2 else abs(value) for k, value in enumerate(points["y"])]
             points["colour"] = "--good"  # of nothing else
             self.write("signed.html", re.sub(r'(id="data">).*?(</script>)', lambda part: part.group(1) + json.dumps(data).replace("<", "\\u003c") + part.group(2), text, flags=re.DOTALL))
             browser.open(self.folder / "signed.html")
+            browser.wait_for("return document.querySelector('.plot canvas') !== null")
             colour = browser.run("return getComputedStyle(document.documentElement).getPropertyValue('--good').trim().slice(1)")
             drawn = browser.run(INK, 0, colour)
             whole = drawn if sign == 1 else whole

@@ -105,7 +105,7 @@ TEST(Charts, AnAxisIsNeverNarrowerThanAMillionth) {
         EXPECT_LE(axis.high - axis.low, 0.3 * std::abs(value)) << value;
     }
     const SettledAxis narrow = settle({}, {0.4, 0.4 * (1 + 3e-6)});
-    EXPECT_TRUE(contains(axis_commands(narrow, "x"), "'%.8h'")) << axis_commands(narrow, "x");  // neighbouring ticks differ
+    EXPECT_TRUE(contains(axis_commands(narrow, "x"), "'%.7h'")) << axis_commands(narrow, "x");  // neighbouring ticks differ
 }
 
 TEST(Charts, EndsThatAreAskedForAreKept) {

@@ -105,16 +105,24 @@ TEST(Figures, ACurveMayHaveErrorsAndASecondOneBeside) {
     figure.y_error = "/error";
     figure.other = "/fit";
     figure.other_name = "fit";
+    figure.name = "values";
     const std::vector<io::Dataset> measured = {io::vector("/x", x, "m", "x"), io::vector("/y", y, "1", "y")};
     std::vector<io::Dataset> complete = measured;
     complete.push_back(io::vector("/error", error, "1", "e"));
     complete.push_back(io::vector("/fit", fit, "1", "f"));
     const Chart chart = curve(figure)({source_of(complete, "a"), source_of(measured, "b")}).panels.at(0);
-    ASSERT_EQ(chart.series.size(), 3U);
+    ASSERT_EQ(chart.series.size(), 5U);
     EXPECT_EQ(chart.series[0].error, (std::vector<double>{0.1, 0.2, 0.3}));
     EXPECT_TRUE(chart.series[1].error.empty());
-    EXPECT_EQ(chart.series[2].name, "fit");
     EXPECT_EQ(chart.series[2].y, (std::vector<double>{4.1, 5.1, 5.9}));
+    for (const auto& [k, name] : {std::pair(3U, "values"), std::pair(4U, "fit")}) {  // neither of one file nor of the other
+        EXPECT_EQ(chart.series[k].name, name);
+        EXPECT_TRUE(chart.series[k].key_only);
+        EXPECT_EQ(chart.series[k].colour, -1);
+    }
+    const Chart alone = curve(figure)({source_of(complete, "a")}).panels.at(0);
+    ASSERT_EQ(alone.series.size(), 2U);
+    EXPECT_EQ(alone.series[0].name + ", " + alone.series[1].name, "values, fit");
 }
 
 TEST(Figures, ThePowerLawThroughModuliIsTheirLaw) {
