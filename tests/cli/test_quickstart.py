@@ -18,11 +18,12 @@ LAUNCHER = """#!/bin/bash
 for ((i = 1; i < $#; i++)); do
   case "${!i}" in -o) next=$((i + 1)) object="${!next}" ;; -MF) next=$((i + 1)) dependencies="${!next}" ;; esac
 done
-if [[ "$object" == *.o && -f "$TAKEN_FROM/$object" ]]; then
-  cp "$TAKEN_FROM/$object" "$object" && echo "$object:" >"$dependencies"
-else
-  exec "$@"
-fi
+case "$object" in
+  *.gch) : >"$object" ;; # objects that are copied need none, and the compiler reads the header instead of an empty one
+  *.o) cp "$TAKEN_FROM/$object" "$object" 2>/dev/null || exec "$@" ;;
+  *) exec "$@" ;;
+esac
+echo "$object:" >"$dependencies"
 """
 
 
