@@ -52,8 +52,7 @@ void warn_of_distances(Plausibility& found) {
     }
     if (found.median < least_median) {
         found.warnings.push_back("the spheres overlap too much for a packing: the nearest centre is " +
-                                 with_unit(found.median, "1") +
-                                 " diameters away (median); check the length unit and the radius");
+                                 with_unit(found.median, "1") + " diameters away (median); check the length unit and the radius");
     } else if (found.smallest < least_distance) {
         found.warnings.push_back("two centres are only " + with_unit(found.smallest, "1") +
                                  " diameters apart, such as those of a particle that was found twice");
@@ -68,7 +67,8 @@ void warn_of_density(Plausibility& found) {
                                  ", that of the densest packing of equal spheres; check the length unit, the radius and the box");
     }
     if (found.coordination > largest_kissing_number * (1 + limit_slack)) {
-        found.warnings.push_back("a sphere has more than 12 contacts on average, more than equal spheres can have; check the radius");
+        found.warnings.push_back(
+            "a sphere has more than 12 contacts on average, more than equal spheres can have; check the radius");
     }
 }
 
@@ -76,8 +76,8 @@ void warn_of_density(Plausibility& found) {
 
 Eigen::VectorXd nearest_reduced_distances(const Packing& packing) {
     const double largest_radius = packing.radii.maxCoeff();
-    const double extent = (packing.positions.rowwise().maxCoeff() - packing.positions.rowwise().minCoeff()).norm() +
-                          packing.cell.lengths().norm();
+    const double extent =
+        (packing.positions.rowwise().maxCoeff() - packing.positions.rowwise().minCoeff()).norm() + packing.cell.lengths().norm();
     Eigen::VectorXd nearest(packing.size());
     std::vector<Index> pending(static_cast<std::size_t>(packing.size()));
     std::iota(pending.begin(), pending.end(), Index{0});
@@ -88,9 +88,8 @@ Eigen::VectorXd nearest_reduced_distances(const Packing& packing) {
         for (std::size_t k = 0; k < pending.size(); ++k) {
             nearest[pending[k]] = nearest_within(packing, cells, pending[k]);
         }
-        std::erase_if(pending, [&](Index i) {
-            return nearest[i] * (packing.radii[i] + largest_radius) <= reach || reach > extent;
-        });
+        std::erase_if(pending,
+                      [&](Index i) { return nearest[i] * (packing.radii[i] + largest_radius) <= reach || reach > extent; });
     }
     return nearest;
 }
@@ -112,7 +111,8 @@ Plausibility judge_plausibility(const Packing& packing) {
         warn_of_density(found);
     }
     if (touches_its_own_image(contacts)) {
-        found.warnings.push_back("spheres touch their own images: the box is no wider than a sphere, as that of a two-dimensional packing");
+        found.warnings.push_back(
+            "spheres touch their own images: the box is no wider than a sphere, as that of a two-dimensional packing");
     }
     return found;
 }

@@ -10,11 +10,15 @@ namespace coagula::dense {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd solve(const MatrixXd& matrix, const MatrixXd& right) { return matrix.partialPivLu().solve(right); }
+MatrixXd solve(const MatrixXd& matrix, const MatrixXd& right) {
+    return matrix.partialPivLu().solve(right);
+}
 
 LuFactors::LuFactors(const MatrixXd& matrix) : factors_(std::make_shared<Eigen::PartialPivLU<MatrixXd>>(matrix)) {}
 
-VectorXd LuFactors::solve(const VectorXd& right) const { return factors_->solve(right); }
+VectorXd LuFactors::solve(const VectorXd& right) const {
+    return factors_->solve(right);
+}
 
 MatrixXd orthonormal(const MatrixXd& columns) {
     const Eigen::HouseholderQR<MatrixXd> qr(columns);
@@ -34,7 +38,9 @@ LeastSquares::LeastSquares(const MatrixXd& matrix, const MatrixXd& right) {
     solution = qr.solve(right);
 }
 
-MatrixXd pseudo_inverse(const MatrixXd& matrix) { return matrix.completeOrthogonalDecomposition().pseudoInverse(); }
+MatrixXd pseudo_inverse(const MatrixXd& matrix) {
+    return matrix.completeOrthogonalDecomposition().pseudoInverse();
+}
 
 SymmetricModes::SymmetricModes(const MatrixXd& matrix) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(matrix);
@@ -49,7 +55,8 @@ MatrixXd nearest_semidefinite(const MatrixXd& matrix) {
 
 SingularValues::SingularValues(const MatrixXd& matrix, Vectors wanted) {
     const bool left = wanted == Vectors::left;
-    const Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner> svd(matrix, left ? Eigen::ComputeThinU : Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<MatrixXd, Eigen::HouseholderQRPreconditioner> svd(matrix,
+                                                                             left ? Eigen::ComputeThinU : Eigen::ComputeThinV);
     values = svd.singularValues();
     vectors = left ? svd.matrixU() : svd.matrixV();
 }

@@ -10,7 +10,9 @@ namespace coagula {
 
 namespace math = boost::math;
 
-double normal_quantile(double probability) { return math::quantile(math::normal(), probability); }
+double normal_quantile(double probability) {
+    return math::quantile(math::normal(), probability);
+}
 
 double upper_normal_quantile(double probability) {
     const math::normal_distribution<double, math::policies::policy<math::policies::promote_double<false>>> normal;
@@ -25,12 +27,20 @@ double above_in_student(double degrees_of_freedom, double x) {
     return math::cdf(math::complement(math::students_t(degrees_of_freedom), x));
 }
 
-double gamma_p(double shape, double x) { return math::gamma_p(shape, x); }
+double gamma_p(double shape, double x) {
+    return math::gamma_p(shape, x);
+}
 
-double gamma_p_derivative(double shape, double x) { return math::gamma_p_derivative(shape, x); }
+double gamma_p_derivative(double shape, double x) {
+    return math::gamma_p_derivative(shape, x);
+}
 
-double digamma(double x) { return math::digamma(x); }
+double digamma(double x) {
+    return math::digamma(x);
+}
 
-double trigamma(double x) { return math::trigamma(x); }
+double trigamma(double x) {
+    return math::trigamma(x);
+}
 
 }  // namespace coagula

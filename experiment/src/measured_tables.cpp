@@ -26,7 +26,8 @@ std::string added_unit(const io::PlainColumn& column, const std::string& heading
 }
 
 bool is_named(const io::PlainColumn& column, const std::string& heading) {
-    return column.heading == heading || column.heading + " [" + column.unit + "]" == heading || !added_unit(column, heading).empty();
+    return column.heading == heading || column.heading + " [" + column.unit + "]" == heading ||
+           !added_unit(column, heading).empty();
 }
 
 bool names_it(const std::map<std::string, std::string>& headings, const io::PlainColumn& column) {
@@ -46,11 +47,12 @@ bool is_ignored(const io::PlainTable& table, const io::PlainColumn& column, diag
     };
     const bool lacks_unit = column.unit.empty() && !is_pure_number(column.quantity) && !names_it(rules.headings, column) &&
                             !names_it(rules.standard_errors, column);
-    const bool moduli = diagnose::has_moduli(kind) &&
-                        std::any_of(table.columns.begin(), table.columns.end(), [](const io::PlainColumn& other) {
-                            return other.quantity == "storage_modulus" && !other.unit.empty() && has_numbers(other);
-                        });
-    const bool repeats = is_one_of({"torque", "deflection", "raw_phase", "phase", "complex_modulus", "complex_viscosity", "stress"});
+    const bool moduli =
+        diagnose::has_moduli(kind) && std::any_of(table.columns.begin(), table.columns.end(), [](const io::PlainColumn& other) {
+            return other.quantity == "storage_modulus" && !other.unit.empty() && has_numbers(other);
+        });
+    const bool repeats =
+        is_one_of({"torque", "deflection", "raw_phase", "phase", "complex_modulus", "complex_viscosity", "stress"});
     return lacks_unit && (is_one_of({"temperature", "normal_force", "rattler_fraction"}) || (moduli && repeats));
 }
 
@@ -119,8 +121,8 @@ private:
         std::optional<std::size_t> found;
         for (std::size_t i = 0; i < table_.columns.size(); ++i) {
             const io::PlainColumn& column = table_.columns[i];
-            const bool means_it = column.quantity == quantity && !is_claimed(i) &&
-                                  !is_ignored(table_, column, measurement_.kind, rules_);
+            const bool means_it =
+                column.quantity == quantity && !is_claimed(i) && !is_ignored(table_, column, measurement_.kind, rules_);
             if (means_it && (!found || is_meant_rather(i, *found))) {
                 found = i;
             }
@@ -147,8 +149,7 @@ private:
                               const std::map<std::string, std::string>& rules) const {
         const std::string name = "column '" + column.heading + "'";
         const auto rule = rules.find(std::string(quantity.name));
-        const std::string unit =
-            column.unit.empty() && rule != rules.end() ? added_unit(column, rule->second) : column.unit;
+        const std::string unit = column.unit.empty() && rule != rules.end() ? added_unit(column, rule->second) : column.unit;
         if (unit.empty() && !is_pure_number(quantity.name)) {
             fail(name + " names no unit; it must be one that converts into " + std::string(quantity.unit) +
                  ": write it into the file or into the experiment file, columns = { " + std::string(quantity.name) + " = \"" +
@@ -167,7 +168,8 @@ private:
     }
 
     void add_column(const diagnose::Quantity& quantity, std::size_t index) {
-        diagnose::Column column{std::string(quantity.name), std::string(quantity.unit), in_si(table_.columns[index], quantity, rules_.headings)};
+        diagnose::Column column{std::string(quantity.name), std::string(quantity.unit),
+                                in_si(table_.columns[index], quantity, rules_.headings)};
         const auto error = rules_.standard_errors.find(column.name);
         if (error != rules_.standard_errors.end()) {
             column.standard_errors = in_si(table_.columns[find_heading(error->second)], quantity, rules_.standard_errors);

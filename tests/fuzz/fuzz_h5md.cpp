@@ -18,7 +18,9 @@ std::string sound_file(const fuzz::InputFolder& folder) {
     structure.earlier.push_back({0.0, packing.positions});
     structure.time = 1;
     const std::string path = folder.write("sound.h5", "");
-    io::write_structure(path, structure, {}, {}, {.stage = "import", .command_line = "", .options = "{}", .version = "", .time = "", .positions_sha256 = ""}, true);
+    io::write_structure(path, structure, {}, {},
+                        {.stage = "import", .command_line = "", .options = "{}", .version = "", .time = "", .positions_sha256 = ""},
+                        true);
     return fuzz::contents_of(path);
 }
 

@@ -80,14 +80,15 @@ Counts count(const std::vector<RecognisedFile>& files) {
     for (const RecognisedFile& file : files) {
         for (const RecognisedTable& table : file.tables) {
             if (listed++ < most_listed) {
-                reasons += (reasons.empty() ? "" : "; ") + std::string("table ") + std::to_string(file.file.tables[table.place].number) +
+                reasons += (reasons.empty() ? "" : "; ") + std::string("table ") +
+                           std::to_string(file.file.tables[table.place].number) +
                            (files.size() > 1 ? " of " + file.file.path : "") + ": " + table.reason;
             }
         }
     }
     throw InputError((files.size() == 1 ? files.front().file.path + ": " : "") +
-                     (all == 1 ? "the table" : "none of the " + std::to_string(all) + " tables") + " can" + (all == 1 ? "not" : "") +
-                     " be diagnosed as it is: " + reasons + (all > most_listed ? "; ..." : ""));
+                     (all == 1 ? "the table" : "none of the " + std::to_string(all) + " tables") + " can" +
+                     (all == 1 ? "not" : "") + " be diagnosed as it is: " + reasons + (all > most_listed ? "; ..." : ""));
 }
 
 }  // namespace

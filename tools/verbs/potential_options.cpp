@@ -60,27 +60,28 @@ std::vector<PairLaw> dlvo_laws(const Arguments& arguments, const PairRadii& radi
 }  // namespace
 
 std::vector<Option> potential_options() {
-    return {quantity("surface-potential", "V", "surface potential of the particles; required unless a table gives the potential",
-                     "", within(-1, 1)),
-            quantity("debye-length", "m", "Debye length of the double layer; 10 nm when not given", "", physical::length),
-            quantity("ionic-strength", "mol/m3", "ionic strength of a z:z electrolyte, from which the Debye length follows", "",
-                     within(1e-9, 1e5)),
-            choice("double-layer", {"superposition", "hogg-healy-fuerstenau"}, "approximation of the double-layer repulsion",
-                   "superposition"),
-            quantity("hamaker-constant", "J", "Hamaker constant of the van der Waals attraction", "4.76e-20J", within(0, 1e-15)),
-            quantity("permittivity", "1", "relative permittivity of the liquid", "81", within(1, 1e4)),
-            count("valency", "valency of the ions of the electrolyte", "1", within(1, 10)),
-            quantity("yukawa-energy", "J", "energy at contact of an additional Yukawa potential", "", within(-1e-15, 1e-15)),
-            quantity("yukawa-length", "m", "screening length of the Yukawa potential", "", physical::length),
-            reads(text("potential-table", "FILE", "CSV file with columns 'gap [unit],energy [unit]', in place of these potentials")),
-            quantity("contact-stiffness", "N/m",
-                     "stiffness of the elastic contact below a cut-off gap; 4e5 kB T/R^2 when not given", "", physical::stiffness),
-            quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "",
-                     physical::length),
-            quantity("cutoff-gap", "m", "gap beyond which there are no forces; R when not given", "", physical::length),
-            quantity("temperature", "K", "temperature of the suspension", "293K", within(1, 1e4)),
-            flag("potential-curve", "print the potential against the gap and run nothing"),
-            writes(text("picture", "FILE", "with --potential-curve: draw the curve into this file, .svg, .png or .pdf"))};
+    return {
+        quantity("surface-potential", "V", "surface potential of the particles; required unless a table gives the potential", "",
+                 within(-1, 1)),
+        quantity("debye-length", "m", "Debye length of the double layer; 10 nm when not given", "", physical::length),
+        quantity("ionic-strength", "mol/m3", "ionic strength of a z:z electrolyte, from which the Debye length follows", "",
+                 within(1e-9, 1e5)),
+        choice("double-layer", {"superposition", "hogg-healy-fuerstenau"}, "approximation of the double-layer repulsion",
+               "superposition"),
+        quantity("hamaker-constant", "J", "Hamaker constant of the van der Waals attraction", "4.76e-20J", within(0, 1e-15)),
+        quantity("permittivity", "1", "relative permittivity of the liquid", "81", within(1, 1e4)),
+        count("valency", "valency of the ions of the electrolyte", "1", within(1, 10)),
+        quantity("yukawa-energy", "J", "energy at contact of an additional Yukawa potential", "", within(-1e-15, 1e-15)),
+        quantity("yukawa-length", "m", "screening length of the Yukawa potential", "", physical::length),
+        reads(text("potential-table", "FILE", "CSV file with columns 'gap [unit],energy [unit]', in place of these potentials")),
+        quantity("contact-stiffness", "N/m", "stiffness of the elastic contact below a cut-off gap; 4e5 kB T/R^2 when not given",
+                 "", physical::stiffness),
+        quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "",
+                 physical::length),
+        quantity("cutoff-gap", "m", "gap beyond which there are no forces; R when not given", "", physical::length),
+        quantity("temperature", "K", "temperature of the suspension", "293K", within(1, 1e4)),
+        flag("potential-curve", "print the potential against the gap and run nothing"),
+        writes(text("picture", "FILE", "with --potential-curve: draw the curve into this file, .svg, .png or .pdf"))};
 }
 
 PairPotential make_potential(const Arguments& arguments, double radius, std::optional<double> surface_potential) {

@@ -23,8 +23,8 @@ struct RecognisedTable {
     bool yields = false;                            ///< the sample softens while the strain grows, or thins while it flows
 };
 
-/// An export and what its tables are, in their order. A table that is no waveform has one entry, or, where it holds several sweeps one
-/// below the other, one for each of them.
+/// An export and what its tables are, in their order. A table that is no waveform has one entry, or, where it holds several sweeps
+/// one below the other, one for each of them.
 struct RecognisedFile {
     io::MeasuredFile file;
     std::vector<RecognisedTable> tables;

@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t longest_title = 1000;  ///< every table of a result carries it, and every line of a group
 
 /// Of the line that says when a measurement began: TRIOS, RheoPlus in English and Japanese, RheoWin.
-constexpr std::array<std::string_view, 5> date_keys = {"run date", "measuring date/time", "測定日/時間", "date / time / version", "date"};
+constexpr std::array<std::string_view, 5> date_keys = {"run date", "measuring date/time", "測定日/時間", "date / time / version",
+                                                       "date"};
 
 std::string key_of(std::string_view cell) {
     cell = trim(cell);
@@ -187,8 +188,8 @@ bool begins_with_digit(const std::string& text) {
     return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
 }
 
-/// A row whose empty first cell was lost, as where blanks at the beginnings of lines are trimmed, gets it back. Where more is missing,
-/// nobody can say which cells.
+/// A row whose empty first cell was lost, as where blanks at the beginnings of lines are trimmed, gets it back. Where more is
+/// missing, nobody can say which cells.
 std::vector<std::string> ExportReader::aligned(std::size_t line, const TableHead& head) const {
     std::vector<std::string> row = cells_of(line);
     if (!head.margin || !begins_with_digit(row.front())) {

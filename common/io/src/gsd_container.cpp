@@ -95,7 +95,7 @@ std::vector<double> GsdFile::values(std::uint64_t frame, const std::string& name
     }
     if (values.size() != rows * columns) {
         fail("'" + name + "' of frame " + std::to_string(frame) + " has " + std::to_string(values.size()) + " numbers, but " +
-                  std::to_string(rows * columns) + " are expected");
+             std::to_string(rows * columns) + " are expected");
     }
     for (const double value : values) {
         if (!std::isfinite(value)) {

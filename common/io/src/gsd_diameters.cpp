@@ -18,7 +18,7 @@ namespace coagula::io {
 namespace {
 
 constexpr double largest_type = 4294967296;  ///< types are of 32 bit
-constexpr double rounding = 1e-6;  ///< of single precision
+constexpr double rounding = 1e-6;            ///< of single precision
 
 bool nearly_equal(double a, double b) {
     return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
@@ -27,14 +27,12 @@ bool nearly_equal(double a, double b) {
 /// What is known of the particles of each type.
 struct Types {
     std::vector<std::string> names;
-    std::vector<std::string> shapes;                ///< JSON objects of particles/type_shapes
-    std::vector<double> sphere_radii;               ///< of Monte Carlo
-    std::array<std::vector<double>, 3> half_axes;   ///< of the ellipsoids of Monte Carlo
-    std::string other_shape;                        ///< of Monte Carlo, such as "convex_polyhedron"
+    std::vector<std::string> shapes;               ///< JSON objects of particles/type_shapes
+    std::vector<double> sphere_radii;              ///< of Monte Carlo
+    std::array<std::vector<double>, 3> half_axes;  ///< of the ellipsoids of Monte Carlo
+    std::string other_shape;                       ///< of Monte Carlo, such as "convex_polyhedron"
 
-    std::string name(std::size_t type) const {
-        return "type '" + (type < names.size() ? names[type] : std::to_string(type)) + "'";
-    }
+    std::string name(std::size_t type) const { return "type '" + (type < names.size() ? names[type] : std::to_string(type)) + "'"; }
 };
 
 /// The shape of Monte Carlo that is neither a sphere nor an ellipsoid: "state/hpmc/SHAPE/...".
@@ -65,7 +63,8 @@ Types types_of(const GsdFile& file, std::uint64_t frame) {
 }
 
 [[noreturn]] void fail_by_shape(const GsdFile& file, const std::string& type, const std::string& shape) {
-    file.fail("particles of " + type + " have the shape " + shape + ", but coagula reads spheres; give --radius to take their centres");
+    file.fail("particles of " + type + " have the shape " + shape +
+              ", but coagula reads spheres; give --radius to take their centres");
 }
 
 /// The diameter of the ellipsoid with these half axes, which must be a sphere.
@@ -117,8 +116,7 @@ std::optional<double> diameter_of_state(const GsdFile& file, const Types& types,
 }
 
 std::optional<double> diameter_of_type(const GsdFile& file, const Types& types, std::size_t type) {
-    const auto shape =
-        type < types.shapes.size() ? diameter_of_shape(file, types.name(type), types.shapes[type]) : std::nullopt;
+    const auto shape = type < types.shapes.size() ? diameter_of_shape(file, types.name(type), types.shapes[type]) : std::nullopt;
     const auto state = diameter_of_state(file, types, type);
     if (shape && state && !nearly_equal(*shape, *state)) {
         file.fail("the sphere of " + types.name(type) + " has the diameter " + to_text(*shape) +

@@ -8,8 +8,8 @@ namespace coagula::io {
 
 class GsdFile;
 
-/// The diameters of the particles of a frame, in the unit of the file: those of the shapes of their types (particles/type_shapes, or the
-/// state of a Monte Carlo simulation) where these have one, otherwise particles/diameter, which is 1 where it is missing.
+/// The diameters of the particles of a frame, in the unit of the file: those of the shapes of their types (particles/type_shapes,
+/// or the state of a Monte Carlo simulation) where these have one, otherwise particles/diameter, which is 1 where it is missing.
 ///
 /// Throws InputError for shapes that are no spheres, and where the shape of a particle and its stored diameter differ.
 /// Source: schema hoomd, https://gsd.readthedocs.io.

@@ -1,4 +1,5 @@
-// Elements of an H5MD file (https://nongnu.org/h5md, "H5MD elements"), as coagula's own files and those of other programs have them.
+// Elements of an H5MD file (https://nongnu.org/h5md, "H5MD elements"), as coagula's own files and those of other programs have
+// them.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,7 +37,8 @@ std::size_t number_of_particles(const File& file, const std::string& position);
 /// From the attribute `boundary` of a box.
 bool read_periodicity(const File& file, const std::string& box);
 
-/// Edge lengths [m], from vectors or diagonal matrices: of the last frame, or of each; of a box that does not depend on time a single one.
+/// Edge lengths [m], from vectors or diagonal matrices: of the last frame, or of each; of a box that does not depend on time a
+/// single one.
 std::vector<Eigen::Vector3d> read_edges(const File& file, const std::string& edges, bool all_frames = false,
                                         const std::optional<double>& length_unit = {});
 

@@ -46,8 +46,8 @@ void number_tables(std::vector<PlainTable>& tables) {
     }
 }
 
-/// Tables that tell the time of day alone: the session began after the longest pause between them, so that what an earlier time tells
-/// was measured on the day after.
+/// Tables that tell the time of day alone: the session began after the longest pause between them, so that what an earlier time
+/// tells was measured on the day after.
 void continue_after_midnight(std::vector<PlainTable>& tables) {
     constexpr double day = 86400;
     std::vector<double> times;

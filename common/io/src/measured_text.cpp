@@ -22,8 +22,8 @@ constexpr double loss_tangent_limit = 20000;
 
 constexpr std::array status_headings = {"status", "statut", "etat", "état", "ステータス"};
 
-constexpr std::array clock_headings = {"time of day", "date time", "datetime", "date/time", "date and time", "timestamp",
-                                       "clock time",  "uhrzeit",   "tageszeit", "heure"};
+constexpr std::array clock_headings = {"time of day", "date time",  "datetime", "date/time", "date and time",
+                                       "timestamp",   "clock time", "uhrzeit",  "tageszeit", "heure"};
 
 template <std::size_t size>
 bool is_one_of(const std::array<const char*, size>& names, const std::string& heading) {

@@ -16,8 +16,8 @@ namespace coagula::io {
 /// Lines without their ends.
 std::vector<std::string> split_lines(const std::string& text);
 
-/// Fields of a line without blanks and quotes around them. Separators within quotes do not split; quotes that do not begin a field, as
-/// in G" [Pa], are part of it.
+/// Fields of a line without blanks and quotes around them. Separators within quotes do not split; quotes that do not begin a field,
+/// as in G" [Pa], are part of it.
 std::vector<std::string> split_cells(std::string_view line, char separator);
 
 /// Tab, semicolon or comma: the first of these that the line contains.

@@ -23,7 +23,7 @@ struct Elements {
     std::vector<double> radii;        ///< [m]; empty when the file names none
     std::vector<double> edges;        ///< [m]; empty when the file names no box, or another one is given
     bool periodic = true;
-    std::vector<double> corner;       ///< of the box [m]
+    std::vector<double> corner;         ///< of the box [m]
     std::vector<std::int64_t> numbers;  ///< of the particles; empty when the file names none
     std::vector<double> times;
 

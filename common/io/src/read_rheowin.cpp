@@ -3,8 +3,8 @@
 //     Date / Time / Version: ...
 //     ;omega / rad/s;G' / Pa;G'' / Pa;
 //     1|1;6,283;40,88;1,452;
-// or ";omega in rad/s;...", in French "Nr-Seg;Om en 1/min;...". The label is that of series and point; all series stand below one line
-// of headings. Older versions spell Greek letters.
+// or ";omega in rad/s;...", in French "Nr-Seg;Om en 1/min;...". The label is that of series and point; all series stand below one
+// line of headings. Older versions spell Greek letters.
 #include "export_dialect.hpp"
 #include "measured_readers.hpp"
 

@@ -21,8 +21,8 @@ struct SideBySide {
     std::vector<std::size_t> columns_of(std::size_t table) const;
 };
 
-/// How headings repeat, "ω, G', G'', G', G''" or "ω, G', ω, G'", with or without empty columns between the tables; nothing where they
-/// do not. A single heading that repeats needs labels above it, which say what differs: else it may be a mistake.
+/// How headings repeat, "ω, G', G'', G', G''" or "ω, G', ω, G'", with or without empty columns between the tables; nothing where
+/// they do not. A single heading that repeats needs labels above it, which say what differs: else it may be a mistake.
 std::optional<SideBySide> side_by_side(const std::vector<HeadingWithUnit>& headings, bool labelled);
 
 /// A column of the temperature that a label such as "20 °C" or "T = 293 K" says; nothing where it says none.

@@ -79,7 +79,7 @@ std::string local_name(std::string_view name) {
 
 void begin_element(void* data, const XML_Char* name, const XML_Char** attributes) {
     Attributes named;
-    for (; *attributes != nullptr; attributes += 2) {  // NOLINT: expat gives pairs of pointers
+    for (; *attributes != nullptr; attributes += 2) {             // NOLINT: expat gives pairs of pointers
         named.emplace(local_name(attributes[0]), attributes[1]);  // NOLINT
     }
     static_cast<XmlHandler*>(data)->begin(local_name(name), named);
@@ -132,8 +132,7 @@ std::vector<Sheet> sheets_of(const std::string& path, const Archive& archive) {
                   }
               }});
     std::vector<Sheet> sheets;
-    parse_xml(path, archive.read("xl/workbook.xml"),
-              {.begin = [&](const std::string& name, const Attributes& attributes) {
+    parse_xml(path, archive.read("xl/workbook.xml"), {.begin = [&](const std::string& name, const Attributes& attributes) {
                   if (const auto file = files.find(attribute(attributes, "id")); name == "sheet" && file != files.end()) {
                       sheets.push_back({plain_cell(attribute(attributes, "name")), file->second});
                   }

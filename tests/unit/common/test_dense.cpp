@@ -19,7 +19,9 @@ MatrixXd mixed(Eigen::Index rows, Eigen::Index columns) {
     });
 }
 
-double largest(const MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
+double largest(const MatrixXd& matrix) {
+    return matrix.cwiseAbs().maxCoeff();
+}
 
 TEST(Dense, SolutionsSatisfyTheirEquations) {
     const MatrixXd matrix = mixed(7, 7);

@@ -38,7 +38,8 @@ TEST(SpecialFunctions, DigammaAndTrigammaAreDerivatives) {
     for (const double x : {0.3, 2.5, 40.0}) {
         const double step = 1e-4 * x;
         EXPECT_NEAR(coagula::digamma(x), (std::lgamma(x + step) - std::lgamma(x - step)) / (2 * step), 1e-6 * (1 + 1 / x));
-        EXPECT_NEAR(coagula::trigamma(x), (coagula::digamma(x + step) - coagula::digamma(x - step)) / (2 * step), 1e-6 * (1 + 1 / (x * x)));
+        EXPECT_NEAR(coagula::trigamma(x), (coagula::digamma(x + step) - coagula::digamma(x - step)) / (2 * step),
+                    1e-6 * (1 + 1 / (x * x)));
     }
 }
 

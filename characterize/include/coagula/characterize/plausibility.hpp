@@ -19,8 +19,8 @@ struct Plausibility {
     std::vector<std::string> warnings = {};  ///< a sentence for each value that no packing of spheres has
 };
 
-/// For each particle (N) the least distance of its centre to another, or to its own image, over the sum of both radii. Infinite for a
-/// single particle in an open cell.
+/// For each particle (N) the least distance of its centre to another, or to its own image, over the sum of both radii. Infinite for
+/// a single particle in an open cell.
 Eigen::VectorXd nearest_reduced_distances(const Packing& packing);
 
 /// @param packing with at least one particle.

@@ -1,5 +1,5 @@
-// Factorisations of dense matrices of any size. They stand behind one source: their templates take seconds to compile wherever they are
-// included. Matrices whose size is known to the compiler are small, and better factorised where they are.
+// Factorisations of dense matrices of any size. They stand behind one source: their templates take seconds to compile wherever they
+// are included. Matrices whose size is known to the compiler are small, and better factorised where they are.
 #pragma once
 
 #include <Eigen/Core>
@@ -57,8 +57,8 @@ struct SymmetricModes {
 /// The nearest positive semi-definite matrix to a symmetric one: without its negative eigenvalues.
 Eigen::MatrixXd nearest_semidefinite(const Eigen::MatrixXd& matrix);
 
-/// Thin singular value decomposition U diag(values) V^T of a matrix with at least as many rows as columns (Jacobi rotations, accurate for
-/// small values too). Values descend.
+/// Thin singular value decomposition U diag(values) V^T of a matrix with at least as many rows as columns (Jacobi rotations,
+/// accurate for small values too). Values descend.
 struct SingularValues {
     enum class Vectors { left, right };
     SingularValues(const Eigen::MatrixXd& matrix, Vectors wanted);

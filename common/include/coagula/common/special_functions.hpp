@@ -1,5 +1,5 @@
-// Special functions and quantiles. They stand behind one source: the templates of Boost.Math take seconds to compile wherever they are
-// included.
+// Special functions and quantiles. They stand behind one source: the templates of Boost.Math take seconds to compile wherever they
+// are included.
 #pragma once
 
 namespace coagula {
@@ -7,8 +7,8 @@ namespace coagula {
 /// The x below which a standard normal number lies with this probability, in (0, 1).
 double normal_quantile(double probability);
 
-/// The x above which a standard normal number lies with this probability, in (0, 1). Accurate for the smallest probabilities, and faster
-/// than the other by its last digits.
+/// The x above which a standard normal number lies with this probability, in (0, 1). Accurate for the smallest probabilities, and
+/// faster than the other by its last digits.
 double upper_normal_quantile(double probability);
 
 /// The x below which a number with Student's distribution lies with this probability, in (0, 1).

@@ -22,10 +22,10 @@ ToolConstants tool_constants(const Instrument& instrument);
 /// own gap, radius and cone, and of rows with others where a size of the tool is not known.
 ToolConstants tool_constants(const Instrument& instrument, double gap, double plate_radius, double cone_angle);
 
-/// Gives a table of moduli that lacks them storage and loss modulus from what it has: phase or loss tangent, and |G*| or |eta*| and the
-/// angular frequency; else torque, deflection and phase (the raw one, if there is one), which also give the strain; else stress, strain
-/// and phase. Moduli of torque and deflection are raw:
-/// inertia and compliance of the tool, and the friction of its bearing, are in them.
+/// Gives a table of moduli that lacks them storage and loss modulus from what it has: phase or loss tangent, and |G*| or |eta*| and
+/// the angular frequency; else torque, deflection and phase (the raw one, if there is one), which also give the strain; else
+/// stress, strain and phase. Moduli of torque and deflection are raw: inertia and compliance of the tool, and the friction of its
+/// bearing, are in them.
 /// @param raw replace moduli that the instrument has corrected by those of torque, deflection and raw phase. Throws InputError
 /// where these, or a size of the tool, are missing.
 void derive_moduli(Measurement& table, const Instrument& instrument, bool raw);
