@@ -117,7 +117,7 @@ class Plot(ProgramTest):
     def test_every_format(self):
         path = self.copy_of_measured("a.h5")
         for name, begin in (("a.svg", b"<?xml"), ("a.png", b"\x89PNG"), ("a.pdf", b"%PDF")):
-            self.succeed("plot", path, "--figure", "overview", "-o", name, "--resolution", "80")
+            self.succeed("plot", path, "--figure", "overview", "-o", name, *(["--resolution", "80"] if name == "a.png" else []))
             self.assertTrue((self.folder / name).read_bytes().startswith(begin), name)
 
     def test_several_files_share_a_figure(self):
