@@ -12,7 +12,7 @@ namespace {
 struct TableRow {
     std::string_view name;
     std::string_view columns;
-    std::string_view shape = "";
+    std::string_view shape = {};
     bool usual = false;
 };
 
@@ -105,8 +105,8 @@ bool can_hold(const std::string& column, std::string_view word) {
 
 }  // namespace
 
-AtomStyle::AtomStyle(std::string name, const std::vector<std::string>& columns, std::string shape)
-    : name_(std::move(name)), shape_(std::move(shape)), columns_(columns) {
+AtomStyle::AtomStyle(std::string name, std::vector<std::string> columns, std::string shape)
+    : name_(std::move(name)), shape_(std::move(shape)), columns_(std::move(columns)) {
     if (columns_.back() == "...") {
         open_ended_ = true;
         columns_.pop_back();

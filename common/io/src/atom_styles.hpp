@@ -12,7 +12,7 @@ namespace coagula::io {
 class AtomStyle {
 public:
     /// @param columns names such as "id type diameter density x y z".
-    AtomStyle(std::string name, const std::vector<std::string>& columns, std::string shape = "");
+    AtomStyle(std::string name, std::vector<std::string> columns, std::string shape = {});
 
     const std::string& name() const { return name_; }
     const std::vector<std::string>& columns() const { return columns_; }

@@ -74,7 +74,7 @@ std::vector<std::string_view> commented_header(const std::vector<std::string_vie
         std::string_view text = trim(comment->substr(std::min(comment->find_first_not_of('#'), comment->size())));
         text = trim(text.starts_with("format ") ? text.substr(7) : text);
         for (const char candidate : {separator, blanks, ',', ';', '\t', '_'}) {
-            const auto headings = split_header(text, candidate);
+            auto headings = split_header(text, candidate);
             if (headings.size() == fields) {
                 return headings;
             }
