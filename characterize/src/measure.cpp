@@ -77,6 +77,8 @@ public:
             found_.leave_out(measure.name, reason.what());
         } catch (const std::invalid_argument&) {  // the packing or an option is wrong for all of them
             throw;
+        } catch (const InputError&) {
+            throw;
         } catch (const Cancelled&) {
             throw;
         } catch (const std::exception& error) {

@@ -203,7 +203,7 @@ TEST(Measures, ImpossibleValuesAreNotAmongTheResults) {
         return false;
     };
     std::vector<Packing> packings;
-    for (const Index count : {1, 2, 3, 5, 12, 40}) {
+    for (const Index count : {1, 3, 12}) {
         packings.push_back(test::random_spheres(count, Eigen::Vector3d::Constant(5), 0.4, 0.4, 3));
         packings.push_back(test::random_spheres(count, Eigen::Vector3d(3, 5, 9), 0.3, 0.6, 4));
         Packing open = test::random_spheres(count, Eigen::Vector3d::Constant(4), 0.5, 0.5, 6);
