@@ -108,19 +108,20 @@ void export_structure(const std::string& path, const io::Structure& structure, b
 }
 
 Verb export_verb() {
-    return {.name = "export",
-            .summary = "write the coordinates as extended XYZ, LAMMPS data or dump, CSV, GSD or VTK",
-            .input = "FILE.h5",
-            .options = {choice("format", format_names(false),
-                               "format; by the ending of --output when not given; vtk is PolyData with the bonds, lammps is a data "
-                               "file with the bonds",
-                               ""),
-                        flag("trajectory", "write all frames of the file, oldest first, instead of the last one"),
-                        flag("dump-units",
-                             "name units and times in a LAMMPS dump, as dump_modify units yes time yes does; MDAnalysis cannot read "
-                             "these"),
-                        output("file to write; by default beside the input"), flag("force", "replace an existing file")},
-            .run = run_export};
+    return {
+        .name = "export",
+        .summary = "write the coordinates as extended XYZ, LAMMPS data or dump, CSV, GSD or VTK",
+        .input = "FILE.h5",
+        .options = {choice("format", format_names(false),
+                           "format; by the ending of --output when not given; vtk is PolyData with the bonds, lammps is a data "
+                           "file with the bonds",
+                           ""),
+                    flag("trajectory", "write all frames of the file, oldest first, instead of the last one"),
+                    flag("dump-units",
+                         "name units and times in a LAMMPS dump, as dump_modify units yes time yes does; MDAnalysis cannot read "
+                         "these"),
+                    output("file to write; by default beside the input"), flag("force", "replace an existing file")},
+        .run = run_export};
 }
 
 }  // namespace coagula::tools

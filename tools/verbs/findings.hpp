@@ -21,7 +21,8 @@ struct Findings {
     std::vector<std::string> notes = {};  ///< sentences that a user should know
 };
 
-/// The groups of a file that these results take the place of: of a characterization those of what was measured, otherwise all of it.
+/// The groups of a file that these results take the place of: of a characterization those of what was measured, otherwise all of
+/// it.
 std::vector<std::string> replaced_groups(const Findings& found);
 
 }  // namespace coagula::tools
