@@ -93,8 +93,8 @@ class ClosedDescriptors(ProgramTest):
     """Whoever starts the program may have closed its standard streams."""
 
     def run_without(self, closed, *words):
-        return subprocess.run(["sh", "-c", f'exec "$0" "$@" {closed}', PROGRAM, *map(str, words)], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                              timeout=100).returncode
+        return subprocess.run(["sh", "-c", f'exec "$0" "$@" {closed}', PROGRAM, *map(str, words)], cwd=self.folder, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL, timeout=100).returncode
 
     def test_results_are_whole(self):
         for closed in ("2>&-", "<&- 2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
@@ -331,7 +331,7 @@ class Conditions(ProgramTest):
 
 class SeveralWriters(ProgramTest):
     def start(self, *words):
-        return subprocess.Popen([PROGRAM, *map(str, words), "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        return subprocess.Popen([PROGRAM, *map(str, words), "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL,
                                 stderr=subprocess.PIPE, text=True)
 
     def test_both_results_are_kept(self):
