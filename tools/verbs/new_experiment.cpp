@@ -115,27 +115,36 @@ private:
         }
     }
 
-    /// No network flows; what only flows may be an oil, unless its viscosity falls: then an oil would need a rim that has failed.
+    /// No network flows; what only flows may be an oil. A sample that yields in oscillations is one of any kind: as a network
+    /// without a law of yielding it would leave no cause but a rim that has failed.
     void write_material(const std::vector<RecognisedFile>& files) {
-        std::size_t flows = 0;
-        std::size_t thinning = 0;
+        bool flows = false;
+        bool thins = false;
         bool oscillates = false;
+        bool yields = false;
         for (const RecognisedFile& file : files) {
             for (const RecognisedTable& table : file.tables) {
                 const bool flow_curve = table.kind == MeasurementKind::flow_curve;
-                flows += flow_curve ? 1 : 0;
-                thinning += flow_curve && table.yields ? 1 : 0;
+                flows = flows || flow_curve;
+                thins = thins || (flow_curve && table.yields);
                 oscillates = oscillates || (table.kind && !flow_curve);
+                yields = yields || (table.kind && !flow_curve && table.yields);
             }
         }
-        const bool oil = flows > 0 && !oscillates && 2 * thinning <= flows;
+        const bool smooth = yields || (flows && oscillates);
         const auto mark = [](bool active) { return active ? "" : "# "; };
         text_ += "\n[material]\n";
-        text_ += std::string(mark(oil)) +
+        text_ += thins && !oscillates
+                     ? comment("The viscosity falls with the rate: this sample is no oil, which a diagnosis will say.")
+                     : "";
+        text_ += std::string(mark(flows && !oscillates)) +
                  "kind = \"newtonian\"    # an oil, of viscosity = \"1 Pa.s\" where it is known; no structures\n";
-        text_ += std::string(mark(flows > 0 && !oil)) +
+        text_ += std::string(mark(smooth)) +
                  "kind = \"smooth\"    # any sample: what the instrument does to it is diagnosed, no structures\n";
-        text_ += flows > 0 && oscillates ? "# kind = \"network\"    # of particles: without the flow curves\n" : "";
+        if (smooth) {
+            text_ += "# kind = \"network\"    # of particles, with structures";
+            text_ += flows ? ", without the flow curves\n" : "\n";
+        }
         if (oscillates) {
             text_ +=
                 "\n# [structures]    # that a network of particles is simulated with\n"

@@ -73,9 +73,10 @@ std::string remedy(const io::PlainTable& table, const std::string& missing) {
     if (unknown.empty()) {
         return "";
     }
-    const std::string& first = unknown.front();
-    return "; not understood: " + list_of(unknown) + "; if one of them is it, write an experiment file whose [[measurement]] says " +
-           "columns = { " + missing + " = \"" + first.substr(1, first.size() - 2) + "\" }";
+    const std::string heading = unknown.size() == 1 ? unknown[0].substr(1, unknown[0].size() - 2) : "HEADING";
+    return "; not understood: " + list_of(unknown) +
+           "; if one of them is it, write an experiment file whose [[measurement]] says " + "columns = { " + missing + " = \"" +
+           heading + "\" }";
 }
 
 /// What cannot be a measurement of moduli.
@@ -207,8 +208,8 @@ RecognisedTable as_one(const io::PlainTable& table, const diagnose::Instrument& 
         recognised.rules = rules;
         if (recognised.kind) {
             measurement.kind = *recognised.kind;
-            recognised.yields = yields(measurement);
             diagnose::derive_viscosity(measurement);
+            recognised.yields = yields(measurement);
             const diagnose::CheckedMeasurement checked = diagnose::check_data(measurement);
             if (!checked.problems.empty()) {
                 recognised = {std::nullopt, std::string(diagnose::name_of(*recognised.kind)) + ", but " + checked.problems.front()};
@@ -242,8 +243,8 @@ std::vector<RowRange> runs_of(const std::vector<double>& values) {
     return runs;
 }
 
-/// The sweeps that a table holds one below the other, by the axis that turns back least often; nothing where hardly any row belongs to
-/// one.
+/// The sweeps that a table holds one below the other, by the axis that turns back least often; nothing where hardly any row belongs
+/// to one.
 std::vector<RowRange> sweeps_in(const io::PlainTable& table) {
     std::vector<RowRange> fewest;
     for (const io::PlainColumn& column : table.columns) {

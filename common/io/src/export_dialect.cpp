@@ -83,6 +83,7 @@ private:
     std::vector<std::string> aligned(std::size_t line, const TableHead& head) const;
     static bool begins_point(const std::vector<std::string>& row, const TableHead& head);
     void check_row(std::size_t line, const TableHead& head, const std::vector<std::string>& cells) const;
+    double start_of(double by_clock);
     void keep(TableRows& rows, std::size_t first_line);
 
     const MeasuredText& text_;
@@ -96,6 +97,7 @@ private:
     int section_ = 1;
     int announced_ = 0;
     double date_ = unset;                               ///< of the next table
+    double last_date_ = unset;                          ///< that the file has named so far
     bool in_section_ = false;                           ///< a section has begun whose headings are still to come
     std::optional<std::size_t> step_without_headings_;  ///< line
 };
@@ -167,6 +169,7 @@ void ExportReader::add_metadata(const std::string& key, const std::string& value
     file_.metadata.push_back({group_, key, value});
     if (std::find(date_keys.begin(), date_keys.end(), lower_case(key)) != date_keys.end()) {
         date_ = seconds_of_date(value).value_or(date_);
+        last_date_ = std::isnan(date_) ? last_date_ : date_;
     }
 }
 
@@ -233,6 +236,18 @@ void ExportReader::check_row(std::size_t line, const TableHead& head, const std:
     }
 }
 
+/// The clock of the rows tells more than the head of the file, which may lack nothing but the day, or name the start of a
+/// procedure.
+double ExportReader::start_of(double by_clock) {
+    constexpr double day = 86400;
+    const double by_head = std::exchange(date_, unset);
+    if (std::isnan(by_clock) || by_clock >= day || std::isnan(last_date_)) {
+        return std::isnan(by_clock) ? by_head : by_clock;
+    }
+    const double start = day * std::floor(last_date_ / day) + by_clock;
+    return start + 60 < last_date_ ? start + day : start;
+}
+
 void ExportReader::keep(TableRows& rows, std::size_t first_line) {
     for (PlainTable& table : rows.take()) {
         table.test = test_;
@@ -240,7 +255,7 @@ void ExportReader::keep(TableRows& rows, std::size_t first_line) {
         table.section = section_;
         table.announced_points = table.point == 0 ? announced_ : 0;
         table.first_line = text_.number(first_line);
-        table.date = std::isnan(date_) ? table.date : std::exchange(date_, unset);
+        table.date = start_of(table.date);
         file_.tables.push_back(std::move(table));
     }
 }

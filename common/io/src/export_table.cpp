@@ -89,9 +89,10 @@ std::optional<TableHead> HeadFinder::with_line_below(bool in_section) const {
 
 /// RheoCompass and RheoPlus: a line below which, perhaps after one that distinguishes equal headings (Waveform), the units stand.
 std::optional<TableHead> HeadFinder::with_brackets_below() const {
-    const bool marked = role_of(dialect_, cells_.front()) == LineRole::headings;
+    const LineRole role = role_of(dialect_, cells_.front());
+    const bool marked = role == LineRole::headings;
     const std::size_t fewest = marked ? 1 : 2;
-    if (cells_.size() < 2 || units_in_brackets(cells_) > 0) {
+    if (cells_.size() < 2 || (!marked && role != LineRole::metadata) || units_in_brackets(cells_) > 0) {
         return std::nullopt;
     }
     std::vector<std::string> qualifiers;

@@ -161,11 +161,23 @@ void TableBuilder::add_row(const std::vector<std::string>& cells) {
     ++rows_;
 }
 
-/// The first time that can be read is when the table began.
 void TableBuilder::note_clock(const std::string& cell) {
-    if (std::isnan(table_.date)) {
-        table_.date = seconds_of_date(cell).value_or(seconds_of_day(cell).value_or(unset));
+    if (const auto time = seconds_of_date(cell)) {
+        clock_.push_back(*time);
+    } else if (const auto time_of_day = seconds_of_day(cell)) {
+        clock_.push_back(*time_of_day);
     }
+}
+
+/// The clock shows when a row was finished, so that the first began a row earlier; NaN without a clock.
+double TableBuilder::start_by_clock() const {
+    constexpr double day = 86400;
+    if (clock_.size() < 2) {
+        return clock_.empty() ? unset : clock_.front();
+    }
+    const double difference = clock_.back() - clock_.front();
+    const double duration = difference < 0 ? difference + day : difference;  // over midnight
+    return clock_.front() - duration / static_cast<double>(clock_.size() - 1);
 }
 
 void TableBuilder::add_flags(const std::string& status) {
@@ -232,7 +244,7 @@ PlainTable TableBuilder::take(std::string title, int section, bool keep_all) {
     PlainTable kept;
     kept.title = std::move(title);
     kept.section = section;
-    kept.date = table_.date;
+    kept.date = start_by_clock();
     kept.flags.assign(flags_.begin(), flags_.end());
     std::vector<std::optional<std::size_t>> place(table_.columns.size());  // of a column among those kept
     for (std::size_t column = 0; column < table_.columns.size(); ++column) {

@@ -47,6 +47,7 @@ public:
 private:
     void add_flags(const std::string& status);
     void note_clock(const std::string& cell);
+    double start_by_clock() const;
     void take_out_loss_tangent_limit();
     void take_out_negative_moduli();
     void take_out(std::size_t column, std::size_t row, const std::string& reason);
@@ -55,6 +56,7 @@ private:
     PlainTable table_;
     std::vector<bool> is_status_;               ///< per column
     std::vector<bool> is_clock_;                ///< per column: tells the time of day
+    std::vector<double> clock_;                 ///< what it tells, as seconds_of_date() or seconds_of_day() [s]
     std::vector<bool> has_number_;              ///< per column
     std::vector<std::size_t> negative_moduli_;  ///< rows flagged so
     std::map<std::string, std::size_t> flags_;

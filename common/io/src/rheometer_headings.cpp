@@ -19,9 +19,9 @@ namespace {
 using Entry = std::pair<std::string_view, std::string_view>;
 
 /// Headings in lower case and what they mean; single letters, whose case matters, as they are written. Anton Paar RheoCompass
-/// (English, German, French) and RheoPlus (English, Japanese), TA Instruments TRIOS, HAAKE RheoWin, Kinexus, and the symbols people use. Of
-/// headings with one meaning the more special ones stand first. Interval times are not here: they start anew in each section, and
-/// which clock a sweep ran on must be said.
+/// (English, German, French) and RheoPlus (English, Japanese), TA Instruments TRIOS, HAAKE RheoWin, Kinexus, and the symbols people
+/// use. Of headings with one meaning the more special ones stand first. Interval times are not here: they start anew in each
+/// section, and which clock a sweep ran on must be said.
 constexpr std::array headings = {
     Entry{"time", "time"},
     Entry{"zeit", "time"},
@@ -249,9 +249,21 @@ std::string replaced(std::string text, const Replacements& replacements) {
 
 /// Primes and dashes as a typewriter has them, and Greek letters where others look like them.
 std::string plain_name(std::string_view heading) {
-    std::string name = replaced(std::string(trim(heading)),
-                                {{"′", "'"},  {"’", "'"},  {"‘", "'"},  {"ʹ", "'"},  {"ˈ", "'"}, {"´", "'"}, {"`", "'"}, {"″", "''"},
-                                 {"”", "''"}, {"“", "''"}, {"\"", "''"}, {"Ω", "ω"}, {"ɣ", "γ"}, {"ɷ", "ω"}, {"_", " "}});
+    std::string name = replaced(std::string(trim(heading)), {{"′", "'"},
+                                                             {"’", "'"},
+                                                             {"‘", "'"},
+                                                             {"ʹ", "'"},
+                                                             {"ˈ", "'"},
+                                                             {"´", "'"},
+                                                             {"`", "'"},
+                                                             {"″", "''"},
+                                                             {"”", "''"},
+                                                             {"“", "''"},
+                                                             {"\"", "''"},
+                                                             {"Ω", "ω"},
+                                                             {"ɣ", "γ"},
+                                                             {"ɷ", "ω"},
+                                                             {"_", " "}});
     return name.size() == 1 ? name : lower_case(name);
 }
 
@@ -270,6 +282,16 @@ std::optional<HeadingWithUnit> split_at(std::string_view text, std::size_t at, s
     return HeadingWithUnit{std::string(name), normal_unit(unit)};
 }
 
+/// "ShearRate" as two words.
+std::string parted_words(std::string_view heading) {
+    std::string parted;
+    for (const char c : heading) {
+        const bool begins_word = c >= 'A' && c <= 'Z' && !parted.empty() && parted.back() >= 'a' && parted.back() <= 'z';
+        parted += begins_word ? std::string{' ', c} : std::string{c};
+    }
+    return parted;
+}
+
 /// The heading as it stands in the list.
 KnownHeading listed(std::string_view heading) {
     static const std::unordered_map<std::string_view, std::size_t> places = [] {
@@ -283,6 +305,7 @@ KnownHeading listed(std::string_view heading) {
     auto found = places.find(name);
     const std::string lower = lower_case(name);
     found = found == places.end() ? places.find(lower) : found;
+    found = found == places.end() ? places.find(plain_name(parted_words(heading))) : found;
     return found == places.end() ? KnownHeading{} : KnownHeading{std::string(headings[found->second].second), found->second};
 }
 
@@ -340,7 +363,10 @@ std::string normal_unit(std::string_view text) {
                                                     {"⁻²", "-2"},
                                                     {"N m", "N.m"},
                                                     {"Nm", "N.m"},
-                                                    {"Pa s", "Pa.s"}});
+                                                    {"Pa s", "Pa.s"},
+                                                    {"Pa_s", "Pa.s"},
+                                                    {"rad_s", "rad/s"},
+                                                    {"1_s", "1/s"}});
     if (unit.ends_with("Pas")) {
         unit.insert(unit.size() - 1, ".");
     }

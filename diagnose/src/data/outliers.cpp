@@ -219,10 +219,13 @@ std::map<std::string, double> samples_beside(const std::vector<Group>& groups, c
                     others.push_back(value);
                 }
             }
+            if (others.size() < 2) {
+                continue;
+            }
             const double middle = median_of(others);
             const auto [low, high] = std::minmax_element(others.begin(), others.end());
             const double scatter = std::max(usual_scatter, *high - *low);
-            if (others.size() >= 2 && std::abs(level - middle) > sample_deviations * scatter) {
+            if (std::abs(level - middle) > sample_deviations * scatter) {
                 beside[sample] = level - middle;
             }
         }

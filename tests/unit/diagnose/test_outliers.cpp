@@ -66,6 +66,19 @@ TEST(Outliers, AreRowsBesideTheirNeighboursAndTheOtherSamples) {
 }
 
 /// At an end there is one neighbour: only the other samples tell.
+/// Runs on one sample leave no others to compare it with.
+TEST(Outliers, AreNoSamplesWhereThereIsOne) {
+    std::vector<Measurement> runs = {sweep_of("A", 1e5, 1), sweep_of("A", 0.3e5, 2), sweep_of("A", 2e5, 3)};
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+        runs[run].label += std::to_string(run);
+    }
+    for (const Outlier& outlier : leave_out_outliers(runs)) {
+        EXPECT_TRUE(outlier.row) << outlier.sentence;
+    }
+    std::vector<Measurement> alone = {sweep_of("A", 1e5, 1)};
+    EXPECT_TRUE(leave_out_outliers(alone).empty());
+}
+
 TEST(Outliers, AtAnEndAreToldByTheOtherSamples) {
     std::vector<Measurement> tables = three_samples();
     multiply(tables[0], 13, 10);

@@ -38,7 +38,8 @@ TEST_F(ExportVariants, RowsThatLostTheirEmptyFirstCellGetItBack) {
 /// The same with numbers of points, with the rows as they should be, and with more lost than can be told.
 TEST_F(ExportVariants, WhatIsLostAtTheBeginningOfRowsIsTold) {
     const std::string head =
-        "Test:\tA\nInterval and data points:\t1\t2\nInterval data:\tPoint No.\tAngular Frequency\tG'\tG''\n\t\t[rad/s]\t[Pa]\t[Pa]\n";
+        "Test:\tA\nInterval and data points:\t1\t2\nInterval data:\tPoint No.\tAngular "
+        "Frequency\tG'\tG''\n\t\t[rad/s]\t[Pa]\t[Pa]\n";
     EXPECT_EQ(values(table_of(head + "1\t1\t100\t10\n2\t10\t120\t20\n"), "storage_modulus", "Pa"), (std::vector<double>{100, 120}));
     EXPECT_EQ(values(table_of(head + "\t1\t1\t100\t10\n2\t10\t120\t20\n"), "loss_modulus", "Pa"), (std::vector<double>{10, 20}));
     const std::string plain = "Test:\tA\nInterval data:\tAngular Frequency\tG'\tG''\n\t[rad/s]\t[Pa]\t[Pa]\n";
@@ -46,7 +47,8 @@ TEST_F(ExportVariants, WhatIsLostAtTheBeginningOfRowsIsTold) {
     const std::string path = write("lost.csv", plain + "1\t100\t10\n100\t10\n");
     EXPECT_EQ(sentence<InputError>([&] { read_measured_file(path); }),
               path +
-                  ", line 5: there are 2 cells, but the headings name 4, and the first cell, which is empty in such exports, is not: cells "
+                  ", line 5: there are 2 cells, but the headings name 4, and the first cell, which is empty in such exports, is "
+                  "not: cells "
                   "at the beginnings of lines were lost; export the measurement again");
 }
 
@@ -95,7 +97,8 @@ TEST_F(ExportVariants, RheoWinInFrenchWithQuotationMarksInHeadings) {
         const auto stress = values(table, "stress", "Pa");
         const auto strain = values(table, "strain", "1");
         for (std::size_t row = 0; row < table.rows(); ++row) {
-            const double modulus = std::hypot(values(table, "storage_modulus", "Pa")[row], values(table, "loss_modulus", "Pa")[row]);
+            const double modulus =
+                std::hypot(values(table, "storage_modulus", "Pa")[row], values(table, "loss_modulus", "Pa")[row]);
             EXPECT_NEAR(modulus * strain[row] / stress[row], 1, 0.1);
         }
     }
@@ -142,6 +145,9 @@ TEST_F(ExportVariants, HeadingsWithWordSymbolAndUnit) {
     check("Shear modulus (elastic component)(Pa)", "storage_modulus", "Pa");
     check("Shear modulus (viscous component)(Pa)", "loss_modulus", "Pa");
     check("Time (sequence)(s)", "time", "s");
+    check("ShearRate_1_s", "shear_rate", "1/s");
+    check("StorageModulus_kPa", "storage_modulus", "kPa");
+    check("Complex_Viscosity_Pa_s", "complex_viscosity", "Pa.s");
     // Two meanings, a sample and a clock that starts anew are none of these.
     check("Stress strain", "", "");
     check("G' A", "", "");
@@ -152,7 +158,7 @@ TEST_F(ExportVariants, TablesSideBySideAreTold) {
     const MeasuredFile file = read_measured_file(testing::dataset("ttw_wide_table/ttw_70.csv"));
     ASSERT_EQ(file.tables.size(), 7U);
     for (const PlainTable& table : file.tables) {
-        EXPECT_EQ(table.rows(), 111U);
+        EXPECT_EQ(table.rows(), 16U);
         EXPECT_EQ(table.columns.size(), 3U);
         EXPECT_EQ(table.columns[0].quantity, "angular_frequency");
         EXPECT_EQ(table.columns[0].values[1], 0.2);
@@ -174,8 +180,8 @@ TEST_F(ExportVariants, TablesSideBySideWithAxesOfTheirOwnTemperaturesAndSamples)
     EXPECT_EQ(own.tables[0].rows(), 3U);
     EXPECT_EQ(values(own.tables[1], "angular_frequency", "rad/s"), (std::vector<double>{1, 3}));
     EXPECT_NEAR(values(own.tables[1], "temperature", "K")[1], 303.15, 1e-9);
-    const MeasuredFile samples = read_measured_file(
-        write("samples.csv", ",Gel A,Gel B\nω [rad/s],G' [Pa],G' [Pa]\n1,100,50\n2,120,60\n"));
+    const MeasuredFile samples =
+        read_measured_file(write("samples.csv", ",Gel A,Gel B\nω [rad/s],G' [Pa],G' [Pa]\n1,100,50\n2,120,60\n"));
     ASSERT_EQ(samples.tables.size(), 2U);
     EXPECT_EQ(samples.tables[1].test, "Gel B");
     EXPECT_EQ(values(samples.tables[1], "storage_modulus", "Pa"), (std::vector<double>{50, 60}));
@@ -199,6 +205,15 @@ TEST_F(ExportVariants, AClockSaysWhenATableBegan) {
     EXPECT_EQ(dates("Uhrzeit", {"11:50 PM", "1:10 AM", "12:20 AM"}), (std::vector<double>{85800, 90600, 87600}));  // over midnight
     EXPECT_EQ(dates("Date Time", {"2019-03-27 10:17:48"}).front(), seconds_of_date(2019, 3, 27, 10, 17, 48));
     EXPECT_TRUE(std::isnan(dates("Time of Day", {"noon"}).front()));
+    // A row is finished at its time: the first of three that take ten minutes began ten minutes earlier.
+    const std::string rows = "09:50:00\t100\t1\n10:00:00\t110\t2\n10:10:00\t120\t3\n";
+    const std::string headings = "[step]\nA\nTime of day\tStorage modulus\tAngular frequency\n\tPa\trad/s\n";
+    EXPECT_EQ(table_of(headings + rows).date, 9 * 3600 + 40 * 60);
+    // The head of the file names the day.
+    const PlainTable dated = table_of("Run date\t3/27/2019 9:30:00 AM\n" + headings + rows);
+    EXPECT_EQ(dated.date, seconds_of_date(2019, 3, 27, 9, 40, 0));
+    const PlainTable night = table_of("Run date\t3/27/2019 11:30:00 PM\n" + headings + "00:10:00\t100\t1\n00:20:00\t110\t2\n");
+    EXPECT_EQ(night.date, seconds_of_date(2019, 3, 28, 0, 0, 0));
 }
 
 TEST_F(ExportVariants, WorkbooksOfXmlAreReadLikeOldOnes) {
