@@ -1,12 +1,12 @@
 #include "rheometer_headings.hpp"
 
+#include "heading_list.hpp"
 #include "text_reader.hpp"
 
 #include <coagula/io/measured_file.hpp>
 #include <coagula/io/units.hpp>
 
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <optional>
 #include <unordered_map>
@@ -15,224 +15,6 @@
 namespace coagula::io {
 
 namespace {
-
-using Entry = std::pair<std::string_view, std::string_view>;
-
-/// Headings in lower case and what they mean; single letters, whose case matters, as they are written. Anton Paar RheoCompass
-/// (English, German, French) and RheoPlus (English, Japanese), TA Instruments TRIOS, HAAKE RheoWin, Kinexus, and the symbols people
-/// use. Of headings with one meaning the more special ones stand first. Interval times are not here: they start anew in each
-/// section, and which clock a sweep ran on must be said.
-constexpr std::array headings = {
-    Entry{"time", "time"},
-    Entry{"zeit", "time"},
-    Entry{"temps", "time"},
-    Entry{"時間", "time"},
-    Entry{"t", "time"},
-    Entry{"step time", "time"},
-    Entry{"time (sequence)", "time"},
-
-    Entry{"oscillation strain", "strain"},
-    Entry{"strain amplitude", "strain"},
-    Entry{"complex shear strain", "strain"},
-    Entry{"shear strain amplitude", "strain"},
-    Entry{"shear strain", "strain"},
-    Entry{"scherdeformation", "strain"},
-    Entry{"deformation", "strain"},
-    Entry{"déformation de cisaillement", "strain"},
-    Entry{"déformation", "strain"},
-    Entry{"ひずみ", "strain"},
-    Entry{"strain", "strain"},
-    Entry{"γ", "strain"},
-    Entry{"gamma", "strain"},
-
-    Entry{"oscillation stress", "stress"},
-    Entry{"stress amplitude", "stress"},
-    Entry{"complex shear stress", "stress"},
-    Entry{"shear stress amplitude", "stress"},
-    Entry{"shear stress", "stress"},
-    Entry{"schubspannung", "stress"},
-    Entry{"contrainte de cisaillement", "stress"},
-    Entry{"contrainte", "stress"},
-    Entry{"せん断応力", "stress"},
-    Entry{"stress", "stress"},
-    Entry{"τ", "stress"},
-    Entry{"tau", "stress"},
-    Entry{"σ", "stress"},
-
-    Entry{"storage modulus", "storage_modulus"},
-    Entry{"speichermodul", "storage_modulus"},
-    Entry{"module de stockage", "storage_modulus"},
-    Entry{"module de conservation", "storage_modulus"},
-    Entry{"貯蔵弾性率", "storage_modulus"},
-    Entry{"elastic modulus", "storage_modulus"},
-    Entry{"shear storage modulus", "storage_modulus"},
-    Entry{"shear modulus (elastic component)", "storage_modulus"},
-    Entry{"module élastique", "storage_modulus"},
-    Entry{"g prime", "storage_modulus"},
-    Entry{"gprime", "storage_modulus"},
-    Entry{"gp", "storage_modulus"},
-    Entry{"g'", "storage_modulus"},
-
-    Entry{"loss modulus", "loss_modulus"},
-    Entry{"verlustmodul", "loss_modulus"},
-    Entry{"module de perte", "loss_modulus"},
-    Entry{"損失弾性率", "loss_modulus"},
-    Entry{"viscous modulus", "loss_modulus"},
-    Entry{"shear loss modulus", "loss_modulus"},
-    Entry{"shear modulus (viscous component)", "loss_modulus"},
-    Entry{"module visqueux", "loss_modulus"},
-    Entry{"g double prime", "loss_modulus"},
-    Entry{"gdoubleprime", "loss_modulus"},
-    Entry{"gpp", "loss_modulus"},
-    Entry{"gdp", "loss_modulus"},
-    Entry{"g''", "loss_modulus"},
-
-    Entry{"complex modulus", "complex_modulus"},
-    Entry{"complex shear modulus", "complex_modulus"},
-    Entry{"shear modulus (complex component)", "complex_modulus"},
-    Entry{"komplexer schubmodul", "complex_modulus"},
-    Entry{"module complexe", "complex_modulus"},
-    Entry{"module de cisaillement complexe", "complex_modulus"},
-    Entry{"複素弾性率", "complex_modulus"},
-    Entry{"|g*|", "complex_modulus"},
-    Entry{"g*", "complex_modulus"},
-
-    Entry{"third harmonic storage", "third_harmonic_storage"},
-    Entry{"third harmonic loss", "third_harmonic_loss"},
-
-    Entry{"loss tangent", "loss_tangent"},
-    Entry{"loss factor", "loss_tangent"},
-    Entry{"damping factor", "loss_tangent"},
-    Entry{"verlustfaktor", "loss_tangent"},
-    Entry{"facteur de perte", "loss_tangent"},
-    Entry{"損失正接", "loss_tangent"},
-    Entry{"tan(delta)", "loss_tangent"},
-    Entry{"tan delta", "loss_tangent"},
-    Entry{"tandelta", "loss_tangent"},
-    Entry{"tan(δ)", "loss_tangent"},
-    Entry{"tan δ", "loss_tangent"},
-    Entry{"tanδ", "loss_tangent"},
-
-    Entry{"phase shift angle", "phase"},
-    Entry{"phasenverschiebungswinkel", "phase"},
-    Entry{"angle de déphasage", "phase"},
-    Entry{"位相角", "phase"},
-    Entry{"phase angle", "phase"},
-    Entry{"phase shift", "phase"},
-    Entry{"loss angle", "phase"},
-    Entry{"phasenwinkel", "phase"},
-    Entry{"verlustwinkel", "phase"},
-    Entry{"déphasage", "phase"},
-    Entry{"phase", "phase"},
-    Entry{"delta", "phase"},
-    Entry{"δ", "phase"},
-
-    Entry{"raw phase", "raw_phase"},
-    Entry{"raw phase (torque)", "raw_phase"},
-    Entry{"raw oscillation phase", "raw_phase"},
-    Entry{"raw phase angle", "raw_phase"},
-
-    Entry{"angular frequency", "angular_frequency"},
-    Entry{"kreisfrequenz", "angular_frequency"},
-    Entry{"fréquence angulaire", "angular_frequency"},
-    Entry{"pulsation", "angular_frequency"},
-    Entry{"角周波数", "angular_frequency"},
-    Entry{"omega", "angular_frequency"},
-    Entry{"ω", "angular_frequency"},
-    Entry{"w", "angular_frequency"},
-
-    Entry{"frequency", "frequency"},
-    Entry{"frequenz", "frequency"},
-    Entry{"fréquence", "frequency"},
-    Entry{"周波数", "frequency"},
-    Entry{"freq", "frequency"},
-    Entry{"freq.", "frequency"},
-    Entry{"f", "frequency"},
-
-    Entry{"complex viscosity", "complex_viscosity"},
-    Entry{"komplexe viskosität", "complex_viscosity"},
-    Entry{"viscosité complexe", "complex_viscosity"},
-    Entry{"複素粘度", "complex_viscosity"},
-    Entry{"|eta*|", "complex_viscosity"},
-    Entry{"eta*", "complex_viscosity"},
-    Entry{"|η*|", "complex_viscosity"},
-    Entry{"η*", "complex_viscosity"},
-
-    Entry{"oscillation torque", "torque"},
-    Entry{"torque", "torque"},
-    Entry{"moment", "torque"},
-    Entry{"drehmoment", "torque"},
-    Entry{"couple", "torque"},
-    Entry{"ﾄﾙｸ", "torque"},
-    Entry{"トルク", "torque"},
-    Entry{"M", "torque"},
-
-    Entry{"oscillation displacement", "deflection"},
-    Entry{"deflection angle", "deflection"},
-    Entry{"auslenkwinkel", "deflection"},
-    Entry{"angle de déflexion", "deflection"},
-    Entry{"angular displacement", "deflection"},
-    Entry{"振り角", "deflection"},
-    Entry{"deflection", "deflection"},
-    Entry{"displacement", "deflection"},
-
-    Entry{"normal force", "normal_force"},
-    Entry{"normalkraft", "normal_force"},
-    Entry{"force normale", "normal_force"},
-    Entry{"ﾉｰﾏﾙﾌｫｰｽ", "normal_force"},
-    Entry{"ノーマルフォース", "normal_force"},
-    Entry{"axial force", "normal_force"},
-    Entry{"fn", "normal_force"},
-    Entry{"F", "normal_force"},
-
-    Entry{"temperature", "temperature"},
-    Entry{"temperatur", "temperature"},
-    Entry{"température", "temperature"},
-    Entry{"温度", "temperature"},
-    Entry{"T", "temperature"},
-
-    Entry{"gap", "gap"},
-    Entry{"spaltabstand", "gap"},
-    Entry{"messspalt", "gap"},
-    Entry{"entrefer", "gap"},
-    Entry{"ｷﾞｬｯﾌﾟ", "gap"},
-    Entry{"ギャップ", "gap"},
-
-    Entry{"shear rate", "shear_rate"},
-    Entry{"scherrate", "shear_rate"},
-    Entry{"gradient de cisaillement", "shear_rate"},
-    Entry{"vitesse de cisaillement", "shear_rate"},
-    Entry{"taux de cisaillement", "shear_rate"},
-    Entry{"せん断速度", "shear_rate"},
-    Entry{"viscosity", "viscosity"},
-    Entry{"shear viscosity", "viscosity"},
-    Entry{"viskosität", "viscosity"},
-    Entry{"viscosité", "viscosity"},
-    Entry{"粘度", "viscosity"},
-    Entry{"eta", "viscosity"},
-    Entry{"η", "viscosity"},
-    Entry{"relaxation modulus", "relaxation_modulus"},
-    Entry{"緩和弾性率", "relaxation_modulus"},
-
-    Entry{"plate radius", "plate_radius"},
-    Entry{"volume fraction", "volume_fraction"},
-    Entry{"phi", "volume_fraction"},
-    Entry{"φ", "volume_fraction"},
-    Entry{"ϕ", "volume_fraction"},
-    Entry{"heterogeneity", "heterogeneity"},
-    Entry{"coordination", "coordination"},
-    Entry{"coordination number", "coordination"},
-    Entry{"structure", "structure"},
-    Entry{"rattler fraction", "rattler_fraction"},
-    Entry{"x", "x"},
-    Entry{"y", "y"},
-    Entry{"z", "z"},
-    Entry{"frame", "frame"},
-    Entry{"image", "frame"},
-    Entry{"particle radius", "particle_radius"},
-    Entry{"pore radius", "pore_radius"},
-    Entry{"exclusion probability", "exclusion_probability"},
-};
 
 constexpr std::size_t longest_heading = 100;  ///< bytes; none of the list comes near
 
@@ -296,8 +78,8 @@ std::string parted_words(std::string_view heading) {
 KnownHeading listed(std::string_view heading) {
     static const std::unordered_map<std::string_view, std::size_t> places = [] {
         std::unordered_map<std::string_view, std::size_t> map;
-        for (std::size_t place = 0; place < headings.size(); ++place) {
-            map.emplace(headings[place].first, place);
+        for (std::size_t place = 0; place < heading_list.size(); ++place) {
+            map.emplace(heading_list[place].first, place);
         }
         return map;
     }();
@@ -306,7 +88,7 @@ KnownHeading listed(std::string_view heading) {
     const std::string lower = lower_case(name);
     found = found == places.end() ? places.find(lower) : found;
     found = found == places.end() ? places.find(plain_name(parted_words(heading))) : found;
-    return found == places.end() ? KnownHeading{} : KnownHeading{std::string(headings[found->second].second), found->second};
+    return found == places.end() ? KnownHeading{} : KnownHeading{std::string(heading_list[found->second].second), found->second};
 }
 
 /// Without what parts a word from its symbol.
