@@ -159,7 +159,7 @@ class VeryFewParticles(ProgramTest):
 class Generation(ProgramTest):
     def refuse(self, says, code=2, **changes):
         words = {"particles": "500", "voids": "250", "volume-fraction": "0.4", "radius": "0.25um", "output": "out.h5", **changes}
-        options = [part for name, value in words.items() for part in ("--" + name.replace("_", "-"), value)]
+        options = [part for name, value in words.items() if value for part in ("--" + name.replace("_", "-"), value)]
         self.fail_with(code, "generate", "vem", *options, says=says)
 
     def test_volume_fraction(self):
@@ -180,17 +180,17 @@ class Generation(ProgramTest):
         self.refuse("--target-coordination", target_coordination="7")
 
     def test_size_distribution(self):
-        self.refuse("--size-distribution", size_distribution="absent.csv")
+        self.refuse("--size-distribution", size_distribution="absent.csv", radius=None)
         self.refuse("--size-distribution", size_distribution="normal")
         self.refuse("", size_distribution="normal:-0.1")
         self.write("sizes.csv", "radius [um],fraction\n0.2,1\n0.3,\n")
-        self.refuse("sizes.csv, line 3", size_distribution="sizes.csv")
+        self.refuse("sizes.csv, line 3", size_distribution="sizes.csv", radius=None)
         self.write("sizes.csv", "radius [um],fraction\n0.2,1\n0.3,-1\n")
-        self.refuse("sizes.csv, line 3: fraction is -1, but must be", size_distribution="sizes.csv")
+        self.refuse("sizes.csv, line 3: fraction is -1, but must be", size_distribution="sizes.csv", radius=None)
         self.write("sizes.csv", "radius,fraction\n0.2,1\n")
-        self.refuse("write radius [m]", size_distribution="sizes.csv")
+        self.refuse("write radius [m]", size_distribution="sizes.csv", radius=None)
         self.write("sizes.csv", "size,fraction\n0.2,1\n")
-        self.refuse("sizes.csv", size_distribution="sizes.csv")
+        self.refuse("sizes.csv", size_distribution="sizes.csv", radius=None)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ class Potential(ProgramTest):
         by_strength = self.succeed_json(*self.CURVE, "--surface-potential", "15mV", "--ionic-strength", "0.93mol/m3")
         self.assertAlmostEqual(by_strength["barrier_height_kT"], 5.65, delta=0.3)
         self.fail_with(2, *self.CURVE, "--surface-potential", "15mV", "--ionic-strength", "1mol/m3", "--debye-length", "10nm",
-                       says="same thing")
+                       says="both set the Debye length")
 
     def test_picture(self):
         self.succeed(*self.CURVE, "--surface-potential", "15mV", "--picture", "curve.svg")
@@ -235,7 +235,7 @@ class Refusals(ProgramTest):
                            (["--integrator", "euler", "--time-step", "1us"], "stable up to"),
                            (["--volume-fraction", "0.7"], "--volume-fraction"),
                            (["--equilibrium-gap", "90nm"], "contact"),
-                           (["--friction", "0.3"], "tangential stiffness"),
+                           (["--friction", "0.3"], "--tangential-stiffness"),
                            (["--gravity", "9.81m/s2"], "density difference"),
                            (["--stop-plateau", "energy"], "--stop-plateau"),
                            (["--yukawa-energy", "1e-20J"], "--yukawa-length"),

@@ -314,10 +314,15 @@ class Conditions(ProgramTest):
 
     def test_info_and_json_show_them(self):
         found = self.succeed_json(*(word for word in self.shear("quasistatic", self.METHODS["quasistatic"][1]) if word != "--quiet"))
-        self.assertEqual((found["conditions"]["amplitudes"], found["conditions"]["bond_tolerance"]), ("1e-4", 0.01))
-        self.assertRegex(self.succeed("info", "a.h5"), r"/mechanics/quasistatic/conditions/amplitudes +1e-4 ")
+        self.assertEqual((found["conditions"]["amplitudes"], found["conditions"]["bond_tolerance"]), ("1e-04", 0.01))
+        self.assertRegex(self.succeed("info", "a.h5"), r"/mechanics/quasistatic/conditions/amplitudes +1e-04 ")
         row = next(csv.DictReader(io.StringIO(self.succeed("info", "a.h5", "--csv"))))
-        self.assertEqual(row["mechanics/quasistatic/conditions/amplitudes"], "1e-4")
+        self.assertEqual(row["mechanics/quasistatic/conditions/amplitudes"], "1e-04")
+
+    def test_another_spelling_is_the_same_condition(self):
+        for amplitude in ("1e-4", "0.0001", "1e-2%"):
+            words = ["--amplitudes", amplitude, "--steps-per-cycle", "4", "--orientation", "zx"]
+            self.succeed(*self.shear("quasistatic", words))
 
     def test_who_comes_second_does_not_replace_the_first(self):
         """Both begin when the file has no results."""

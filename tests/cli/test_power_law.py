@@ -83,7 +83,7 @@ class PowerLaw(ProgramTest):
         self.assertIn("unbounded", self.succeed("fit", "power-law", "table.csv"))
         falling = self.fit(table(values=lambda a: 1 / a))  # a power law too
         self.assertAlmostEqual(falling["beta"], -1, delta=1e-5)
-        self.assertIn("no threshold", falling["summary"])
+        self.assertIn("not a threshold", falling["summary"])
 
     def test_refused(self):
         def refuse(text, says, *words):

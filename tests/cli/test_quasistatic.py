@@ -49,7 +49,7 @@ class Quasistatic(ProgramTest):
             for entry in (whole, again):
                 del entry["seconds"], entry["output"]
             self.assertEqual(again, whole)
-            self.fail_with(2, *call, "--cycles", "3", "-o", f"{name}.h5", "--force", "--checkpoint", checkpoint, says=[checkpoint, "other options"])
+            self.fail_with(2, *call, "--rest-length", "radii", "-o", f"{name}.h5", "--force", "--checkpoint", checkpoint, says=[checkpoint, "other options"])
 
     def test_sweep_with_breakage(self):
         self.write("model.toml", MODEL)
@@ -96,7 +96,7 @@ class Quasistatic(ProgramTest):
         refuse("exclude", "--amplitudes", "1e-3", "--ramp", "1e-3")
         refuse("--amplitudes", "--amplitudes", "1e-3:1e-2")
         refuse("--amplitudes", "--amplitudes", "-1")
-        refuse("--amplitudes: '10x' is no number", "--amplitudes", "1e-3:1e-2:10x")
+        refuse("--amplitudes: '10x' is not a number", "--amplitudes", "1e-3:1e-2:10x")
         refuse("--amplitudes: '-1' is out of range", "--amplitudes", "-1:1e-2:10")
         self.write("model.toml", 'normal_viscosity = "1 mN.s/m"\n')
         refuse("dashpot", "--model", "model.toml")

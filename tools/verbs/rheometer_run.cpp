@@ -41,7 +41,7 @@ Progress whole_test(const Progress& progress, const std::vector<mechanics::Shear
 }
 
 /// The stress that a network without a modulus shows is its inertia, which a run at a finite rate has, and no modulus of its own.
-constexpr double inertial_modulus = 1e-3;  // over the affine one
+constexpr double inertial_modulus = 1e-2;  // over the affine one
 
 void clear_inertia(const mechanics::LinearResponse& linear, mechanics::RheometerResult& result) {
     for (mechanics::RheometerRun& run : result.runs) {
@@ -50,7 +50,7 @@ void clear_inertia(const mechanics::LinearResponse& linear, mechanics::Rheometer
         if (!has_modulus(linear, run.orientation) && modulus < inertial_modulus * linear.mean_affine_modulus()) {
             last.storage_modulus = last.loss_modulus = last.phase = 0;
             last.fundamental_storage = last.fundamental_loss = 0;
-            run.rest_modulus = 0;
+            run.rest_modulus = std::isfinite(run.rest_modulus) ? 0 : unset;
             run.rate_error = unset;
         }
     }

@@ -3,8 +3,10 @@
 #include "cli/verbs.hpp"
 #include "frequency_list.hpp"
 
+#include <coagula/common/readable.hpp>
 #include <coagula/io/contact_model_file.hpp>
 #include <coagula/io/structure_file.hpp>
+#include <coagula/io/units.hpp>
 
 #include <algorithm>
 #include <map>
@@ -33,6 +35,23 @@ const std::map<std::string, std::vector<std::string>>& conditions_by_group() {
     return names;
 }
 
+/// A list with its quantities as SI numbers, so that "1e-3,1kHz" and "0.001,1000" are the same condition.
+std::string with_plain_numbers(const std::string& list, const std::string& unit) {
+    std::string text;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find_first_of(",:", begin), list.size());
+        const std::string word = list.substr(begin, end - begin);
+        try {
+            text += to_text(io::parse_quantity(word, unit));
+        } catch (const InputError&) {  // a name, such as that of an orientation
+            text += word;
+        }
+        text += end < list.size() ? std::string(1, list[end]) : "";
+        begin = end + 1;
+    }
+    return text;
+}
+
 io::Dataset condition(const Arguments& arguments, const Option& option, const std::string& path) {
     switch (option.kind) {
         case Option::Kind::flag:
@@ -44,7 +63,8 @@ io::Dataset condition(const Arguments& arguments, const Option& option, const st
         case Option::Kind::text:
             break;
     }
-    return io::text(path, arguments.text(option.name), option.meaning);
+    return io::text(path, with_plain_numbers(arguments.text(option.name), option.name.starts_with("frequency") ? "Hz" : "1"),
+                    option.meaning);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Brownian dynamics: bits, restart, bookkeeping and refusals. What the physics must give is in tests/validation/generators.
+#include <coagula/common/failures.hpp>
 #include <coagula/generators/brownian_dynamics.hpp>
 
 #include <gtest/gtest.h>
@@ -209,7 +210,7 @@ TEST(BrownianDynamics, StopsAtTheCoordination) {
     EXPECT_GE(run.coordination, 1);
     EXPECT_LT(run.coordination, 1.4);
     EXPECT_LT(run.series.coordination[run.series.coordination.size() - 2], 1);
-    EXPECT_THROW(simulate_brownian(run.packing, dlvo(0), options), std::invalid_argument);  // is there already
+    EXPECT_THROW(simulate_brownian(run.packing, dlvo(0), options), OutOfReach);  // is there already
 }
 
 TEST(BrownianDynamics, MovesUnequalParticles) {
