@@ -260,7 +260,7 @@ std::vector<RowRange> sweeps_in(const io::PlainTable& table) {
     return fewest.size() > 1 && 5 * rows >= 4 * table.rows() ? fewest : std::vector<RowRange>{};
 }
 
-io::PlainTable part_of(const io::PlainTable& table, const RowRange& rows) {
+io::PlainTable sweep_of(const io::PlainTable& table, const RowRange& rows) {
     io::PlainTable part = table;
     for (io::PlainColumn& column : part.columns) {
         column.values = {column.values.begin() + static_cast<std::ptrdiff_t>(rows.first),
@@ -278,7 +278,7 @@ std::vector<RecognisedTable> recognise_table(const io::PlainTable& table, const 
     RecognisedTable whole = as_one(table, instrument);
     std::vector<RecognisedTable> parts;
     for (const RowRange& rows : whole.kind ? std::vector<RowRange>{} : sweeps_in(table)) {
-        parts.push_back(as_one(part_of(table, rows), instrument));
+        parts.push_back(as_one(sweep_of(table, rows), instrument));
         parts.back().first = rows.first + 1;
         parts.back().last = rows.second + 1;
     }

@@ -107,7 +107,7 @@ KnownHeading listed_twice(std::string_view heading) {
         if (std::string_view(" ([,:=-/").find(heading[i]) == std::string_view::npos) {
             continue;
         }
-        const KnownHeading one = listed(bare_part(heading.substr(0, i)));
+        KnownHeading one = listed(bare_part(heading.substr(0, i)));
         if (!one.quantity.empty() && one.quantity == listed(bare_part(heading.substr(i))).quantity) {
             return one;
         }
