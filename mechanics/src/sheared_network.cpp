@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Neighbours are pairs nearer than (1 + skin) times the sum of their radii.
-constexpr double skin = 0.15;
+/// Neighbours are pairs nearer than (1 + list_skin) times the sum of their radii.
+constexpr double list_skin = 0.15;
 /// Steps of the difference quotients of the contact law, in mean radii and radians: small where the law has kinks.
 constexpr double largest_difference = 1e-5;
 constexpr double smallest_difference = 1e-8;  // of a bond; the largest of a contact without one
@@ -196,8 +196,8 @@ double ShearedNetwork::reach_used(double strain_increment, const Motion& motion)
         const Vector3d moved = moved_.col(particle) + motion.segment<3>(6 * particle);
         farthest = std::max(farthest, moved.squaredNorm());
     }
-    const double reach = 2 * radii_.minCoeff() / length_ * skin;
-    const double pair = 2 * radii_.maxCoeff() / length_ * (1 + skin);
+    const double reach = 2 * radii_.minCoeff() / length_ * list_skin;
+    const double pair = 2 * radii_.maxCoeff() / length_ * (1 + list_skin);
     return (2 * std::sqrt(farthest) + std::abs(strain_ + strain_increment - strain_at_search_) * pair) / reach;
 }
 
@@ -239,7 +239,7 @@ void ShearedNetwork::find_neighbours() {
     const double strain = strain_ - turn * std::nearbyint(strain_ / turn);
     const double stretch = 0.5 * std::abs(strain) + std::sqrt(1 + 0.25 * strain * strain);
     const Packing flat = before_shear(strain);
-    const ContactNetwork near = find_pairs(flat, 2 * radii_.maxCoeff() * (1 + skin) * stretch);
+    const ContactNetwork near = find_pairs(flat, 2 * radii_.maxCoeff() * (1 + list_skin) * stretch);
     if (!contacts_.empty() && groups_.start.empty()) {
         group_contacts();
     }
@@ -248,7 +248,7 @@ void ShearedNetwork::find_neighbours() {
         const Index first = near.ends(0, pair);
         const Index second = near.ends(1, pair);
         const Vector3d branch = sheared(near.branch.col(pair), strain);
-        if (branch.norm() >= (1 + skin) * (radii_[first] + radii_[second])) {
+        if (branch.norm() >= (1 + list_skin) * (radii_[first] + radii_[second])) {
             continue;
         }
         const ShearedContact* known = find_contact(first, second, branch);
