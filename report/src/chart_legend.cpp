@@ -9,7 +9,7 @@ namespace coagula::report {
 namespace {
 
 constexpr std::size_t entries_inside = 4;
-constexpr double point = 0.0254 / 72;  // m
+constexpr double metres_per_point = 0.0254 / 72;
 constexpr double digit_width =
     0.556;  // of Arial and its like, in heights of the font, as all widths here; gnuplot takes it for every letter
 constexpr double sample_width = 5.5;  // of a line with its margins
@@ -138,7 +138,7 @@ Frame frame_of(const PictureSize& size, std::size_t panels) {
 
 std::string fitted_name(const std::string& name, const Frame& frame) {
     std::vector<std::string> letters = letters_of(name);
-    const double room = 0.95 * frame.width / (frame.font_size * point) - sample_width;
+    const double room = 0.95 * frame.width / (frame.font_size * metres_per_point) - sample_width;
     if (text_width(letters) <= room) {
         return name;
     }
@@ -173,7 +173,7 @@ std::string place_legend(const Chart& chart, ChartAxes& axes, const Frame& frame
     if (entries > entries_inside) {
         return "set key above horizontal" + look;
     }
-    const double em = frame.font_size * point;
+    const double em = frame.font_size * metres_per_point;
     const double width = std::min(1.0, (sample_width + widest) * em / frame.width);
     const double height = (0.5 + line_height * static_cast<double>(entries)) * em / frame.height;
     const std::vector<InFrame> places = drawn_places(chart, axes);

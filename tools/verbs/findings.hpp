@@ -15,7 +15,7 @@ struct Findings {
     std::string group;  ///< in the file
     Results results;
     std::vector<io::ParticleField> fields = {};
-    Table table;
+    Table table = {};
     Results bond_results = {};  ///< one value per bond each: for the file only
     std::vector<io::BondField> bond_fields = {};
     std::vector<std::string> notes = {};  ///< sentences that a user should know
