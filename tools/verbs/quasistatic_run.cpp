@@ -271,7 +271,7 @@ void append_sweeps(Results& results, const std::vector<Test>& tests, const std::
     results.push_back(io::vector(quasistatic_group + "phase", phase, "rad", "phase of the mean moduli" + not_reached));
 }
 
-Table table_of(const std::vector<Test>& tests, bool sweep) {
+Table table_of_tests(const std::vector<Test>& tests, bool sweep) {
     Table table;
     for (const Test& test : tests) {
         const std::string name = name_of(test.orientation);
@@ -366,7 +366,7 @@ Findings quasistatic_response(const Arguments& arguments, const Packing& packing
     for (Test& test : tests) {
         clear_rounding(test, linear ? linear->mean_affine_modulus() : 0);
     }
-    found.table = table_of(tests, sweep);
+    found.table = table_of_tests(tests, sweep);
     if (linear) {
         append_reason(found, packing, bonds, *linear);
     }

@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <thread>
 
 namespace coagula {
 namespace {
@@ -35,10 +36,10 @@ TEST(Failures, WhatALibraryThrowsIsQuotedOnOneLine) {
 TEST(FailuresDeathTest, AnExceptionThatNobodyCanCatchHasASentence) {
     const auto escape = [](auto&& error) {
         std::set_terminate(end_with_sentence);
-        [&]() noexcept { throw error; }();
+        std::thread([&] { throw error; }).join();
     };
-    EXPECT_EXIT(escape(std::bad_alloc()), testing::ExitedWithCode(1), "^coagula: there is not enough memory for this\n$");
-    EXPECT_EXIT(escape(7), testing::ExitedWithCode(1), "^coagula: the calculation failed where that was not foreseen\n$");
+    EXPECT_EXIT(escape(std::bad_alloc()), ::testing::ExitedWithCode(1), "^coagula: there is not enough memory for this\n$");
+    EXPECT_EXIT(escape(7), ::testing::ExitedWithCode(1), "^coagula: the calculation failed where that was not foreseen\n$");
 }
 
 }  // namespace
