@@ -29,7 +29,7 @@ PageStructure lattice_page(int n) {
     for (Index bond = 0; bond < bonds.size(); ++bond) {
         sums[bond] = bonds.ends(0, bond) + bonds.ends(1, bond);
     }
-    PageStructure page{.name = "lattice", .structure = {packing, bonds}};
+    PageStructure page{.name = "lattice", .structure = {packing, bonds}, .fields = {}, .results = {}, .history = {}};
     page.fields = {io::columns("/VTKHDF/PointData/number", numbers, "1", "")};
     page.results = {io::integers("/mechanics/linear/xy/bonds/sum", sums, ""),
                     io::scalar("/characterization/coordination", 6, "1", "")};
