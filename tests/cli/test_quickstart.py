@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ["COAGULA_BUILD"])
-NOT_CLONED = shutil.ignore_patterns("build", "build-*", "out", ".git", ".cache", "node_modules", "__pycache__")
+NOT_CLONED = shutil.ignore_patterns("build-*", ".git", ".cache", "node_modules", "__pycache__")
 LAUNCHER = """#!/bin/bash
 # LAUNCHER COMPILER WORDS...: copies the object from the build under test, or compiles it.
 for ((i = 1; i < $#; i++)); do
@@ -27,6 +27,10 @@ echo "$object:" >"$dependencies"
 """
 
 
+def not_cloned(folder, names):
+    return {*NOT_CLONED(folder, names), *({"build", "out"} if Path(folder) == ROOT else ())}
+
+
 def cached(name):
     """A variable of the CMake cache of the build under test."""
     lines = (BUILD / "CMakeCache.txt").read_text().splitlines()
@@ -38,7 +42,7 @@ class Quickstart(unittest.TestCase):
         folder = Path(tempfile.mkdtemp(prefix="coagula-quickstart-"))
         self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
         self.clone, self.prefix, launcher = folder / "clone", folder / "prefix", folder / "launcher"
-        shutil.copytree(ROOT, self.clone, ignore=NOT_CLONED)
+        shutil.copytree(ROOT, self.clone, ignore=not_cloned)
         shutil.copytree(ROOT / "build/web", self.clone / "build/web", copy_function=shutil.copy)  # it would come from the network
         launcher.write_text(LAUNCHER)
         launcher.chmod(0o755)

@@ -1,7 +1,7 @@
 #include "checkpoint_lock.hpp"
 
 #include <coagula/common/checks.hpp>
-#include <coagula/io/structure_file.hpp>
+#include <coagula/io/atomic_file.hpp>
 
 namespace coagula::tools {
 
@@ -10,6 +10,9 @@ CheckpointLock::CheckpointLock(const std::string& checkpoint) : place_(checkpoin
     if (!lock_.try_take()) {
         throw InputError("another run is using the checkpoint " + checkpoint +
                          ": wait for its end, or give this run a checkpoint of its own");
+    }
+    if (lock_.was_left()) {
+        const io::OutputFile writing(checkpoint, true);  // removes what the killed run left of its writing
     }
 }
 
