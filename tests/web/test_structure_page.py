@@ -84,10 +84,10 @@ class StructurePage(ProgramTest):
         for k in sure:
             browser.run("coagula.views.stages[0].viewer.select(null)")  # the panel may lie over the next place
             browser.click_at(canvas, *map(int, pixels[k]))
+            browser.wait_for(f"return document.querySelector('.picked').dataset.particle === '{hits[k]}'")
+            x, y = (int(canvas.rect[side] + pixels[k][c]) - browser.run(f"return Math.round(scroll{'XY'[c]})") for c, side in enumerate("xy"))
+            browser.wait_for(f"return document.elementFromPoint({x}, {y}).tagName === 'CANVAS'")  # the panel does not hide the particle
             panel = browser.find(".picked")
-            at = browser.run("return document.elementFromPoint(arguments[0], arguments[1]).tagName",
-                             *(int(canvas.rect[side] + pixels[k][c]) - browser.run(f"return Math.round(scroll{'XY'[c]})") for c, side in enumerate("xy")))
-            self.assertEqual(at, "CANVAS", "the panel hides the particle that was picked")
             self.assertEqual(int(panel.get_attribute("data-particle")), hits[k])
             self.assertIn(f"Particle {hits[k]}", panel.text)
             self.assertRegex(panel.text, rf"coordination\s+{spheres.coordination[hits[k]]}\b")
@@ -195,7 +195,7 @@ class StructurePage(ProgramTest):
             low, high = browser.find_all(".legend input.number")
             low.send_keys("5", "\ue004")  # tabulator: goes on to the other end
             browser.wait_for("return document.activeElement.getAttribute('aria-label') === 'Upper end of the colours of the particles'")
-            self.assertEqual(browser.find(".legend .steps").text.split()[0], "5")
+            browser.wait_for("return document.querySelector('.legend .steps').innerText.trim().split(/\\s/)[0] === '5'")
             browser.find(".legend input[type=checkbox]").click()
             expected = int((spheres.coordination >= 5).sum())
             browser.wait_for(f"{drawn} === {expected}")
