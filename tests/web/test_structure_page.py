@@ -84,9 +84,9 @@ class StructurePage(ProgramTest):
         for k in sure:
             browser.run("coagula.views.stages[0].viewer.select(null)")  # the panel may lie over the next place
             browser.click_at(canvas, *map(int, pixels[k]))
-            browser.wait_for(f"return document.querySelector('.picked').dataset.particle === '{hits[k]}'")
+            browser.wait_for(f"return document.querySelector('.picked')?.dataset.particle === '{hits[k]}'")
             x, y = (int(canvas.rect[side] + pixels[k][c]) - browser.run(f"return Math.round(scroll{'XY'[c]})") for c, side in enumerate("xy"))
-            browser.wait_for(f"return document.elementFromPoint({x}, {y}).tagName === 'CANVAS'")  # the panel does not hide the particle
+            browser.wait_for(f"return document.elementFromPoint({x}, {y})?.tagName === 'CANVAS'")  # the panel does not hide the particle
             panel = browser.find(".picked")
             self.assertEqual(int(panel.get_attribute("data-particle")), hits[k])
             self.assertIn(f"Particle {hits[k]}", panel.text)
