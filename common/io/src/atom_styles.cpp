@@ -84,7 +84,7 @@ std::optional<AtomStyle> hybrid_style(const std::string& name, const std::vector
     return AtomStyle(name, columns, shape);
 }
 
-/// What a column of this name holds in every file that LAMMPS reads. Types may have labels.
+/// Tells whether a word can stand in the column of this name in files that LAMMPS reads. Types may have labels.
 bool can_hold(const std::string& column, std::string_view word) {
     if (column == "id" || column == "mol") {
         return is_whole_number(word);

@@ -11,7 +11,7 @@ namespace coagula::io {
 
 namespace {
 
-/// What each condition is, as it is printed, by name.
+/// The conditions by name, each with its value as it is printed.
 using Conditions = std::map<std::string, std::string>;
 
 std::string shown(const Dataset& dataset) {

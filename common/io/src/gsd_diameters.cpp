@@ -24,7 +24,7 @@ bool nearly_equal(double a, double b) {
     return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
 }
 
-/// What is known of the particles of each type.
+/// Diameters and shapes that the file gives for each type of particle.
 struct Types {
     std::vector<std::string> names;
     std::vector<std::string> shapes;               ///< JSON objects of particles/type_shapes
@@ -75,7 +75,7 @@ double diameter_of_ellipsoid(const GsdFile& file, const std::string& type, doubl
     return 2 * a;
 }
 
-/// Of a shape such as {"type": "Sphere", "diameter": 2}; nothing for {}.
+/// Reads the diameter of a shape such as {"type": "Sphere", "diameter": 2}; there is none for {}.
 std::optional<double> diameter_of_shape(const GsdFile& file, const std::string& type, const std::string& text) {
     const auto shape = nlohmann::json::parse(text.empty() ? "{}" : text, nullptr, false);
     if (!shape.is_object()) {

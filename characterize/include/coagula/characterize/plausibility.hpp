@@ -9,7 +9,7 @@
 
 namespace coagula::characterize {
 
-/// What shows at a glance whether spheres touch.
+/// Numbers that show at a glance whether spheres touch.
 struct Plausibility {
     double volume_fraction = unset;  ///< overlaps are counted twice
     Index contacts = 0;              ///< pairs whose centres are nearer than 1.01 times the sum of their radii

@@ -23,7 +23,7 @@ private:
     std::shared_ptr<const Eigen::PartialPivLU<Eigen::MatrixXd>> factors_;
 };
 
-/// As many orthonormal columns as the matrix has, which span the same if its columns are independent (Householder reflections).
+/// Returns as many orthonormal columns as the matrix has; they span the same if its columns are independent (Householder).
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
 /// Householder reflections with column pivoting.

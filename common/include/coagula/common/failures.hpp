@@ -8,7 +8,7 @@
 
 namespace coagula {
 
-/// What would be written is there already, and nobody said that it may be replaced: exit code 3.
+/// The output exists already, and nobody said that it may be replaced: exit code 3.
 struct ExistsAlready : InputError {
     using InputError::InputError;
 };

@@ -56,7 +56,7 @@ struct Structure {
 /// writing, or no file can be made in its folder. Asking before long work saves the wait.
 void check_output(const std::string& path, bool overwrite);
 
-/// What a stage adds to a file.
+/// The results that a stage adds to a file.
 struct Addition {
     std::vector<std::string> replaced;    ///< groups that are removed before
     std::optional<ContactNetwork> bonds;  ///< those of the file when not given
