@@ -42,7 +42,7 @@ std::string other_monte_carlo_shape(const GsdFile& file) {
         if (!name.starts_with(folder)) {
             continue;
         }
-        const std::string shape = name.substr(folder.size(), name.find('/', folder.size()) - folder.size());
+        std::string shape = name.substr(folder.size(), name.find('/', folder.size()) - folder.size());
         if (shape != "integrate" && shape != "sphere" && shape != "ellipsoid") {
             return shape;
         }
