@@ -130,7 +130,7 @@ double small_font(const PictureSize& size) {
 }
 
 Frame frame_of(const PictureSize& size, std::size_t panels) {
-    const double axis = 5.5 * size.font_size * point;  // its numbers and label
+    const double axis = 5.5 * size.font_size * metres_per_point;  // its numbers and label
     return {.width = std::max(0.2 * size.width, size.width / static_cast<double>(panels) - axis - 0.005),
             .height = std::max(0.2 * size.height, size.height - axis),
             .font_size = small_font(size)};

@@ -2,6 +2,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/io/atomic_file.hpp>
+#include <coagula/io/structure_file.hpp>
 
 namespace coagula::tools {
 
