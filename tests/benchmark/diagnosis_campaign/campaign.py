@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy
 
+import open_set
 import shown_cases
 from cases import ROWS as SESSION_ROWS, SETTLING_LOOK_ALIKES
 from days import placed
@@ -27,7 +28,7 @@ from session import follow_up
 from table import BREAKING, in_set, print_table
 
 
-ROWS = {**SESSION_ROWS, **shown_cases.ROWS}
+ROWS = {**SESSION_ROWS, **shown_cases.ROWS, **open_set.ROWS}
 DEFAULT_ROWS = ["null", "null-tails", "null-correlated", "null-offsets", "single", "pair", "tie", "outside"]
 BREAKING_ROWS = {*BREAKING, "tie-yield"}
 RUPTURE_ROWS = {"activated-rupture", "bond-strength-rates"}
@@ -63,6 +64,19 @@ def remember(new, cache):
             temporary.rename(cache)
 
 
+def session_of(row, number, generator, material):
+    """Rows of the open set go through their effects one by one."""
+    return ROWS[row](generator, material, number) if row in open_set.ROWS else ROWS[row](generator, material)
+
+
+def allowed_causes(row, program, truth):
+    """Of the command line: all but the true one, where that is struck from the catalogue."""
+    if row != "struck":
+        return ()
+    listed = subprocess.run([program, "diagnose", "--catalogue", "--json"], capture_output=True, text=True, check=True)
+    return ("--causes", ",".join(cause["name"] for cause in json.loads(listed.stdout) if cause["name"] != truth))
+
+
 def drawn_by(row, number):
     """The random generator of a run, whatever other rows there are."""
     return numpy.random.default_rng([zlib.crc32(row.encode()), number])
@@ -72,14 +86,14 @@ def prepared(row, number, program, folder, proposals=()):
     """The session of a run with the tables that were proposed, and its experiment file; the same errors whatever follows."""
     generator = drawn_by(row, number)
     material = Material(program, folder / f"bank{os.getpid()}", shared=folder / "bank")
-    session = ROWS[row](generator, material)
+    session = session_of(row, number, generator, material)
     place = folder / "runs" / f"{row}_{number}"
     experiment = session.write(material, place, generator)
     for count, what in enumerate(proposals):
         session.tables += placed([replace(table, sample=f"{table.sample}{count}") for table in follow_up(session, what)])
     if proposals:
         generator = drawn_by(row, number)
-        ROWS[row](generator, material)
+        session_of(row, number, generator, material)
         experiment = session.write(material, place, generator)
     return session, material, experiment
 
@@ -113,18 +127,18 @@ def run(row, number, program, folder):
     place = experiment.parent
     started = time.time()
     seed = ("--seed", str(number + 1))  # or all tests share the errors of one bootstrap
-    found = diagnose(program, experiment, folder / "simulations.txt", *seed)
+    found = diagnose(program, experiment, folder / "simulations.txt", *seed, *allowed_causes(row, program, session.hidden.name))
     entry = {"row": row, "number": number, "truth": session.hidden.name, "hidden": vars(session.hidden), "stiffness": session.stiffness,
              "gain": session.gain(material), "wall": time.time() - started}
     keep = ("detected", "p_value", "verdict", "credible_set", "gain", "extended_p_value", "proposed_measurement", "seconds",
-            "notes", "remainder", "level_alone")
+            "notes", "remainder", "level_alone", "follows", "conditions")
     entry["found"] = {key: found.get(key) for key in keep}
     entry["found"]["statistics"] = found.get("statistics", [])[:2]
     entry["found"]["causes"] = [{key: cause[key] for key in ("name", "posterior", "parameters")} for cause in found["causes"]
                                 if cause["posterior"] > 0.01 or cause["name"] == session.hidden.name]
     entry["found"]["stated"] = stated_share(found["causes"])
     told = session.hidden.name
-    in_catalogue = row not in ("outside", "contacts-removed", "volume-fraction") and told != "nothing" and " + " not in told
+    in_catalogue = row not in ("outside", "contacts-removed", "volume-fraction", *open_set.ROWS) and told != "nothing" and " + " not in told
     if in_catalogue and found["detected"] and found["causes"][0]["name"] != told:
         entry["told"] = diagnose(program, experiment, folder / "simulations.txt", "--causes", told, *seed).get("gain")
     if row in ("tie", "tie-stiffening", "tie-yield") and found["verdict"] == "tied" and "proposed_measurement" in found:

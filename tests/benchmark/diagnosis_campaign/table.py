@@ -8,6 +8,8 @@ from math import log10, pi, sqrt
 from pathlib import Path
 from statistics import mean, median
 
+from open_set import add_open_set
+
 
 NULLS = ("null", "null-tails", "null-correlated", "null-offsets", "null-one-sample", "null-series", "null-coordinates", "null-pores")
 TIES = {"tie": "tie of slip and gap", "tie-level": "tie of the level", "tie-stiffening": "tie of time and strain", "tie-yield": "tie of yield"}
@@ -224,6 +226,7 @@ def print_table(path):
             table.add(row, "90 % intervals cover", [hit for entry in own for hit in parameter_covered(entry)], 0.86, 0.94)
     table.add("all of these", "confidently wrong", [confidently_wrong(entry) for entry in of(*ON_THEIR_DAYS, *SHOWN)], 0.0, 0.01)
     add_faults(table, of)
+    add_open_set(table, of)
     strong["tie of yield"] = of("tie-yield")
     for case, runs in strong.items():
         table.add(case, "90 % intervals cover", [hit for entry in runs for hit in parameter_covered(entry)], 0.86, 0.94)
