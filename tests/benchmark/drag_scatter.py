@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How far structures differ in what a solvent's drag loses: the figures behind diagnose/src/simulate/drag_scatter.cpp.
+"""How far structures differ in what a solvent's drag loses: the figures behind diagnose/src/responses/drag_scatter.cpp.
 
 Structures by void expansion are sheared at reduced drags (drag on a particle times angular frequency over its stiffness) from 1e-7 to 100. Printed are,
 of the logarithm of G'' over the mean G' and over the reduced drag, the standard deviation between structures and how it is correlated along the drag."""

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How far structures differ in how Hertz contacts stiffen with strain: the figures behind diagnose/src/simulate/hertz_scatter.cpp.
+"""How far structures differ in how Hertz contacts stiffen with strain: the figures behind diagnose/src/responses/hertz_scatter.cpp.
 
 Networks of Hertz contacts in structures by void expansion are sheared in small steps by Newton's method (diagnosis_campaign/hertz.py), in three planes and
 both directions. Printed are, of the logarithm of the secant modulus over that of small strains, the mean, the standard deviation between structures and the

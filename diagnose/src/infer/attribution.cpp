@@ -1,7 +1,8 @@
 #include "attribution.hpp"
 
+#include <coagula/common/log_probability.hpp>
+
 #include "detection.hpp"
-#include "noise/weights.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Measurements that could be made next.
 #pragma once
 
-#include "simulate/forward.hpp"
+#include "chain/forward.hpp"
 
 #include <string>
 #include <vector>

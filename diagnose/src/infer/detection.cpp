@@ -1,6 +1,6 @@
 #include "detection.hpp"
 
-#include "noise/weights.hpp"
+#include "data/normal_number.hpp"
 
 #include <coagula/common/special_functions.hpp>
 

@@ -1,3 +1,4 @@
+#include <coagula/common/log_probability.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
 
 #include "attribution.hpp"
@@ -6,7 +7,6 @@
 #include "gain.hpp"
 #include "hypothesis.hpp"
 #include "localise.hpp"
-#include "noise/weights.hpp"
 #include "proposal.hpp"
 
 #include <algorithm>

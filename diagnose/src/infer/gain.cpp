@@ -4,8 +4,8 @@
 #include "departures.hpp"
 #include "flexible.hpp"
 #include "fold_errors.hpp"
-#include "noise/weights.hpp"
 
+#include <coagula/common/log_probability.hpp>
 #include <coagula/common/random.hpp>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "hypothesis.hpp"
 
-#include "noise/weights.hpp"
-
+#include <coagula/common/log_probability.hpp>
 #include <coagula/common/special_functions.hpp>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // A hypothesis, the base model with some mechanisms, and its evidence.
 #pragma once
 
+#include "chain/forward.hpp"
 #include "noise/error_model.hpp"
 #include "posterior_grid.hpp"
-#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/model.hpp>
 

@@ -1,6 +1,6 @@
 #include "posterior_grid.hpp"
 
-#include "noise/weights.hpp"
+#include <coagula/common/log_probability.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include <coagula/diagnose/power.hpp>
 #include <coagula/diagnose/waveform.hpp>
 
-#include "noise/weights.hpp"
-#include "simulate/forward.hpp"
+#include "chain/forward.hpp"
+#include "data/normal_number.hpp"
 
 #include <algorithm>
 #include <cmath>

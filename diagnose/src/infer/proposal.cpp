@@ -1,10 +1,11 @@
 #include "proposal.hpp"
 
+#include <coagula/common/log_probability.hpp>
 #include <coagula/diagnose/waveform.hpp>
 
 #include "candidate_measurements.hpp"
 #include "data/median.hpp"
-#include "noise/weights.hpp"
+#include "data/normal_number.hpp"
 
 #include <Eigen/Cholesky>
 

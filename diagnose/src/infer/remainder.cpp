@@ -1,8 +1,8 @@
 #include "remainder.hpp"
 
 #include "noise/low_rank.hpp"
-#include "noise/weights.hpp"
 
+#include <coagula/common/log_probability.hpp>
 #include <coagula/common/random.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The search for the posterior of a hypothesis.
 #include "departures.hpp"
 #include "hypothesis.hpp"
-#include "simulate/quiet_log.hpp"
+#include "noise/quiet_log.hpp"
 
 #include <coagula/common/dense.hpp>
 

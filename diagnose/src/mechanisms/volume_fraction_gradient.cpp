@@ -1,6 +1,6 @@
 #include "mechanisms.hpp"
 
-#include "simulate/volume_fraction_gradient.hpp"
+#include "responses/volume_fraction_gradient.hpp"
 
 #include <coagula/diagnose/simulator.hpp>
 

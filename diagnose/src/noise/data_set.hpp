@@ -1,9 +1,9 @@
 // Observations with their noise: y = m (1 + b) + e with the prediction m, an effect b of each sample and an error e of each row.
 #pragma once
 
-#include "simulate/forward.hpp"
+#include "observables/observations.hpp"
 
-#include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/diagnose/noise.hpp>
 
 #include <Eigen/Core>
 

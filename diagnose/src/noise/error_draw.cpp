@@ -1,7 +1,7 @@
 // Errors as the noise model draws them.
 #include "error_model.hpp"
 
-#include "weights.hpp"
+#include "data/normal_number.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
 #include "error_model.hpp"
 
+#include <coagula/common/log_probability.hpp>
+
 #include "low_rank.hpp"
-#include "weights.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "minimum.hpp"
 
-#include "simulate/quiet_log.hpp"
+#include "quiet_log.hpp"
 
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>

@@ -1,6 +1,6 @@
 #include "row_correlation.hpp"
 
-#include "weights.hpp"
+#include <coagula/common/log_probability.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

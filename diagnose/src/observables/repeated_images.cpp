@@ -1,7 +1,7 @@
 #include "repeated_images.hpp"
 
 #include "data/median.hpp"
-#include "noise/weights.hpp"
+#include "data/normal_number.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/contact_network.hpp>

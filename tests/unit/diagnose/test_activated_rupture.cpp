@@ -1,7 +1,7 @@
 // Bonds that heat helps to break: the law against the rate equation behind it, and sweeps of other structures at two frequencies.
+#include "chain/forward.hpp"
 #include "explicit_sweep.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Sweeps over bonds that break: what is lost belongs to the energy between two strains, not to a strain, and is lost once.
+#include "chain/forward.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <gtest/gtest.h>
 

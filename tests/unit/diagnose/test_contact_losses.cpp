@@ -1,7 +1,7 @@
 // Dashpots and Maxwell elements in the contacts: their law, and sweeps of another structure by the frequency solver.
+#include "chain/forward.hpp"
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/frequency.hpp>

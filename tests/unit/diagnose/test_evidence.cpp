@@ -2,8 +2,8 @@
 #include "infer/hypothesis.hpp"
 
 #include "hidden_effects.hpp"
-#include "noise/weights.hpp"
 
+#include <coagula/common/log_probability.hpp>
 #include <coagula/diagnose/mechanism.hpp>
 
 #include <coagula/common/logarithmic_steps.hpp>

@@ -1,6 +1,5 @@
 // What few structures leave open in how Hertz contacts stiffen.
-#include "simulate/hertz_curve.hpp"
-#include "simulate/hertz_scatter.hpp"
+#include "responses/hertz_scatter.hpp"
 
 #include "hidden_effects.hpp"
 

@@ -1,8 +1,8 @@
 // Effects hidden in the instrument, the sample's age, the contacts and the microscope: raw torque and angle, positions and steps of
 // time by formulas and solvers that the diagnosis does not use, for other structures; the diagnosis sees the table only.
+#include "chain/forward.hpp"
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/rheometer.hpp>

@@ -1,11 +1,12 @@
 // Each mechanism, switched on in the simulation, shows the signature that the catalogue claims.
+#include "chain/forward.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
-#include "simulate/hertz_curve.hpp"
+#include "responses/hertz_scatter.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
+#include <coagula/mechanics/hertz_curve.hpp>
 #include <coagula/mechanics/linear.hpp>
 #include <coagula/mechanics/rheometer.hpp>
 
@@ -93,6 +94,14 @@ TEST(ContactNonlinearity, IsTheLinearSolversModulusAtSmallStrain) {
     EXPECT_NEAR(simulator().contact_response(settings, 1e-6) / (hertz / springs), 1, 0.005);
 }
 
+std::vector<double> hertz_curve_of(const Packing& packing, const std::vector<double>& loads) {
+    constexpr double preload = 1e-4;
+    Settings settings;
+    settings.contact_preload = preload;
+    const ContactModel contact = contact_model_of(settings, mean_radius(packing));
+    return mechanics::hertz_curve(packing, find_contacts(packing, 0.01), contact, preload, loads);
+}
+
 /// Newton's method in steps of a 24th of a decade, in three planes and both directions
 /// (tests/benchmark/diagnosis_campaign/hertz.py), of the same places.
 TEST(ContactNonlinearity, IsThatOfSmallStepsByNewtonsMethod) {
@@ -102,7 +111,7 @@ TEST(ContactNonlinearity, IsThatOfSmallStepsByNewtonsMethod) {
         loads.push_back(hertz_axis.node(node));
     }
     const Packing packing = structure(100, 3);
-    const std::vector<double> curve = hertz_curve(packing, find_contacts(packing, 0.01), loads);
+    const std::vector<double> curve = hertz_curve_of(packing, loads);
     for (std::size_t node = 0; node < loads.size(); ++node) {
         EXPECT_NEAR(curve[node] / curve.front() / by_newton[node], 1, 0.01) << loads[node];
     }
@@ -112,11 +121,11 @@ TEST(ContactNonlinearity, IsThatOfSmallStepsByNewtonsMethod) {
 TEST(ContactNonlinearity, OfAStructureDoesNotDependOnHowItLies) {
     Packing packing = structure(100, 3);
     const std::vector<double> loads{1.0, 5.0, 50.0};
-    const std::vector<double> given = hertz_curve(packing, find_contacts(packing, 0.01), loads);
+    const std::vector<double> given = hertz_curve_of(packing, loads);
     const Packing before = packing;
     packing.positions.row(0) = before.positions.row(1);
     packing.positions.row(1) = before.cell.lengths().x() - before.positions.row(0).array();
-    const std::vector<double> turned = hertz_curve(packing, find_contacts(packing, 0.01), loads);
+    const std::vector<double> turned = hertz_curve_of(packing, loads);
     for (std::size_t node = 0; node < loads.size(); ++node) {
         EXPECT_NEAR(turned[node], given[node], 2e-3 * given[node]) << loads[node];
     }

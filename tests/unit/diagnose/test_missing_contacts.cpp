@@ -1,8 +1,8 @@
 // Contacts that are missing at random: the modulus that is left against effective-medium theory, and series of other structures.
+#include "chain/forward.hpp"
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
-#include "simulate/thinned_contacts.hpp"
+#include "responses/thinned_contacts.hpp"
 
 #include <coagula/mechanics/linear.hpp>
 

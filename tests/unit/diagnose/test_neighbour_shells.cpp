@@ -4,7 +4,7 @@
 
 #include "remade_structures.hpp"
 
-#include "simulate/forward.hpp"
+#include "chain/forward.hpp"
 
 #include <coagula/common/random.hpp>
 

@@ -1,7 +1,7 @@
 // Breaking bonds under the strain field of parallel plates: the law of the torque against an integral over many radii, and data
 // from explicit runs at many radii of another structure.
+#include "chain/forward.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/rheometer.hpp>

@@ -1,5 +1,5 @@
 // The curve of a large sample from a few structures that yield in steps, drawn from a curve that is known.
-#include "simulate/population_curve.hpp"
+#include "responses/population_curve.hpp"
 
 #include <coagula/diagnose/yield_curves.hpp>
 

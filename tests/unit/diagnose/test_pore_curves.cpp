@@ -1,10 +1,10 @@
 // Pore curves as data: what is predicted, how structures scatter, and a hidden change of the structure.
 #include "remade_structures.hpp"
 
+#include "chain/forward.hpp"
+#include "chain/shared_errors.hpp"
 #include "observables/pore_curves.hpp"
-#include "observables/pore_scatter.hpp"
-#include "simulate/forward.hpp"
-#include "simulate/shared_errors.hpp"
+#include "responses/pore_scatter.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>

@@ -1,6 +1,6 @@
 // Contacts that pull at rest: what they do to the modulus, the extended model, and whether the pull is told from stiffer contacts.
+#include "chain/forward.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/frequency.hpp>

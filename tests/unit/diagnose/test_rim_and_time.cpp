@@ -1,6 +1,6 @@
 // What changes with the time since the filling, and what happens at the rim: each against its law, by another way.
+#include "chain/forward.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/mechanism.hpp>
 

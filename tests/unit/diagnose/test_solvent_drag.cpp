@@ -1,8 +1,8 @@
 // Drag of the solvent: its limits, the extended model, and a sweep of another structure in which it is hidden.
+#include "chain/forward.hpp"
 #include "hidden_effects.hpp"
 #include "infer/hypothesis.hpp"
-#include "simulate/drag_scatter.hpp"
-#include "simulate/forward.hpp"
+#include "responses/drag_scatter.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/frequency.hpp>

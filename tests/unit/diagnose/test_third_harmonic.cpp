@@ -1,7 +1,7 @@
 // Third harmonics of the stress: what the terms of the simulation make of them, against closed form and explicit steps, and what
 // waveforms tell that moduli do not.
+#include "chain/forward.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/waveform.hpp>

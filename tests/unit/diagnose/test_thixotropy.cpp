@@ -1,7 +1,7 @@
 // Bonds that shear breaks and rest re-forms: the kinetic law, the history of the strain, and bonds that are drawn one by one.
+#include "chain/forward.hpp"
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
 
 #include <coagula/mechanics/linear.hpp>
 

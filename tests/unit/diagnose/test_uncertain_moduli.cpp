@@ -1,5 +1,5 @@
 // Moduli with errors: what the drag of a solvent adds is known up to factors.
-#include "simulate/uncertain_moduli.hpp"
+#include "chain/uncertain_moduli.hpp"
 
 #include <gtest/gtest.h>
 

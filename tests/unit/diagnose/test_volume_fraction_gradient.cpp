@@ -1,9 +1,9 @@
 // A sample that has settled between the plates: layers in series against sums over many of them, and gap series whose layers are
 // other structures, sheared by another solver.
+#include "chain/forward.hpp"
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
-#include "simulate/forward.hpp"
-#include "simulate/volume_fraction_gradient.hpp"
+#include "responses/volume_fraction_gradient.hpp"
 
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>

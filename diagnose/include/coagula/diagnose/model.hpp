@@ -50,10 +50,8 @@ struct Model {
     }
 };
 
-/// Contact model of a simulation; of Hertz contacts without their load at rest, which a force that no solver has would balance.
+/// Contact model of the simulation with those terms of the mechanisms that a contact can have.
 /// @param radius mean radius of the particles [m].
-ContactModel contact_model_of(const Settings& settings, double radius);
-/// The same with those terms of the mechanisms that a contact can have.
 ContactModel contact_model_of(const Model& model, double radius);
 
 }  // namespace coagula::diagnose

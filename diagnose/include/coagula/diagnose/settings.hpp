@@ -1,6 +1,8 @@
 // Everything that a simulation of the sample can be run with: contacts, structures and their images.
 #pragma once
 
+#include <coagula/common/contact_model.hpp>
+
 #include <limits>
 
 namespace coagula::diagnose {
@@ -47,5 +49,9 @@ struct Settings {
 
     bool operator==(const Settings&) const = default;
 };
+
+/// Contact model of a simulation; of Hertz contacts without their load at rest, which a force that no solver has would balance.
+/// @param radius mean radius of the particles [m].
+ContactModel contact_model_of(const Settings& settings, double radius);
 
 }  // namespace coagula::diagnose

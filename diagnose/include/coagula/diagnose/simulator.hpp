@@ -73,8 +73,9 @@ public:
 
     /// G* / G in the first oscillation of this amplitude for finite bond strength, where `before` was the largest before on the
     /// sample (0: none), by the explicit rheometer. A bond breaks once: at an amplitude not above that, nothing is lost any more.
-    /// That of a large sample as the structures tell it comes first (src/population_curve.hpp), then the same moved by each of the
-    /// independent standard errors that so few structures leave; these are missing where there is one structure or nothing breaks.
+    /// That of a large sample as the structures tell it comes first (src/responses/population_curve.hpp), then the same moved by
+    /// each of the independent standard errors that so few structures leave; these are missing where there is one structure or
+    /// nothing breaks.
     Eigen::VectorXcd amplitude_response(const Settings& settings, double before, double amplitude);
     /// Degrees of freedom from which the common scale of these errors is known.
     double yield_degrees() const;
@@ -89,7 +90,7 @@ public:
     /// in it.
     double contact_response(const Settings& settings, double amplitude);
 
-    /// What more structures could change in it, over it, by each independent standard error (src/simulate/hertz_scatter.hpp).
+    /// What more structures could change in it, over it, by each independent standard error (src/responses/hertz_scatter.hpp).
     Eigen::RowVectorXd contact_errors(const Settings& settings, double amplitude);
     /// Degrees of freedom from which their common scale is known.
     double contact_degrees();
@@ -104,7 +105,7 @@ public:
     /// G* / G at an angular frequency [rad/s] of particles on which the solvent drags, by the frequency solver; what the
     /// contacts lose beside their springs is in both.
     std::complex<double> drag_response(const Settings& settings, double angular_frequency, std::size_t group = 0);
-    /// What more structures would add to the logarithm of that less 1 (src/simulate/drag_scatter.hpp): what is expected, then each
+    /// What more structures would add to the logarithm of that less 1 (src/responses/drag_scatter.hpp): what is expected, then each
     /// independent standard error; as many for every group of structures and for all of them together, 0 for those of other groups.
     Eigen::RowVectorXcd drag_excess(const Settings& settings, double angular_frequency, std::size_t group = 0);
     /// Degrees of freedom from which their common scale is known.
@@ -120,8 +121,8 @@ public:
     double thinned_response(double missing, std::size_t group = 0);
     double exact_thinned_response(const Settings& settings, double missing, std::size_t group = 0);
 
-    /// Mean number of neighbours of a particle in a shell of distance (src/neighbour_shells.hpp) as measured coordinates would show
-    /// it, mean over the structures.
+    /// Mean number of neighbours of a particle in a shell of distance (src/observables/neighbour_shells.hpp) as measured
+    /// coordinates would show it, mean over the structures.
     double neighbours(const Settings& settings, std::size_t shell, bool exact = false);
     /// Errors of these that so few structures leave open, as independent standard errors: shells x errors.
     Eigen::MatrixXd neighbour_errors_of_structures();
@@ -131,7 +132,7 @@ public:
 
     /// What images of the same particles differ by, which no structure enters but through wrong matches: standard deviations of a
     /// centre in the plane and along z over the diameter, and the share of the centres that the next image does not have
-    /// (src/repeated_images.hpp).
+    /// (src/observables/repeated_images.hpp).
     std::array<double, 3> repeated_images(const Settings& settings, bool exact = false);
 
     /// Probability that a point of the void space is farther than this [m] from the nearest particle surface, as measured

@@ -1,7 +1,6 @@
 // From the noise of replicates to the errors of every modulus of an experiment.
 #pragma once
 
-#include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/noise.hpp>
 

@@ -1,10 +1,10 @@
 // What errors of localisation do to the neighbours of a particle: structures with errors at the nodes of a grid.
 #include <coagula/diagnose/simulator.hpp>
 
-#include "neighbour_shells.hpp"
-#include "repeated_images.hpp"
-#include "simulate/cache_key.hpp"
-#include "simulate/interpolation.hpp"
+#include "cache_key.hpp"
+#include "interpolation.hpp"
+#include "observables/neighbour_shells.hpp"
+#include "observables/repeated_images.hpp"
 
 namespace coagula::diagnose {
 

@@ -1,12 +1,9 @@
-#include "weights.hpp"
-
-#include <coagula/common/random.hpp>
+#include <coagula/common/log_probability.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-namespace coagula::diagnose {
+namespace coagula {
 
 double log_sum(const std::vector<double>& logarithms) {
     const double largest = *std::max_element(logarithms.begin(), logarithms.end());
@@ -29,9 +26,4 @@ std::vector<double> probabilities_of(std::vector<double> logarithms) {
     return logarithms;
 }
 
-double normal_number(std::uint64_t seed, std::uint64_t step, std::uint64_t number) {
-    const auto u = random_uniform(seed, RandomPurpose::diagnosis, step, number);
-    return std::sqrt(-2 * std::log(1 - u[0])) * std::cos(2 * std::numbers::pi * u[1]);
-}
-
-}  // namespace coagula::diagnose
+}  // namespace coagula

@@ -2,9 +2,9 @@
 #include <coagula/diagnose/simulator.hpp>
 
 #include <coagula/common/contact_network.hpp>
+#include <coagula/mechanics/hertz_curve.hpp>
 
 #include "cache_key.hpp"
-#include "hertz_curve.hpp"
 #include "hertz_scatter.hpp"
 #include "interpolation.hpp"
 
@@ -17,11 +17,12 @@ namespace coagula::diagnose {
 
 namespace {
 
+constexpr double any_preload = 1e-4;   ///< of the contacts; the response depends on the strain over it alone
 constexpr int phases_of_quarter = 24;  ///< of a quarter of an oscillation
 
 }  // namespace
 
-/// Of one structure at the nodes (hertz_curve).
+/// Stress over strain of one structure at the nodes.
 const std::vector<double>& Simulator::secant_moduli(std::size_t structure) {
     const auto count = static_cast<std::size_t>(hertz_axis.count);
     const std::string key = key_of("Hertz contacts " + names_[structure], {hertz_axis.low, hertz_axis.high});
@@ -34,7 +35,11 @@ const std::vector<double>& Simulator::secant_moduli(std::size_t structure) {
         }
         const Packing& packing = structures_[structure];
         const ContactNetwork bonds = find_contacts(packing, Settings{}.bond_tolerance);
-        found = cache_.insert_or_assign(key, hertz_curve(packing, bonds, loads, progress_)).first;
+        Settings hertz;
+        hertz.contact_preload = any_preload;
+        const ContactModel contact = contact_model_of(hertz, mean_radius(packing));
+        const std::vector<double> curve = mechanics::hertz_curve(packing, bonds, contact, any_preload, loads, progress_);
+        found = cache_.insert_or_assign(key, curve).first;
     }
     return found->second;
 }

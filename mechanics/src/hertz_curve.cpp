@@ -1,6 +1,4 @@
-#include "hertz_curve.hpp"
-
-#include <coagula/diagnose/model.hpp>
+#include <coagula/mechanics/hertz_curve.hpp>
 
 #include <coagula/common/general_contact.hpp>
 #include <coagula/mechanics/linear.hpp>
@@ -10,35 +8,40 @@
 #include <cmath>
 #include <utility>
 
-namespace coagula::diagnose {
+namespace coagula::mechanics {
 
 namespace {
 
-constexpr double preload = 1e-4;    // only the load counts
-constexpr double converged = 1e-3;  // of the modulus
-constexpr int most_iterations = 20;
+constexpr double settled_modulus = 1e-3;  ///< change of the modulus in an iteration, over it
+constexpr int most_secant_iterations = 20;
 constexpr double least_secant = 0.05;  ///< of a contact that is sheared back, over its tangent
 constexpr double share_of_new = 0.7;   // in the overlaps of the next iteration: stiffer bonds stretch less, so that they overshoot
 
-/// Plane a-b and its place among the strains (Voigt).
-struct Plane {
+/// ShearPlane a-b and its place among the strains (Voigt).
+struct ShearPlane {
     int a;
     int b;
     int strain;
 };
-constexpr std::array<Plane, 3> planes{{{1, 2, 3}, {0, 2, 4}, {0, 1, 5}}};
+constexpr std::array<ShearPlane, 3> shear_planes{{{1, 2, 3}, {0, 2, 4}, {0, 1, 5}}};
 
 class HertzNetwork {
 public:
-    HertzNetwork(const Packing& packing, const ContactNetwork& bonds, const Progress& progress)
-        : packing_(packing), bonds_(bonds), progress_(progress), radius_(mean_radius(packing)), law_(model()) {}
+    HertzNetwork(const Packing& packing, const ContactNetwork& bonds, const ContactModel& contact, double preload,
+                 const Progress& progress)
+        : packing_(packing),
+          bonds_(bonds),
+          progress_(progress),
+          preload_(preload),
+          overlap_(preload * mean_radius(packing)),
+          law_(contact) {}
 
     /// Secant moduli [Pa] while the strain grows in this direction.
-    std::vector<double> moduli(const Plane& plane, double direction, const std::vector<double>& loads) const {
+    std::vector<double> moduli(const ShearPlane& plane, double direction, const std::vector<double>& loads) const {
         std::vector<double> found;
         State state{0, Eigen::MatrixX2d::Zero(bonds_.size(), 2), Eigen::VectorXd::Zero(bonds_.size())};
         for (const double load : loads) {
-            found.push_back(equilibrium(plane, direction * load * preload, state));
+            found.push_back(equilibrium(plane, direction * load * preload_, state));
         }
         return found;
     }
@@ -50,27 +53,21 @@ private:
         Eigen::VectorXd shear;   ///< force [N]
     };
 
-    ContactModel model() const {
-        Settings settings;
-        settings.contact_preload = preload;
-        return contact_model_of(settings, radius_);
-    }
-
     /// The next one while the strain grows, by secant stiffnesses.
-    double equilibrium(const Plane& plane, double strain, State& state) const {
+    double equilibrium(const ShearPlane& plane, double strain, State& state) const {
         const bool first = state.strain == 0;
         Eigen::MatrixX2d moved = state.moved * (first ? 0.0 : strain / state.strain);
         double modulus = 0;
-        for (int iteration = 0; iteration < most_iterations; ++iteration) {
-            mechanics::LinearOptions options;
+        for (int iteration = 0; iteration < most_secant_iterations; ++iteration) {
+            LinearOptions options;
             for (Index bond = 0; bond < bonds_.size(); ++bond) {
                 options.bond_tangents.push_back(secant(bond, moved.row(bond), state));
             }
-            const mechanics::LinearResponse response = mechanics::solve_linear(packing_, bonds_, options, progress_);
+            const LinearResponse response = solve_linear(packing_, bonds_, options, progress_);
             const Eigen::MatrixX2d next = std::abs(strain) * moved_per_strain(plane, strain > 0 ? 1 : -1, response);
             moved = first && iteration == 0 ? next : (1 - share_of_new) * moved + share_of_new * next;
             const double before = std::exchange(modulus, response.elastic_tensor(plane.strain, plane.strain));
-            if (modulus <= 0 || std::abs(modulus - before) < converged * modulus) {
+            if (modulus <= 0 || std::abs(modulus - before) < settled_modulus * modulus) {
                 break;
             }
         }
@@ -90,16 +87,15 @@ private:
 
     /// Mean of the normal stiffness of a bond over overlaps between these changes from that at rest.
     double normal_between(Index bond, double from, double to) const {
-        const double overlap = preload * radius_;
         const double radius = effective_radius(bond);
-        const NormalResponse start = law_.normal(overlap + from, radius, true);
-        const bool moved = std::abs(to - from) > 1e-9 * overlap;
-        return moved ? (law_.normal(overlap + to, radius, true).force - start.force) / (to - from) : start.stiffness;
+        const NormalResponse start = law_.normal(overlap_ + from, radius, true);
+        const bool moved = std::abs(to - from) > 1e-9 * overlap_;
+        return moved ? (law_.normal(overlap_ + to, radius, true).force - start.force) / (to - from) : start.stiffness;
     }
 
     /// Mindlin's shear stiffness grows as the normal one does.
     double shear_between(Index bond, double from, double to) const {
-        const NormalResponse rest = law_.normal(preload * radius_, effective_radius(bond), true);
+        const NormalResponse rest = law_.normal(overlap_, effective_radius(bond), true);
         return rest.shear_stiffness / rest.stiffness * normal_between(bond, from, to);
     }
 
@@ -116,7 +112,7 @@ private:
     }
 
     /// Change of overlaps, and how far contacts are sheared, by a unit strain (engineering) in this direction.
-    Eigen::MatrixX2d moved_per_strain(const Plane& plane, double direction, const mechanics::LinearResponse& response) const {
+    Eigen::MatrixX2d moved_per_strain(const ShearPlane& plane, double direction, const LinearResponse& response) const {
         const auto place = static_cast<std::size_t>(plane.strain);
         const Eigen::Matrix3Xd& displacement = response.displacement[place];
         const Eigen::Matrix3Xd& rotation = response.rotation[place];
@@ -140,19 +136,20 @@ private:
     const Packing& packing_;
     const ContactNetwork& bonds_;
     const Progress& progress_;
-    double radius_;
+    double preload_;
+    double overlap_;  ///< of contacts at rest [m]
     GeneralContact law_;
 };
 
 }  // namespace
 
-std::vector<double> hertz_curve(const Packing& packing, const ContactNetwork& bonds, const std::vector<double>& loads,
-                                const Progress& progress) {
-    const HertzNetwork network(packing, bonds, progress);
-    const mechanics::LinearResponse springs = mechanics::solve_linear(packing, bonds, {}, progress);
+std::vector<double> hertz_curve(const Packing& packing, const ContactNetwork& bonds, const ContactModel& contact, double preload,
+                                const std::vector<double>& loads, const Progress& progress) {
+    const HertzNetwork network(packing, bonds, contact, preload, progress);
+    const LinearResponse springs = solve_linear(packing, bonds, {}, progress);
     double linear = 0;
     std::vector<double> curve(loads.size(), 0.0);
-    for (const Plane& plane : planes) {
+    for (const ShearPlane& plane : shear_planes) {
         linear += springs.elastic_tensor(plane.strain, plane.strain);
         for (const double direction : {1.0, -1.0}) {
             const std::vector<double> moduli = network.moduli(plane, direction, loads);
@@ -167,4 +164,4 @@ std::vector<double> hertz_curve(const Packing& packing, const ContactNetwork& bo
     return curve;
 }
 
-}  // namespace coagula::diagnose
+}  // namespace coagula::mechanics

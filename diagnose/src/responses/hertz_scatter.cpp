@@ -1,7 +1,5 @@
 #include "hertz_scatter.hpp"
 
-#include "hertz_curve.hpp"
-
 #include <cmath>
 #include <utility>
 

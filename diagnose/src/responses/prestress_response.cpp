@@ -1,5 +1,4 @@
 // Linear modulus under a tension in all contacts: the linear solver with the geometric stiffness, at the nodes of a grid.
-#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
 #include <coagula/common/contact_network.hpp>

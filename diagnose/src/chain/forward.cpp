@@ -1,8 +1,8 @@
 #include "forward.hpp"
 
-#include "contact_losses.hpp"
 #include "data/median.hpp"
 #include "observables/pore_curves.hpp"
+#include "responses/contact_losses.hpp"
 #include "shared_errors.hpp"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/noise.hpp>
 
-#include "median.hpp"
-#include "table_cells.hpp"
+#include "data/median.hpp"
+#include "data/table_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,20 +44,20 @@ double robust_deviation(std::vector<double> values) {
 }
 
 /// Tables that were measured alike: by row of the first one, logarithms of the sizes, tables as columns.
-struct Group {
+struct AlikeTables {
     std::vector<std::size_t> tables;
     std::vector<double> axis;
     Eigen::MatrixXd sizes;  ///< conditions x tables
 };
 
-std::vector<Group> groups_of(const std::vector<Measurement>& tables) {
-    std::vector<Group> groups;
+std::vector<AlikeTables> groups_of(const std::vector<Measurement>& tables) {
+    std::vector<AlikeTables> groups;
     for (const Replicates& replicates : find_replicates(tables)) {
         const bool of_torque = replicates.observable == "storage_modulus" || replicates.observable == "complex_modulus";
         if (!of_torque || replicates.values.cols() < fewest_tables) {
             continue;
         }
-        Group group{{}, {replicates.axis.begin(), replicates.axis.end()}, {}};
+        AlikeTables group{{}, {replicates.axis.begin(), replicates.axis.end()}, {}};
         group.sizes.setConstant(replicates.axis.size(), replicates.values.cols(), unset);
         for (Eigen::Index column = 0; column < replicates.values.cols(); ++column) {
             const auto found = std::find_if(tables.begin(), tables.end(), [&](const Measurement& table) {
@@ -81,7 +81,7 @@ std::vector<Group> groups_of(const std::vector<Measurement>& tables) {
 
 /// What the other tables of its group say about the logarithm of a size, shifted to the level of its own table; NaN where there are
 /// too few.
-double by_the_others(const Group& group, std::size_t table, double place) {
+double by_the_others(const AlikeTables& group, std::size_t table, double place) {
     const auto found = std::find(group.tables.begin(), group.tables.end(), table);
     const auto same = std::find_if(group.axis.begin(), group.axis.end(), [&](double one) { return alike(one, place); });
     if (found == group.tables.end() || same == group.axis.end()) {
@@ -165,7 +165,7 @@ struct Sizes {
 };
 
 /// @param usual deviation of the sizes of a table.
-void leave_out_rows(std::vector<Measurement>& tables, std::size_t number, const std::vector<Group>& groups, double usual,
+void leave_out_rows(std::vector<Measurement>& tables, std::size_t number, const std::vector<AlikeTables>& groups, double usual,
                     std::vector<Outlier>& found) {
     Measurement& table = tables[number];
     const Sizes sizes(table);
@@ -177,7 +177,7 @@ void leave_out_rows(std::vector<Measurement>& tables, std::size_t number, const 
         const double place = axis_of(table)->values[sizes.rows[k]];
         // The others contradict, or there are none, which tells nothing of an end.
         bool contradicted = !end;
-        for (const Group& group : groups) {
+        for (const AlikeTables& group : groups) {
             const double expected = by_the_others(group, number, place);
             contradicted = std::isnan(expected) ? contradicted : std::abs(sizes.values[k] - expected) > 0.5 * std::abs(departure);
         }
@@ -192,7 +192,7 @@ void leave_out_rows(std::vector<Measurement>& tables, std::size_t number, const 
 }
 
 /// Median logarithmic distance of every sample of a group from the others.
-std::map<std::string, double> levels_in(const Group& group, const std::vector<Measurement>& tables) {
+std::map<std::string, double> levels_in(const AlikeTables& group, const std::vector<Measurement>& tables) {
     std::map<std::string, std::vector<double>> all;
     for (Eigen::Index row = 0; row < group.sizes.rows(); ++row) {
         const double middle = median_of({group.sizes.row(row).begin(), group.sizes.row(row).end()});
@@ -208,9 +208,9 @@ std::map<std::string, double> levels_in(const Group& group, const std::vector<Me
 }
 
 /// Samples that lie beside the others of their group, with the logarithm of how far.
-std::map<std::string, double> samples_beside(const std::vector<Group>& groups, const std::vector<Measurement>& tables) {
+std::map<std::string, double> samples_beside(const std::vector<AlikeTables>& groups, const std::vector<Measurement>& tables) {
     std::map<std::string, double> beside;
-    for (const Group& group : groups) {
+    for (const AlikeTables& group : groups) {
         const std::map<std::string, double> levels = levels_in(group, tables);
         for (const auto& [sample, level] : levels) {
             std::vector<double> others;
@@ -237,7 +237,7 @@ std::map<std::string, double> samples_beside(const std::vector<Group>& groups, c
 
 std::vector<Outlier> leave_out_outliers(std::vector<Measurement>& tables) {
     std::vector<Outlier> found;
-    const std::vector<Group> groups = groups_of(tables);
+    const std::vector<AlikeTables> groups = groups_of(tables);
     std::vector<std::size_t> sweeps;
     std::vector<double> deviations;
     for (std::size_t number = 0; number < tables.size(); ++number) {

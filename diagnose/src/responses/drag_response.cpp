@@ -1,5 +1,4 @@
 // Response of a network whose particles the solvent drags on: the frequency solver at the nodes of a grid of reduced frequencies.
-#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 
 #include <coagula/common/contact_network.hpp>

@@ -1,7 +1,6 @@
 #include "thinned_contacts.hpp"
 
 #include <coagula/common/random.hpp>
-#include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/simulator.hpp>
 #include <coagula/mechanics/linear.hpp>
 

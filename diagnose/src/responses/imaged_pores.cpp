@@ -1,7 +1,7 @@
 #include "imaged_pores.hpp"
 
-#include "repeated_images.hpp"
-#include "simulate/interpolation.hpp"
+#include "interpolation.hpp"
+#include "observables/repeated_images.hpp"
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/random.hpp>
