@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 
 namespace coagula::experiment {
@@ -69,6 +70,13 @@ private:
         return result_.files.back();
     }
 
+    /// Many tables may stand in one export, which is read once.
+    const io::MeasuredFile& measured_file(const std::string& name) {
+        const std::string path = resolved(name);
+        const auto known = exports_.find(path);
+        return known != exports_.end() ? known->second : exports_.emplace(path, io::read_measured_file(path)).first->second;
+    }
+
     void read_sample();
     void read_instrument();
     void read_structures();
@@ -84,6 +92,7 @@ private:
     ExperimentFile result_;
     ExportMetadata metadata_;
     std::vector<std::size_t> raw_moduli_;  ///< measurements whose moduli are to be those of torque and raw phase
+    std::map<std::string, io::MeasuredFile> exports_;  ///< by resolved name
 };
 
 void ExperimentReader::read_sample() {
@@ -321,7 +330,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         return;
     }
     const std::string name = keys.required_text("file");
-    const io::MeasuredFile file = io::read_measured_file(resolved(name));
+    const io::MeasuredFile& file = measured_file(name);
     const std::vector<const io::PlainTable*> tables = chosen_tables(keys, file, *kind);
     const ColumnRules rules = column_rules(keys);
     const TableSelection selection = read_selection(keys);
