@@ -77,6 +77,7 @@ set(coagula_slow_tests
   # damaged files, kills, installation, every option; other programs; the manual and the examples there and in README.md
   "DamagedFile[.]SingleBytes"
   "cli[.]broken_files[.].*"
+  "cli[.]examples[.].*"
   "cli[.]install[.].*"
   "cli[.]kills[.].*"
   "cli[.]materials[.]SmoothMaterial[.]inertia_of_a_stiff_tool"

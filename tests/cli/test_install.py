@@ -12,6 +12,7 @@ CMAKE = os.environ["COAGULA_CMAKE"]
 GENERATOR = os.environ["COAGULA_GENERATOR"]
 BUILD = os.environ["COAGULA_BUILD"]
 CONSUMER = Path(__file__).parent / "consumer"
+EXAMPLE = Path(__file__).resolve().parent.parent.parent / "examples/library"
 
 
 class Install(ProgramTest):
@@ -37,6 +38,9 @@ class Install(ProgramTest):
         self.assertEqual(coordination, 6)
         self.assertAlmostEqual(void_fraction, 1 - math.pi / 6, delta=1e-5)
         self.assertIn("| contact-loss |", self.call(self.folder / "consumer/causes"))
+        self.call(CMAKE, "-S", EXAMPLE, "-B", "example", "-G", GENERATOR, f"-DCMAKE_PREFIX_PATH={self.folder / 'prefix'}")
+        self.call(CMAKE, "--build", "example")
+        self.assertRegex(self.call(self.folder / "example/modulus"), r"^G' = \d+\.\d+ MPa$")
 
     def test_one_component_alone(self):
         prefix = self.folder / "prefix"
