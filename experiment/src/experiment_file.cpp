@@ -91,7 +91,7 @@ private:
     toml::table root_;
     ExperimentFile result_;
     ExportMetadata metadata_;
-    std::vector<std::size_t> raw_moduli_;  ///< measurements whose moduli are to be those of torque and raw phase
+    std::vector<std::size_t> raw_moduli_;              ///< measurements whose moduli are to be those of torque and raw phase
     std::map<std::string, io::MeasuredFile> exports_;  ///< by resolved name
 };
 
