@@ -38,6 +38,7 @@ set(coagula_slow_tests
   "cli[.]power[.].*"
   "cli[.]recipe[.].*"
   "cli[.]report[.].*"
+  "facts[.]sample"
   # explicit runs, sampled physics, equal bits for any number of threads
   "BrownianBonds[.].*"
   "BrownianContacts[.]PairThat.*"
