@@ -5,7 +5,8 @@
 namespace coagula::dem::detail {
 
 const Kernels& plain_kernels() {
-    static constexpr Kernels plain{add_bond_forces<OneLane, OneLane, SpringForce>, move_particles<OneLane>};
+    static constexpr Kernels plain{add_bond_forces<OneLane, OneLane, SpringForce>, move_particles<OneLane>,
+                                   find_touching<OneLane, OneLane>};
     return plain;
 }
 

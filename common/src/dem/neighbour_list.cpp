@@ -3,6 +3,7 @@
 #include <coagula/common/checks.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -11,16 +12,20 @@ namespace coagula::dem {
 
 namespace {
 
-/// Interleaves the lowest ten bits of three numbers.
-std::uint64_t morton_code(const Eigen::Array3i& box) {
-    std::uint64_t code = 0;
-    for (unsigned bit = 0; bit < 10; ++bit) {
-        for (unsigned axis = 0; axis < 3; ++axis) {
-            const auto value = static_cast<std::uint64_t>(box[axis]);
-            code |= ((value >> bit) & 1U) << (3 * bit + axis);
-        }
+/// Calls visit(x, y, z) for the boxes of a cube of `edge`, a power of two, that lie below `count`, along a Morton curve.
+template <class Visit>
+void follow_curve(const Eigen::Array3i& corner, int edge, const Eigen::Array3i& count, const Visit& visit) {
+    if ((corner >= count).any()) {
+        return;
     }
-    return code;
+    if (edge == 1) {
+        visit(corner[0], corner[1], corner[2]);
+        return;
+    }
+    const int half = edge / 2;
+    for (int part = 0; part < 8; ++part) {
+        follow_curve(corner + half * Eigen::Array3i(part & 1, (part >> 1) & 1, part >> 2), half, count, visit);
+    }
 }
 
 }  // namespace
@@ -30,6 +35,7 @@ NeighbourSearch::NeighbourSearch(const Cell& cell, const std::vector<Quad>& posi
     require(std::all_of(position.begin(), position.end(), [](const Quad& sphere) { return sphere.allFinite(); }),
             "a particle is at a place that is not a finite number: the neighbour search cannot find its box");
     choose_boxes(cell, position, skin);
+    list_places(position);
     rank_boxes();
     const std::size_t particles = position.size();
     std::vector<std::size_t> place(particles);
@@ -68,20 +74,12 @@ void NeighbourSearch::choose_boxes(const Cell& cell, const std::vector<Quad>& po
 }
 
 void NeighbourSearch::rank_boxes() {
-    std::vector<std::pair<std::uint64_t, std::int32_t>> codes;
-    codes.reserve(static_cast<std::size_t>(boxes_.prod()));
-    for (int z = 0; z < boxes_[2]; ++z) {
-        for (int y = 0; y < boxes_[1]; ++y) {
-            for (int x = 0; x < boxes_[0]; ++x) {
-                codes.emplace_back(morton_code({x, y, z}), static_cast<std::int32_t>(codes.size()));
-            }
-        }
-    }
-    std::sort(codes.begin(), codes.end());
-    rank_.resize(codes.size());
-    for (std::size_t place = 0; place < codes.size(); ++place) {
-        rank_[static_cast<std::size_t>(codes[place].second)] = static_cast<std::int32_t>(place);
-    }
+    rank_.resize(static_cast<std::size_t>(boxes_.prod()));
+    const auto edge = static_cast<int>(std::bit_ceil(static_cast<unsigned>(boxes_.maxCoeff())));
+    std::int32_t place = 0;
+    follow_curve(Eigen::Array3i::Zero(), edge, boxes_, [&](int x, int y, int z) {
+        rank_[static_cast<std::size_t>((static_cast<Index>(z) * boxes_[1] + y) * boxes_[0] + x)] = place++;
+    });
 }
 
 Eigen::Array3i NeighbourSearch::box_of(const Quad& position) const {
@@ -95,47 +93,64 @@ std::size_t NeighbourSearch::rank_of(const Eigen::Array3i& box) const {
         rank_[static_cast<std::size_t>((static_cast<Index>(box[2]) * boxes_[1] + box[1]) * boxes_[0] + box[0])]);
 }
 
+/// Brings the box numbers along each axis into the cell.
+void NeighbourSearch::list_places(const std::vector<Quad>& position) {
+    double largest = 0;
+    for (const Quad& sphere : position) {
+        largest = std::max(largest, sphere[3]);
+    }
+    margin_ = reach_of(largest);
+    for (int axis = 0; axis < 3; ++axis) {
+        const int count = boxes_[axis];
+        for (int box = -margin_[axis]; box < count + margin_[axis]; ++box) {
+            const int images = box >= 0 ? box / count : -((count - 1 - box) / count);
+            places_[static_cast<std::size_t>(axis)].push_back(
+                {box - images * count, images, images * lengths_[axis], images == 0 || periodic_});
+        }
+    }
+}
+
+/// Boxes that a particle must look beyond its own.
+Eigen::Array3i NeighbourSearch::reach_of(double radius) const {
+    return ((2 * radius + skin_) * boxes_.cast<double>() / lengths_).ceil().cast<int>();
+}
+
+const NeighbourSearch::Place& NeighbourSearch::place_along(int axis, int box) const {
+    return places_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(box + margin_[axis])];
+}
+
 void NeighbourSearch::find_pairs_of(std::int32_t first, std::vector<ListedPair>& pairs) const {
     const Quad& centre = sorted_[static_cast<std::size_t>(first)];
     const Eigen::Array3i home = box_of(centre);
-    const Eigen::Array3i reach = ((2 * centre[3] + skin_) * boxes_.cast<double>() / lengths_).ceil().cast<int>();
+    const Eigen::Array3i reach = reach_of(centre[3]);
     for (int dz = -reach[2]; dz <= reach[2]; ++dz) {
-        const Place z = place_along(2, home[2] + dz);
+        const Place& z = place_along(2, home[2] + dz);
         for (int dy = -reach[1]; dy <= reach[1]; ++dy) {
-            const Place y = place_along(1, home[1] + dy);
+            const Place& y = place_along(1, home[1] + dy);
             if (!z.exists || !y.exists) {
                 continue;
             }
             const std::int32_t* row = rank_.data() + (static_cast<Index>(z.box) * boxes_[1] + y.box) * boxes_[0];
+            const Place* along = &place_along(0, home[0]);
             for (int dx = -reach[0]; dx <= reach[0]; ++dx) {
-                const Place x = place_along(0, home[0] + dx);
+                const Place& x = along[dx];
                 if (x.exists) {
                     const int side = dz != 0 ? dz : (dy != 0 ? dy : dx);
-                    search_box(first, static_cast<std::size_t>(row[x.box]), side, {x.images, y.images, z.images}, pairs);
+                    search_box(first, static_cast<std::size_t>(row[x.box]), side, x, y, z, pairs);
                 }
             }
         }
     }
 }
 
-/// Brings a box number along an axis into the cell.
-NeighbourSearch::Place NeighbourSearch::place_along(int axis, int box) const {
-    const int count = boxes_[axis];
-    if (box >= 0 && box < count) {
-        return {box, 0, true};
-    }
-    const int images = box >= 0 ? box / count : -((count - 1 - box) / count);
-    return {box - images * count, images, periodic_};
-}
-
 /// @param side sign of the box's place relative to the own box; equal particles are paired on the positive side only.
-void NeighbourSearch::search_box(std::int32_t first, std::size_t place, int side, const Eigen::Vector3i& images,
+void NeighbourSearch::search_box(std::int32_t first, std::size_t place, int side, const Place& x, const Place& y, const Place& z,
                                  std::vector<ListedPair>& pairs) const {
     const Quad& centre = sorted_[static_cast<std::size_t>(first)];
     if (smallest_[place] > centre[3] || (side < 0 && smallest_[place] == centre[3])) {
         return;
     }
-    const Eigen::Vector3d origin = centre.head<3>() - images.cast<double>().cwiseProduct(lengths_.matrix());
+    const Eigen::Vector3d origin = centre.head<3>() - Eigen::Vector3d(x.shift, y.shift, z.shift);
     for (std::int32_t second = start_[place]; second < start_[place + 1]; ++second) {
         const Quad& other = sorted_[static_cast<std::size_t>(second)];
         const double limit = centre[3] + other[3] + skin_;
@@ -144,7 +159,7 @@ void NeighbourSearch::search_box(std::int32_t first, std::size_t place, int side
         }
         const bool equal_counts = side > 0 || (side == 0 && second > first);
         if (other[3] < centre[3] || (other[3] == centre[3] && equal_counts)) {
-            pairs.push_back({first, second, images});
+            pairs.push_back({first, second, {x.images, y.images, z.images}});
         }
     }
 }

@@ -36,14 +36,17 @@ private:
     struct Place {
         int box;
         int images;
-        bool exists;  ///< false outside an open cell
+        double shift;  ///< the same as a length [m]
+        bool exists;   ///< false outside an open cell
     };
-    Place place_along(int axis, int box) const;
     void choose_boxes(const Cell& cell, const std::vector<Quad>& position, double skin);
+    void list_places(const std::vector<Quad>& position);
+    Eigen::Array3i reach_of(double radius) const;
+    const Place& place_along(int axis, int box) const;
     void rank_boxes();
     Eigen::Array3i box_of(const Quad& position) const;
     std::size_t rank_of(const Eigen::Array3i& box) const;
-    void search_box(std::int32_t first, std::size_t place, int side, const Eigen::Vector3i& images,
+    void search_box(std::int32_t first, std::size_t place, int side, const Place& x, const Place& y, const Place& z,
                     std::vector<ListedPair>& pairs) const;
 
     bool periodic_;
@@ -51,9 +54,11 @@ private:
     Eigen::Array3d lower_;
     Eigen::Array3d lengths_;
     Eigen::Array3i boxes_;
-    std::vector<std::int32_t> rank_;   ///< place of each box along the curve
-    std::vector<std::int32_t> start_;  ///< first sorted number of each place, and the end
-    std::vector<double> smallest_;     ///< radius in each place
+    Eigen::Array3i margin_;                     ///< boxes that the largest particle looks beyond the cell
+    std::array<std::vector<Place>, 3> places_;  ///< along each axis, of the boxes from -margin on
+    std::vector<std::int32_t> rank_;            ///< place of each box along the curve
+    std::vector<std::int32_t> start_;           ///< first sorted number of each place, and the end
+    std::vector<double> smallest_;              ///< radius in each place
     std::vector<std::int32_t> order_;
     std::vector<Quad> sorted_;
 };

@@ -35,20 +35,25 @@ void resize(Slots& slots, std::size_t size) {
 
 /// Lists which ghost hands its force to which slot, in the order of the receiving slots.
 void link_ghosts(Slots& slots, std::vector<Chunk>& chunks) {
-    slots.handed.clear();
-    for (const Chunk& chunk : chunks) {
-        for (std::int32_t ghost = chunk.own_end; ghost < chunk.end; ++ghost) {
-            slots.handed.push_back({slots.source[at(ghost)], ghost});
+    // Where the ghosts of a slot begin in `handed`, and while that is filled, where the next one goes.
+    std::vector<std::size_t> start(slots.source.size() + 1, 0);
+    const auto for_each_ghost = [&](const auto& visit) {
+        for (const Chunk& chunk : chunks) {
+            for (std::int32_t ghost = chunk.own_end; ghost < chunk.end; ++ghost) {
+                visit(ghost, at(slots.source[at(ghost)]));
+            }
         }
-    }
-    const auto earlier = [](const SlotPair& a, const SlotPair& b) { return a.first < b.first; };
-    std::stable_sort(slots.handed.begin(), slots.handed.end(), earlier);
+    };
+    for_each_ghost([&](std::int32_t /*ghost*/, std::size_t source) { ++start[source + 1]; });
+    std::partial_sum(start.begin(), start.end(), start.begin());
     for (Chunk& chunk : chunks) {
-        const auto from = std::lower_bound(slots.handed.begin(), slots.handed.end(), SlotPair{chunk.begin, 0}, earlier);
-        const auto to = std::lower_bound(from, slots.handed.end(), SlotPair{chunk.own_end, 0}, earlier);
-        chunk.handed_begin = static_cast<std::size_t>(from - slots.handed.begin());
-        chunk.handed_end = static_cast<std::size_t>(to - slots.handed.begin());
+        chunk.handed_begin = start[at(chunk.begin)];
+        chunk.handed_end = start[at(chunk.own_end)];
     }
+    slots.handed.resize(start.back());
+    for_each_ghost([&](std::int32_t ghost, std::size_t source) {
+        slots.handed[start[source]++] = {static_cast<std::int32_t>(source), ghost};
+    });
 }
 
 Quad padded(const Eigen::Vector3d& vector) {
@@ -266,7 +271,9 @@ void ParticleSystem::refresh_carefully(double margin) {
     for (Chunk& chunk : chunks_) {
         double squared = 0;
         for (std::int32_t slot = chunk.begin; slot < chunk.own_end; ++slot) {
-            const Eigen::Vector3d moved = (slots_.position[at(slot)] - slots_.reference[at(slot)]).head<3>();
+            const Quad& reference = slots_.reference[at(slot)];
+            Eigen::Vector3d moved = (slots_.position[at(slot)] - reference).head<3>();
+            moved[shear_.direction] -= (shear_.strain - list_strain_) * reference[shear_.normal];  // of the cell
             squared = std::max(squared, moved.squaredNorm());
         }
         chunk.path = std::sqrt(squared);
@@ -343,13 +350,14 @@ void ParticleSystem::shear(int direction, int normal, double increment) {
     require(shear_.strain == 0 || (shear_.direction == direction && shear_.normal == normal),
             "the cell is sheared along other axes already");
     shear_ = {direction, normal, shear_.strain + increment};
+    const double period = cell_.lengths()[direction];
     for (const Chunk& chunk : chunks_) {
         for (std::size_t slot = at(chunk.begin); slot < at(chunk.own_end); ++slot) {
             slots_.position[slot][direction] += increment * slots_.position[slot][normal];
-            slots_.reference[slot][direction] += increment * slots_.reference[slot][normal];
         }
         for (std::size_t ghost = at(chunk.own_end); ghost < at(chunk.end); ++ghost) {
-            slots_.shift[ghost] = padded(image_shift(slots_.images[ghost]));
+            Quad& shift = slots_.shift[ghost];
+            shift[direction] = slots_.images[ghost][direction] * period + shear_.strain * shift[normal];
         }
     }
     approach_ = std::abs(shear_.strain - list_strain_) * (2 * radii_.maxCoeff() + skin_);

@@ -11,6 +11,7 @@ struct Here;
 
 }  // namespace
 
-extern const Kernels wide_kernels{add_bond_forces<FourLanes, SingleLane<Here>, SpringForce>, move_particles<FourLanes>};
+extern const Kernels wide_kernels{add_bond_forces<FourLanes, SingleLane<Here>, SpringForce>, move_particles<FourLanes>,
+                                  find_touching<FourLanes, SingleLane<Here>>};
 
 }  // namespace coagula::dem::detail

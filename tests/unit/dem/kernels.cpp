@@ -97,6 +97,23 @@ TEST(Kernels, FollowTheKinematicsOfTheGeneralLaw) {
     }
 }
 
+std::vector<std::int32_t> touching_pairs(const std::vector<Quad>& position, const std::vector<SlotPair>& pairs,
+                                         const detail::Kernels& kernels) {
+    std::vector<std::int32_t> found(pairs.size());
+    found.resize(kernels.find_touching(position.data()->data(), &pairs.data()->first, pairs.size(), found.data()));
+    return found;
+}
+
+TEST(Kernels, FindThePairsThatOverlap) {
+    const std::vector<Quad> position{{0, 0, 0, 1}, {1.5, 0, 0, 1}, {0, 2, 0, 1}, {0, 0, 2.1, 1}, {0, 1.2, 1.2, 0.75}, {9, 9, 9, 1}};
+    // Spheres that just touch do not overlap. Seven pairs: one full register and three single ones.
+    const std::vector<SlotPair> pairs{{0, 1}, {0, 2}, {0, 3}, {4, 0}, {3, 4}, {2, 4}, {5, 0}};
+    const std::vector<std::int32_t> overlapping{0, 3, 4, 5};
+    for (const detail::Kernels* kernels : {&detail::plain_kernels(), &detail::fastest_kernels()}) {
+        EXPECT_EQ(touching_pairs(position, pairs, *kernels), overlapping);
+    }
+}
+
 TEST(Kernels, OfAllWidthsGiveTheSameBits) {
     ParticleSystem plain = moved_network();
     ParticleSystem fastest = plain;

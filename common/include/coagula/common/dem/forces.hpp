@@ -61,18 +61,15 @@ void prepare(Slots& slots, const Chunk& chunk) {
     }
 }
 
-/// Lists the pairs of the chunk that overlap; returns their number. Without branches, since hardly any can be predicted.
+/// Lists the pairs of the chunk that overlap; returns their number.
 inline std::size_t find_touching(const Slots& slots, Chunk& chunk) {
+    static_assert(sizeof(SlotPair) == 2 * sizeof(std::int32_t));
     chunk.touching.resize(chunk.pairs.size());
-    std::size_t count = 0;
-    for (std::size_t number = 0; number < chunk.pairs.size(); ++number) {
-        const Quad& first = slots.position[at(chunk.pairs[number].first)];
-        const Quad& second = slots.position[at(chunk.pairs[number].second)];
-        const double reach = first[3] + second[3];
-        chunk.touching[count] = static_cast<std::int32_t>(number);
-        count += (second - first).template head<3>().squaredNorm() < reach * reach ? 1 : 0;
+    if (chunk.pairs.empty()) {
+        return 0;
     }
-    return count;
+    return fastest_kernels().find_touching(slots.position.data()->data(), &chunk.pairs.data()->first, chunk.pairs.size(),
+                                           chunk.touching.data());
 }
 
 /// Moves the first `count` touching pairs to the bonds.

@@ -7,6 +7,7 @@
 
 #include <coagula/common/dem/bond_loop.hpp>
 #include <coagula/common/dem/motion_loop.hpp>
+#include <coagula/common/dem/pair_loop.hpp>
 
 namespace coagula::dem::detail {
 
@@ -15,6 +16,8 @@ struct Kernels {
     BondExtremes (*add_spring_forces)(const SlotArrays& slots, BondBlock* blocks, std::size_t count, const SpringForce& force);
     /// move_particles() of motion_loop.hpp.
     double (*move_particles)(const MotionArrays& slots, std::size_t begin, std::size_t end, const MotionStep& step);
+    /// find_touching() of pair_loop.hpp.
+    std::size_t (*find_touching)(const double* position, const std::int32_t* ends, std::size_t count, std::int32_t* touching);
 };
 
 /// For any processor: one number at a time.
