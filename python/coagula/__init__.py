@@ -22,16 +22,18 @@ if "OMP_WAIT_POLICY" not in _os.environ:
 from ._coagula import Bonds, InputError, Packing
 from ._calls import (calibrate, characterize, compare_heterogeneity, diagnose, find_contacts, fit_degree_of_heterogeneity,
                      fit_power_law, generate_brownian, generate_vem, shear)
+from ._datasets import DataSet, open_dataset
 from ._files import ExistingFileError, MissingFileError, Structure, parse_quantity, read, write
 from ._over_files import Figure, Table, plot, report, table
 from ._results import Result
 from ._version import version as __version__
 
-__all__ = ["Bonds", "ExistingFileError", "Figure", "InputError", "MissingFileError", "Packing", "Result", "Structure", "Table",
+__all__ = ["Bonds", "DataSet", "ExistingFileError", "Figure", "InputError", "MissingFileError", "Packing", "Result", "Structure", "Table",
            "calibrate", "characterize", "compare_heterogeneity", "diagnose", "find_contacts", "fit_degree_of_heterogeneity",
-           "fit_power_law", "generate_brownian", "generate_vem", "parse_quantity", "plot", "read", "report", "shear", "table", "write"]
+           "fit_power_law", "generate_brownian", "generate_vem", "open_dataset", "parse_quantity", "plot", "read", "report", "shear",
+           "table", "write"]
 
 InputError.__doc__ = "Input that cannot be used, in one sentence: the object, the value and the rule."
-for _public in (Bonds, Figure, InputError, Packing, Result, Structure, Table, MissingFileError, ExistingFileError):
+for _public in (Bonds, DataSet, Figure, InputError, Packing, Result, Structure, Table, MissingFileError, ExistingFileError):
     _public.__module__ = "coagula"
 del _public

@@ -8,7 +8,7 @@ import tempfile
 import numpy as np
 
 from . import _coagula
-from ._options import call_text, documented, words
+from ._options import call_text, documented, values
 from ._results import Result, from_json, from_stage
 
 REQUIRED = __import__("inspect").Parameter.empty
@@ -24,9 +24,9 @@ def packing_of(value):
     return packing
 
 
-def _numbers(values, unit):
+def _numbers(items, unit):
     """An array of numbers, or of texts with a unit."""
-    return np.array([_coagula.parse_quantity(value, unit) if isinstance(value, str) else value for value in values], dtype=float)
+    return np.array([_coagula.parse_quantity(value, unit) if isinstance(value, str) else value for value in items], dtype=float)
 
 
 def _radii(radii):
@@ -45,7 +45,7 @@ def generate_vem(*, radii=None, progress=None, threads=None, **options):
     Schenker, Filser, Gauckler, Aste, Herrmann, Phys. Rev. E 80 (2009) 021302.
     """
     call = call_text("generate_vem", [], {**options, "radii": radii})
-    stage = _coagula.generate_vem(words("generate_vem", options, threads), call, _radii(radii), progress)
+    stage = _coagula.generate_vem(values("generate_vem", options, threads), call, _radii(radii), progress)
     return from_stage(stage, "VoidExpansion")
 
 
@@ -58,7 +58,7 @@ def generate_brownian(*, radii=None, start=None, progress=None, threads=None, **
     """
     call = call_text("generate_brownian", [], {**options, "radii": radii, "start": start})
     first = None if start is None else packing_of(start)
-    stage = _coagula.generate_brownian(words("generate_brownian", options, threads), call, _radii(radii), first, progress)
+    stage = _coagula.generate_brownian(values("generate_brownian", options, threads), call, _radii(radii), first, progress)
     return from_stage(stage, "BrownianRun")
 
 
@@ -66,7 +66,7 @@ def generate_brownian(*, radii=None, start=None, progress=None, threads=None, **
 def characterize(packing, *, progress=None, threads=None, **options):
     """Returns what was measured: .coordination, .doh.a, .pore_size.mean, .pore_curve.radius ..."""
     call = call_text("characterize", ["packing"], options)
-    stage = _coagula.characterize(words("characterize", options, threads), call, packing_of(packing), progress)
+    stage = _coagula.characterize(values("characterize", options, threads), call, packing_of(packing), progress)
     return from_stage(stage, "Characterization")
 
 
@@ -78,7 +78,7 @@ def compare_heterogeneity(first, second, names=("first", "second"), *, progress=
     """Returns what `coagula characterize --compare` prints: .more_heterogeneous, .agreement, .verdict, .measures.pore_sizes ..."""
     if isinstance(names, str) or len(names) != 2:
         raise _coagula.InputError("names must be two texts, one for each structure")
-    found = _coagula.compare_heterogeneity(words("compare_heterogeneity", options, threads), [str(name) for name in names],
+    found = _coagula.compare_heterogeneity(values("compare_heterogeneity", options, threads), [str(name) for name in names],
                                            [packing_of(first), packing_of(second)], progress)
     return from_json(json.loads(found), "Comparison")
 
@@ -111,7 +111,7 @@ def shear(packing, *, model=None, progress=None, threads=None, **options):
     """
     call = call_text("shear", ["packing"], {**options, "model": model})
     with _model_file(model) as path:
-        stage = _coagula.shear(words("shear", {**options, "model": path}, threads), call, packing_of(packing), progress)
+        stage = _coagula.shear(values("shear", {**options, "model": path}, threads), call, packing_of(packing), progress)
     return from_stage(stage, stage.group.rpartition("/")[2].capitalize() + "Response")
 
 
@@ -119,11 +119,11 @@ def shear(packing, *, model=None, progress=None, threads=None, **options):
             returns="Result")
 def calibrate(packings, *, progress=None, threads=None, **options):
     """Returns a series of moduli for each structure, and with `measured` the stiffness that matches: .calibration."""
-    values = [packing_of(packing) for packing in packings]
-    if not values:
+    given = [packing_of(packing) for packing in packings]
+    if not given:
         raise _coagula.InputError("calibrate needs at least one structure")
-    names = [f"packings[{k}]" for k in range(len(values))]
-    return from_json(json.loads(_coagula.calibrate(words("calibrate", options, threads), names, values, progress)), "Calibration")
+    names = [f"packings[{k}]" for k in range(len(given))]
+    return from_json(json.loads(_coagula.calibrate(values("calibrate", options, threads), names, given, progress)), "Calibration")
 
 
 @documented("fit_power_law", returns="Result", first=[
@@ -132,13 +132,13 @@ def calibrate(packings, *, progress=None, threads=None, **options):
     ("standard_error", "ArrayLike | None", None, "Standard errors of the moduli [Pa], as weights.")])
 def fit_power_law(a, modulus, standard_error=None, *, progress=None, threads=None, **options):
     """Returns a0, beta, c, their errors, the interval of a0 and its profile."""
-    def column(values, name, unit="Pa"):
-        array = _numbers([] if values is None else values, unit)
+    def column(items, name, unit="Pa"):
+        array = _numbers([] if items is None else items, unit)
         if array.ndim != 1:
             raise _coagula.InputError(f"{name} must be a list of numbers, one for each structure")
         return array
 
-    found = _coagula.fit_power_law(words("fit_power_law", options, threads), column(a, "a", "1"), column(modulus, "modulus"),
+    found = _coagula.fit_power_law(values("fit_power_law", options, threads), column(a, "a", "1"), column(modulus, "modulus"),
                                    column(standard_error, "standard_error"), progress)
     return from_json(json.loads(found), "PowerLaw")
 
@@ -150,8 +150,9 @@ def fit_power_law(a, modulus, standard_error=None, *, progress=None, threads=Non
 def diagnose(experiment, *, output=None, progress=None, threads=None, **options):
     """Returns the keys of diagnosis.json as attributes: .detected, .p_value, .verdict, .causes, .gain ..."""
     folder = "" if output is None else os.fspath(output)
-    given = [os.fspath(experiment), *words("diagnose", options, threads), *([f"--output={folder}"] if folder else [])]
-    return from_json(json.loads(_coagula.diagnose(given, folder, progress)), "Diagnosis")
+    given = {"input": os.fspath(experiment), **values("diagnose", options, threads), **({"output": folder} if folder else {})}
+    call = call_text("diagnose", [repr(os.fspath(experiment))], {**options, "output": output})
+    return from_json(json.loads(_coagula.diagnose(given, call, folder, progress)), "Diagnosis")
 
 
 def fit_degree_of_heterogeneity(radius: "ArrayLike", exclusion_probability: "ArrayLike", r0: "float | str") -> "Result":

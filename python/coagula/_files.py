@@ -5,7 +5,7 @@ import os
 
 from . import _coagula
 from ._calls import REQUIRED, packing_of
-from ._options import call_text, documented, words
+from ._options import call_text, documented, values
 from ._results import Generated, Result, Stage, from_entries
 
 
@@ -79,10 +79,10 @@ def read(path, **options):
     one that cannot be read.
     """
     name = os.fspath(path)
-    given = words("import", options)
+    given = values("import", options)
     try:
         if given or not name.lower().endswith((".h5", ".hdf5", ".h5md")):
-            packing, bonds, time, frames = _coagula.import_structure([name, "--output=none", *given])
+            packing, bonds, time, frames = _coagula.import_structure({"input": name, "output": "none", **given})
             return _structure(packing, bonds, time, frames=frames)
         return _structure(*_coagula.read_file(name))
     except _coagula.InputError as error:

@@ -1,9 +1,11 @@
-"""Keyword arguments of Python as the words of a command line; signatures and documentation from the program's table of options."""
+"""Keyword arguments of Python as values of options; signatures and documentation from the table of options."""
 
 import difflib
 import inspect
 import numbers
 import os
+
+import numpy as np
 
 from ._spelling import VERBS, argument, in_python
 
@@ -12,25 +14,28 @@ PROGRESS = "Called as progress(stage, fraction, remark) now and then, at most 20
 THREADS = "Number of threads, at most one for each processor, which is also the default."
 
 
-def _word(value):
+def _plain(value):
+    """The value as a bool, an int, a float, a str, or a list of these."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
     if isinstance(value, numbers.Integral):
-        return str(int(value))
+        return int(value)
     if isinstance(value, numbers.Real):
-        return repr(float(value))
+        return float(value)
     if isinstance(value, (str, os.PathLike)):
         return os.fspath(value)
     if isinstance(value, dict):
-        return ",".join(f"{name}={_word(item)}" for name, item in value.items())
+        return ",".join(f"{name}={_plain(item)}" for name, item in value.items())
     try:
-        return ",".join(_word(item) for item in value)
+        return [_plain(item) for item in value]
     except TypeError:
         raise TypeError(f"{value!r} is neither a number nor a text, nor a list of them") from None
 
 
-def words(verb, given, threads=None):
-    """The words for the options given; None and False leave an option out."""
+def values(verb, given, threads=None):
+    """The options given, by the names of the program; None and False leave an option out."""
     known = {argument(option["name"]): option for option in VERBS[verb]["options"]}
-    result = []
+    result = {}
     for name, value in given.items():
         if name not in known:
             near = difflib.get_close_matches(name, known, n=1)
@@ -38,13 +43,10 @@ def words(verb, given, threads=None):
         option = known[name]
         if value is None or value is False:
             continue
-        if option["kind"] == "flag":
-            if value is not True:
-                raise TypeError(f"{name} is True or False, not {value!r}")
-            result.append("--" + option["name"])
-        else:
-            result.append("--" + option["name"] + "=" + _word(value))
-    return result if threads is None else [*result, "--threads=" + _word(threads)]
+        if option["kind"] == "flag" and value is not True:
+            raise TypeError(f"{name} is True or False, not {value!r}")
+        result[option["name"]] = _plain(value)
+    return result if threads is None else {**result, "threads": _plain(threads)}
 
 
 def call_text(verb, first, given):

@@ -12,7 +12,7 @@ import numpy as np
 from . import _coagula
 from ._calls import REQUIRED
 from ._files import ExistingFileError, MissingFileError, with_kind
-from ._options import documented, words
+from ._options import documented, values
 from ._results import Result, from_entries, from_json
 
 _FILES = ("files", "str | PathLike[str] | Sequence[str | PathLike[str]]", REQUIRED, "One file, or several.")
@@ -42,11 +42,10 @@ class Table(Result):
 
 
 def _names(files):
-    """The files as words that no option can be taken for."""
     names = [os.fspath(files)] if isinstance(files, (str, os.PathLike)) else [os.fspath(name) for name in files]
     if not names:
         raise _coagula.InputError("files is empty: give at least one")
-    return [os.path.join(".", name) if name.startswith("-") else name for name in names]
+    return names
 
 
 @contextlib.contextmanager
@@ -65,7 +64,7 @@ def _file_errors(names):
 
 
 def _written(verb, names, output, overwrite, options):
-    given = [*names, f"--output={os.fspath(output)}", *(["--force"] if overwrite else []), *words(verb, options)]
+    given = {"input": names, "output": os.fspath(output), "force": bool(overwrite), **values(verb, options)}
     with _file_errors(names):
         return json.loads(getattr(_coagula, verb)(given))
 

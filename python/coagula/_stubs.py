@@ -26,13 +26,15 @@ ATTRIBUTES = {"Packing": {"periodic": "bool", "volume_fraction": "float", "mean_
               "Generated": {"packing": "Packing", "frames": "list[tuple[float, Array]]"},
               "Structure": {"packing": "Packing", "bonds": "Bonds | None", "time": "float", "frames": "list[tuple[float, Array]]",
                             "history": "list[dict[str, Any]]"},
+              "DataSet": {"card": "dict[str, str]", "sweep": "str", "provenance": "dict[str, str]"},
               "Figure": {"svg": "str | None"}}
 CONSTRUCTORS = {"Packing": "self, positions: ArrayLike, radii: ArrayLike | str | Sequence[str], box: ArrayLike | str | Sequence[str] | None = None, wrap: bool = False"}
 METHODS = {"__getitem__": "(self, path: str) -> Any", "__getattr__": "(self, name: str) -> Any", "__len__": "(self) -> int",
            "__iter__": "(self) -> Iterator[str]", "__contains__": "(self, path: str) -> bool", "keys": "(self) -> KeysView[str]",
            "unit": "(self, path: str) -> str", "description": "(self, path: str) -> str",
            "paths": "(self) -> Iterator[str]", "flat": "(self) -> dict[str, float | int | str]",
-           "to_dict": "(self) -> dict[str, Any]", "columns": "(self) -> dict[str, Array]"}
+           "to_dict": "(self) -> dict[str, Any]", "columns": "(self) -> dict[str, Array]",
+           "table": "(self) -> dict[str, Array]", "structures": "(self) -> list[str]", "structure": "(self, id: str) -> Structure"}
 
 
 def annotated(name, kind):
@@ -128,6 +130,7 @@ def stub_text():
     classes = [("Packing", coagula.Packing, ""), ("Bonds", coagula.Bonds, ""), ("Result", coagula.Result, ""),
                ("Stage", _results.Stage, "Result"), ("Generated", _results.Generated, "Stage"),
                ("Structure", coagula.Structure, "Result"), ("Figure", coagula.Figure, "Result"), ("Table", coagula.Table, "Result"),
+               ("DataSet", coagula.DataSet, ""),
                ("InputError", coagula.InputError, "ValueError"),
                ("MissingFileError", coagula.MissingFileError, "InputError, FileNotFoundError"),
                ("ExistingFileError", coagula.ExistingFileError, "InputError, FileExistsError")]

@@ -51,4 +51,5 @@ PYBIND11_MODULE(_coagula, module) {
     coagula::python::define_exceptions(module);
     coagula::python::define_values(module);
     coagula::python::define_stages(module);
+    coagula::python::define_sets(module);
 }

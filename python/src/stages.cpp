@@ -1,12 +1,15 @@
-// The stages: each takes the words of a command line, read by the same table of options as that of the program.
+// The stages: each takes the values of its options, read by the same table as those of the program.
 #include "values.hpp"
 
 #include <coagula/characterize/heterogeneity.hpp>
 #include <coagula/io/text_formats.hpp>
 #include <coagula/io/units.hpp>
-
-#include "cli/provenance.hpp"
-#include "cli/verbs.hpp"
+#include <coagula/stages/characterize.hpp>
+#include <coagula/stages/diagnose.hpp>
+#include <coagula/stages/files.hpp>
+#include <coagula/stages/generate.hpp>
+#include <coagula/stages/provenance.hpp>
+#include <coagula/stages/shear.hpp>
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
@@ -14,31 +17,20 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <set>
 
 namespace coagula::python {
 
 namespace {
 
-using tools::Arguments;
-using tools::Option;
-using tools::Verb;
+using stages::Arguments;
+using stages::Option;
+using stages::Verb;
+using Options = std::map<std::string, stages::Given>;  ///< by the names of the program
 using Words = std::vector<std::string>;
-
-/// A verb without its files: what it works on comes from Python, and what it finds goes there. Options that name files to write or
-/// another way of working have no meaning.
-Verb in_memory(Verb verb, const std::set<std::string>& without) {
-    verb.input.clear();
-    verb.many_inputs = false;
-    std::erase_if(verb.options, [&](const Option& option) {
-        return option.name == "output" || option.name == "force" || without.contains(option.name);
-    });
-    return verb;
-}
 
 /// What `characterize --compare` does; nothing else goes with it.
 Verb comparison() {
-    Verb verb = in_memory(tools::characterize_verb(), {"compare", "only", "position-noise", "noise-replicas", "samples"});
+    Verb verb = in_memory(stages::characterize_verb(), {"compare", "only", "position-noise", "noise-replicas", "samples"});
     verb.name = "compare heterogeneity";
     verb.summary = "which of two structures is more heterogeneous, by three measures";
     verb.notes.clear();
@@ -47,17 +39,17 @@ Verb comparison() {
 
 const std::map<std::string, Verb>& verbs() {
     static const std::map<std::string, Verb> all = {
-        {"generate_vem", in_memory(tools::generate_vem_verb(), {})},
-        {"generate_brownian", in_memory(tools::generate_brownian_verb(), {"start", "potential-curve", "picture"})},
-        {"characterize", in_memory(tools::characterize_verb(), {"compare"})},
+        {"generate_vem", in_memory(stages::generate_vem_verb(), {})},
+        {"generate_brownian", in_memory(stages::generate_brownian_verb(), {"start", "potential-curve", "picture"})},
+        {"characterize", in_memory(stages::characterize_verb(), {"compare"})},
         {"compare_heterogeneity", comparison()},
-        {"shear", in_memory(tools::shear_verb(), {})},
-        {"calibrate", in_memory(tools::calibrate_verb(), {})},
-        {"fit_power_law", in_memory(tools::fit_power_law_verb(), {"a", "modulus", "standard-error", "modulus-unit"})},
-        {"diagnose", tools::diagnose_verb()},
-        {"import", tools::import_verb()},
-        {"plot", tools::plot_verb()},
-        {"report", tools::report_verb()},
+        {"shear", in_memory(stages::shear_verb(), {})},
+        {"calibrate", in_memory(stages::calibrate_verb(), {})},
+        {"fit_power_law", in_memory(stages::fit_power_law_verb(), {"a", "modulus", "standard-error", "modulus-unit"})},
+        {"diagnose", stages::diagnose_verb()},
+        {"import", stages::import_verb()},
+        {"plot", stages::plot_verb()},
+        {"report", stages::report_verb()},
     };
     return all;
 }
@@ -94,27 +86,19 @@ py::dict table_of_verbs() {
     return table;
 }
 
-Arguments arguments_of(const std::string& verb, const Words& words) {
-    return {verbs().at(verb), words};
+/// @param call as it stands in Python.
+Arguments arguments_of(const std::string& verb, const Options& options, const std::string& call = {}) {
+    return {verbs().at(verb), {options, call, stages::Caller::python}};
 }
 
 std::optional<int> threads_of(const Arguments& arguments) {
     return arguments.has("threads") ? std::optional(static_cast<int>(arguments.count("threads"))) : std::nullopt;
 }
 
-/// The entry of the history that this call leaves. @param call as it stands in Python.
-io::Provenance provenance(const Arguments& arguments, const std::string& call, const Packing* input,
-                          const tools::Stopwatch& clock) {
-    io::Provenance entry = tools::describe_call(arguments, input, clock);
-    entry.command_line = call;
-    return entry;
-}
-
 template <class Make>
-std::shared_ptr<Stage> generated(const Arguments& arguments, const std::string& call, const Packing* input,
-                                 const py::object& progress, const Make& make) {
-    const tools::Stopwatch clock;
-    tools::Generated made = run(progress, threads_of(arguments), make);
+std::shared_ptr<Stage> generated(const Arguments& arguments, const Packing* input, const py::object& progress, const Make& make) {
+    const stages::Stopwatch clock;
+    stages::Generated made = run(progress, threads_of(arguments), make);
     auto stage = std::make_shared<Stage>();
     stage->generated = true;
     stage->findings = std::move(made.findings);
@@ -124,83 +108,86 @@ std::shared_ptr<Stage> generated(const Arguments& arguments, const std::string& 
     }
     stage->earlier = std::move(made.structure.earlier);
     stage->time = made.structure.time;
-    stage->provenance = provenance(arguments, call, input, clock);
+    stage->provenance = describe_call(arguments, input, clock);
     return stage;
 }
 
-std::shared_ptr<Stage> generate_vem(const Words& words, const std::string& call, const Eigen::VectorXd& radii,
+std::shared_ptr<Stage> generate_vem(const Options& options, const std::string& call, const Eigen::VectorXd& radii,
                                     const py::object& progress) {
-    const Arguments arguments = arguments_of("generate_vem", words);
-    return generated(arguments, call, nullptr, progress,
-                     [&](const Progress& told) { return tools::generate_vem(arguments, radii, told); });
+    const Arguments arguments = arguments_of("generate_vem", options, call);
+    return generated(arguments, nullptr, progress,
+                     [&](const Progress& told) { return generate(stages::vem_run(arguments, radii), told); });
 }
 
-std::shared_ptr<Stage> generate_brownian(const Words& words, const std::string& call, const Eigen::VectorXd& radii,
+std::shared_ptr<Stage> generate_brownian(const Options& options, const std::string& call, const Eigen::VectorXd& radii,
                                          const std::shared_ptr<Packing>& start, const py::object& progress) {
-    const Arguments arguments = arguments_of("generate_brownian", words);
-    return generated(arguments, call, start.get(), progress, [&](const Progress& told) {
-        return tools::generate_brownian(arguments, start ? std::optional(*start) : std::nullopt, radii, told);
+    const Arguments arguments = arguments_of("generate_brownian", options, call);
+    return generated(arguments, start.get(), progress, [&](const Progress& told) {
+        return generate(stages::brownian_run(arguments, start.get(), radii), start.get(), told);
     });
 }
 
-std::shared_ptr<Stage> characterize(const Words& words, const std::string& call, const std::shared_ptr<Packing>& packing,
+std::shared_ptr<Stage> characterize(const Options& options, const std::string& call, const std::shared_ptr<Packing>& packing,
                                     const py::object& progress) {
-    const tools::Stopwatch clock;
-    const Arguments arguments = arguments_of("characterize", words);
+    const stages::Stopwatch clock;
+    const Arguments arguments = arguments_of("characterize", options, call);
     auto stage = std::make_shared<Stage>();
     stage->findings = run(progress, threads_of(arguments),
-                          [&](const Progress& told) { return tools::characterize_packing(arguments, *packing, told); });
-    stage->provenance = provenance(arguments, call, packing.get(), clock);
+                          [&](const Progress& told) { return measure(stages::characterize_run(arguments), *packing, told); });
+    stage->provenance = describe_call(arguments, packing.get(), clock);
     return stage;
 }
 
-std::string compare_heterogeneity(const Words& words, const std::array<std::string, 2>& names,
+std::string compare_heterogeneity(const Options& options, const std::array<std::string, 2>& names,
                                   const std::array<std::shared_ptr<Packing>, 2>& packings, const py::object& progress) {
-    const Arguments arguments = arguments_of("compare_heterogeneity", words);
+    const Arguments arguments = arguments_of("compare_heterogeneity", options);
     const std::array<Packing, 2> values = {*packings[0], *packings[1]};
     return run(progress, threads_of(arguments),
-               [&](const Progress& told) { return tools::compare_packings(arguments, names, values, told); })
-        .dump();
+               [&](const Progress& told) { return compare(stages::comparison_run(arguments), names, values, told); })
+        .json.dump();
 }
 
-std::shared_ptr<Stage> shear(const Words& words, const std::string& call, const std::shared_ptr<Packing>& packing,
+std::shared_ptr<Stage> shear(const Options& options, const std::string& call, const std::shared_ptr<Packing>& packing,
                              const py::object& progress) {
-    const tools::Stopwatch clock;
-    const Arguments arguments = arguments_of("shear", words);
-    tools::Sheared sheared =
-        run(progress, threads_of(arguments), [&](const Progress& told) { return tools::shear_packing(arguments, *packing, told); });
+    const stages::Stopwatch clock;
+    const Arguments arguments = arguments_of("shear", options, call);
+    stages::Sheared sheared = run(progress, threads_of(arguments), [&](const Progress& told) {
+        return stages::shear(stages::shear_run(arguments), *packing, told);
+    });
     auto stage = std::make_shared<Stage>();
     stage->findings = std::move(sheared.findings);
     stage->bonds = std::make_shared<ContactNetwork>(std::move(sheared.bonds));
-    stage->provenance = provenance(arguments, call, packing.get(), clock);
+    stage->provenance = describe_call(arguments, packing.get(), clock);
     return stage;
 }
 
-std::string calibrate(const Words& words, const Words& names, const std::vector<std::shared_ptr<Packing>>& packings,
+std::string calibrate(const Options& options, const Words& names, const std::vector<std::shared_ptr<Packing>>& packings,
                       const py::object& progress) {
-    const Arguments arguments = arguments_of("calibrate", words);
+    const Arguments arguments = arguments_of("calibrate", options);
     std::vector<Packing> values;
     std::transform(packings.begin(), packings.end(), std::back_inserter(values), [](const auto& packing) { return *packing; });
     return run(progress, threads_of(arguments),
-               [&](const Progress& told) { return tools::calibrate_packings(arguments, names, values, told); })
-        .dump();
+               [&](const Progress& told) {
+                   return calibrate(stages::calibration_run(arguments, values.size()), names, values, told);
+               })
+        .printed.json.dump();
 }
 
-std::string fit_power_law(const Words& words, const Eigen::VectorXd& a, const Eigen::VectorXd& modulus,
+std::string fit_power_law(const Options& options, const Eigen::VectorXd& a, const Eigen::VectorXd& modulus,
                           const Eigen::VectorXd& standard_error, const py::object& progress) {
-    const Arguments arguments = arguments_of("fit_power_law", words);
+    const Arguments arguments = arguments_of("fit_power_law", options);
     return run(progress, threads_of(arguments),
                [&](const Progress& told) {
-                   return tools::fit_power_law(arguments, {a, modulus, standard_error}, told);
+                   return stages::fit_power_law(stages::power_law_options(arguments), {a, modulus, standard_error}, told);
                })
-        .dump();
+        .printed.json.dump();
 }
 
-std::string diagnose(const Words& words, const std::string& folder, const py::object& progress) {
-    const Arguments arguments = arguments_of("diagnose", words);
+std::string diagnose(const Options& options, const std::string& call, const std::string& folder, const py::object& progress) {
+    const Arguments arguments = arguments_of("diagnose", options, call);
     return run(progress, threads_of(arguments),
-               [&](const Progress& told) { return tools::diagnose_experiment(arguments, folder, told); })
-        .dump();
+               [&](const Progress& told) { return diagnose_experiment(stages::diagnose_run(arguments, folder), told); })
+        .json.dump();
 }
 
 py::dict fit_degree_of_heterogeneity(const Eigen::VectorXd& radius, const Eigen::VectorXd& exclusion_probability, double r0) {
@@ -220,29 +207,17 @@ py::dict fit_degree_of_heterogeneity(const Eigen::VectorXd& radius, const Eigen:
                     py::arg("b_stderr") = fit.b_stderr, py::arg("rms_residual") = fit.rms_residual);
 }
 
-using Write = tools::Printed (*)(const Arguments&);
+using Write = stages::Printed (*)(const Arguments&);
 
 /// Runs a verb that reads result files and writes a file for people. @return the JSON object that the verb prints.
-std::string write_of_files(const std::string& verb, const Words& words, Write write) {
-    const Arguments arguments = arguments_of(verb, words);
+std::string write_of_files(const std::string& verb, const Options& options, Write write) {
+    const Arguments arguments = arguments_of(verb, options);
     return run(py::none(), std::nullopt, [&](const Progress&) { return write(arguments); }).json.dump();
 }
 
 /// The table of `coagula info --csv`.
 std::vector<Words> table(const Words& paths) {
-    return run(py::none(), std::nullopt, [&](const Progress&) { return tools::table_of_files(paths); });
-}
-
-io::Addition addition_of(const Stage& stage) {
-    const tools::Findings& found = stage.findings;
-    tools::Results all = found.results;
-    all.insert(all.end(), found.bond_results.begin(), found.bond_results.end());
-    return {.replaced = tools::replaced_groups(found),
-            .bonds = stage.bonds ? std::optional(*stage.bonds) : std::nullopt,
-            .fields = found.fields,
-            .results = std::move(all),
-            .provenance = stage.provenance,
-            .bond_fields = found.bond_fields};
+    return run(py::none(), std::nullopt, [&](const Progress&) { return stages::table_of_files(paths); });
 }
 
 /// A file of a structure and of what stages found; each stage is added as the verbs of the program do it.
@@ -253,31 +228,31 @@ void write_file(const std::string& path, const std::shared_ptr<Packing>& packing
     history.stage = "import";
     history.command_line = call;
     history.options = "{}";
-    history.version = tools::version_text();
-    tools::Results results;
+    history.version = stages::version_text();
+    stages::Results results;
     auto next = stages.begin();
     if (next != stages.end() && (*next)->generated) {
         const Stage& first = **next++;
         history = first.provenance;
         structure.earlier = first.earlier;
         structure.time = first.time;
-        if (first.findings.group != "/generation/vem") {
-            results = first.findings.results;
-        }
+        results = kept_results(first.findings);
     }
     std::vector<io::Addition> later;
-    std::transform(next, stages.end(), std::back_inserter(later), [](const auto& stage) { return addition_of(*stage); });
+    std::transform(next, stages.end(), std::back_inserter(later), [](const auto& stage) {
+        return addition_of(stage->findings, stage->bonds ? std::optional(*stage->bonds) : std::nullopt, stage->provenance);
+    });
     io::write_structure(path, structure, {}, results, history, overwrite, later);
 }
 
 void export_structure(const std::string& path, const std::shared_ptr<Packing>& packing,
                       const std::shared_ptr<ContactNetwork>& bonds, bool overwrite) {
-    tools::export_structure(path, {*packing, bonds ? std::optional(*bonds) : std::nullopt}, overwrite);
+    stages::export_structure(path, {*packing, bonds ? std::optional(*bonds) : std::nullopt}, overwrite);
 }
 
 /// Packing, bonds, time and earlier frames.
-py::tuple import_structure(const Words& words) {
-    io::Structure structure = tools::import_structure(arguments_of("import", words));
+py::tuple import_structure(const Options& options) {
+    io::Structure structure = stages::import_structure(arguments_of("import", options));
     py::list frames;
     for (const io::Frame& frame : structure.earlier) {
         frames.append(py::make_tuple(frame.time, frame.positions.transpose().eval()));
@@ -294,24 +269,24 @@ py::tuple import_structure(const Words& words) {
 void define_stages(py::module_& module) {
     using namespace py::literals;
     module.def("verbs", &table_of_verbs);
-    module.def("version", &tools::version_text);
+    module.def("version", &stages::version_text);
     module.def("parse_quantity", py::overload_cast<const std::string&, const std::string&>(&io::parse_quantity), "text"_a,
                "unit"_a);
-    module.def("generate_vem", &generate_vem, "words"_a, "call"_a, "radii"_a, "progress"_a);
-    module.def("generate_brownian", &generate_brownian, "words"_a, "call"_a, "radii"_a, "start"_a, "progress"_a);
-    module.def("characterize", &characterize, "words"_a, "call"_a, "packing"_a, "progress"_a);
-    module.def("compare_heterogeneity", &compare_heterogeneity, "words"_a, "names"_a, "packings"_a, "progress"_a);
-    module.def("shear", &shear, "words"_a, "call"_a, "packing"_a, "progress"_a);
-    module.def("calibrate", &calibrate, "words"_a, "names"_a, "packings"_a, "progress"_a);
-    module.def("fit_power_law", &fit_power_law, "words"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a);
-    module.def("diagnose", &diagnose, "words"_a, "folder"_a, "progress"_a);
+    module.def("generate_vem", &generate_vem, "options"_a, "call"_a, "radii"_a, "progress"_a);
+    module.def("generate_brownian", &generate_brownian, "options"_a, "call"_a, "radii"_a, "start"_a, "progress"_a);
+    module.def("characterize", &characterize, "options"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("compare_heterogeneity", &compare_heterogeneity, "options"_a, "names"_a, "packings"_a, "progress"_a);
+    module.def("shear", &shear, "options"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("calibrate", &calibrate, "options"_a, "names"_a, "packings"_a, "progress"_a);
+    module.def("fit_power_law", &fit_power_law, "options"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a);
+    module.def("diagnose", &diagnose, "options"_a, "call"_a, "folder"_a, "progress"_a);
     module.def(
-        "plot", [](const Words& words) { return write_of_files("plot", words, tools::plot_files); }, "words"_a);
+        "plot", [](const Options& options) { return write_of_files("plot", options, stages::plot_files); }, "options"_a);
     module.def(
-        "report", [](const Words& words) { return write_of_files("report", words, tools::report_files); }, "words"_a);
+        "report", [](const Options& options) { return write_of_files("report", options, stages::report_files); }, "options"_a);
     module.def("table", &table, "paths"_a);
     module.def("fit_degree_of_heterogeneity", &fit_degree_of_heterogeneity, "radius"_a, "exclusion_probability"_a, "r0"_a);
-    module.def("import_structure", &import_structure, "words"_a);
+    module.def("import_structure", &import_structure, "options"_a);
     module.def("write_file", &write_file, "path"_a, "packing"_a, "bonds"_a, "stages"_a, "call"_a, "overwrite"_a);
     module.def("export_structure", &export_structure, "path"_a, "packing"_a, "bonds"_a, "overwrite"_a);
 }

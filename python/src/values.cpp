@@ -122,7 +122,7 @@ void define_packing(py::module_& module) {
         .def("__len__", &Packing::size)
         .def("__repr__",
              [](const Packing& packing) {
-                 return "Packing of " + std::to_string(packing.size()) + " particles, " + tools::describe(packing.cell);
+                 return "Packing of " + std::to_string(packing.size()) + " particles, " + coagula::describe(packing.cell);
              })
         .def(py::pickle(
             [](const Packing& packing) {
@@ -193,7 +193,7 @@ py::tuple entry(const std::string& path, const py::object& value, const std::str
     return py::make_tuple(path, value, unit, description);
 }
 
-void append_datasets(py::list& list, const tools::Results& results, std::size_t prefix, const py::object& owner) {
+void append_datasets(py::list& list, const stages::Results& results, std::size_t prefix, const py::object& owner) {
     for (const io::Dataset& dataset : results) {
         list.append(entry(dataset.path.substr(prefix), value_of(dataset, owner), dataset.unit, dataset.description));
     }
@@ -217,10 +217,10 @@ py::list entries_of(const py::object& self) {
 }
 
 /// Results of a file: path, value, unit, description; arrays are views of what was read.
-py::list entries_of_datasets(tools::Results results) {
-    auto owned = std::make_unique<tools::Results>(std::move(results));
-    const tools::Results& all = *owned;
-    const py::capsule owner(owned.release(), [](void* pointer) { delete static_cast<tools::Results*>(pointer); });
+py::list entries_of_datasets(stages::Results results) {
+    auto owned = std::make_unique<stages::Results>(std::move(results));
+    const stages::Results& all = *owned;
+    const py::capsule owner(owned.release(), [](void* pointer) { delete static_cast<stages::Results*>(pointer); });
     py::list list;
     append_datasets(list, all, 1, owner);
     return list;
@@ -253,7 +253,7 @@ void define_values(py::module_& module) {
     define_stage(module);
     module.def("read_file", [](const std::string& path) {
         io::Contents contents = io::read_contents(path);
-        tools::Results results = io::read_results(path, "/generation");
+        stages::Results results = io::read_results(path, "/generation");
         std::move(contents.results.begin(), contents.results.end(), std::back_inserter(results));
         py::list history;
         for (const io::Provenance& entry : contents.history) {

@@ -4,8 +4,7 @@
 #include "running.hpp"
 
 #include <coagula/io/structure_file.hpp>
-
-#include "verbs/stages.hpp"
+#include <coagula/stages/findings.hpp>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -18,7 +17,7 @@ namespace coagula::python {
 
 /// What a stage found, and all that a file keeps of it.
 struct Stage {
-    tools::Findings findings;
+    stages::Findings findings;
     std::shared_ptr<Packing> packing;  ///< that a generator made; otherwise null
     std::shared_ptr<ContactNetwork> bonds;
     std::vector<io::Frame> earlier;
@@ -43,5 +42,6 @@ py::array rows_of(const Matrix& columns, const py::handle& owner) {
 
 void define_values(py::module_& module);
 void define_stages(py::module_& module);
+void define_sets(py::module_& module);
 
 }  // namespace coagula::python

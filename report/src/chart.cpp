@@ -1,7 +1,7 @@
 #include <coagula/report/chart.hpp>
 
+#include <coagula/io/printable.hpp>
 #include <coagula/report/gnuplot.hpp>
-#include <coagula/report/printable.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -18,7 +18,7 @@ constexpr double point = inch / 72;
 std::string font_of(const PictureSize& size) {
     const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == ' ' || c == '-' || c >= 0x80; };
     if (size.font.empty() || !std::all_of(size.font.begin(), size.font.end(), fits)) {
-        throw InputError("--font: '" + printable(size.font) +
+        throw InputError("--font: '" + io::printable(size.font) +
                          "' is no name of a font; it may have letters, digits, blanks and hyphens");
     }
     return "font '" + size.font + "," + to_text(size.font_size) + "'";

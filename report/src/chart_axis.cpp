@@ -1,6 +1,6 @@
 #include "chart_axis.hpp"
 
-#include <coagula/report/printable.hpp>
+#include <coagula/io/printable.hpp>
 
 #include <algorithm>
 #include <array>
@@ -228,7 +228,7 @@ std::string axis_commands(const SettledAxis& axis, const std::string& name) {
 
 std::string quoted_text(const std::string& text) {
     std::string quoted = "\"";
-    for (const char c : printable(text)) {
+    for (const char c : io::printable(text)) {
         if (c == '\\' || c == '"') {
             quoted += std::string("\\") + c;
         } else if (c == '`' || c == '@') {  // commands and macros; the digits of an octal escape end with the quote

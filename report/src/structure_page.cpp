@@ -1,6 +1,6 @@
 #include <coagula/report/structure_page.hpp>
 
-#include <coagula/report/printable.hpp>
+#include <coagula/io/printable.hpp>
 #include <coagula/report/results.hpp>
 
 #include "bundle.hpp"
@@ -63,9 +63,9 @@ Json field_json(const io::Dataset& dataset, const Packing& packing, PageArrays& 
     }
     const std::size_t components = values.size() / particles;
     const bool is_arrow = components == 3 && dataset.unit == "m";  // a displacement, which the page can draw
-    return {{"name", printable(name)},
-            {"unit", printable(dataset.unit)},
-            {"description", (components > 1 ? "length of the vector: " : "") + printable(dataset.description)},
+    return {{"name", io::printable(name)},
+            {"unit", io::printable(dataset.unit)},
+            {"description", (components > 1 ? "length of the vector: " : "") + io::printable(dataset.description)},
             {"components", is_arrow ? 3 : 1},
             {"values", arrays.reals(components > 1 && !is_arrow ? lengths_of(values, components) : values)}};
 }
@@ -97,9 +97,9 @@ Json bond_fields_json(const PageStructure& page, PageArrays& arrays) {
         const auto* whole = std::get_if<std::vector<std::int64_t>>(&dataset.values);
         const bool is_flag =
             whole != nullptr && std::all_of(whole->begin(), whole->end(), [](std::int64_t v) { return v == 0 || v == 1; });
-        fields.push_back({{"name", printable(dataset.path)},
-                          {"unit", printable(dataset.unit)},
-                          {"description", printable(dataset.description)},
+        fields.push_back({{"name", io::printable(dataset.path)},
+                          {"unit", io::printable(dataset.unit)},
+                          {"description", io::printable(dataset.description)},
                           {"values", is_flag ? arrays.flags(*whole) : arrays.reals(numbers_of(dataset))}});
     }
     return fields;
@@ -114,12 +114,12 @@ Json results_json(const std::vector<io::Dataset>& results) {
             count *= length;
         }
         const bool is_long = count > longest_result;
-        list.push_back({{"path", printable(dataset.path)},
-                        {"unit", printable(dataset.unit)},
-                        {"description", printable(dataset.description)},
+        list.push_back({{"path", io::printable(dataset.path)},
+                        {"unit", io::printable(dataset.unit)},
+                        {"description", io::printable(dataset.description)},
                         {"shape", dataset.shape},
                         {"value", is_long           ? Json(nullptr)
-                                  : text != nullptr ? Json(printable(*text))
+                                  : text != nullptr ? Json(io::printable(*text))
                                                     : to_json(dataset)}});
     }
     return list;
@@ -128,13 +128,13 @@ Json results_json(const std::vector<io::Dataset>& results) {
 Json history_json(const std::vector<io::Provenance>& history) {
     Json list = Json::array();
     for (const io::Provenance& entry : history) {
-        list.push_back({{"stage", printable(entry.stage)},
-                        {"command", printable(entry.command_line)},
+        list.push_back({{"stage", io::printable(entry.stage)},
+                        {"command", io::printable(entry.command_line)},
                         {"seed", entry.seed},
-                        {"version", printable(entry.version)},
-                        {"time", printable(entry.time)},
+                        {"version", io::printable(entry.version)},
+                        {"time", io::printable(entry.time)},
                         {"seconds", std::isfinite(entry.seconds) ? Json(entry.seconds) : Json(nullptr)},
-                        {"positions", printable(entry.positions_sha256)}});
+                        {"positions", io::printable(entry.positions_sha256)}});
     }
     return list;
 }
@@ -153,7 +153,7 @@ Json structure_json(const PageStructure& all, Index most, PageArrays& arrays) {
     const Packing& packing = page.structure.packing;
     const Packing& whole = all.structure.packing;
     const double unit = mean_radius(whole);
-    Json json = {{"name", printable(page.name)},
+    Json json = {{"name", io::printable(page.name)},
                  {"particles", packing.size()},
                  {"whole", whole_json(whole, packing, unit)},
                  {"periodic", packing.cell.is_periodic()},
@@ -208,7 +208,7 @@ std::string structure_page(const std::vector<PageStructure>& structures, const s
     }
     std::string title;
     for (const PageStructure& page : structures) {
-        title += (title.empty() ? "" : ", ") + printable(page.name);
+        title += (title.empty() ? "" : ", ") + io::printable(page.name);
     }
     const auto [data, arrays] = page_content(structures, version);
     return html_page(title + " – coagula", "<div id=\"page\"><p class=\"soft\">Loading " + escaped(title) + " …</p></div>\n" +

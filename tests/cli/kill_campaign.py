@@ -54,6 +54,7 @@ CALLS = {
                                       "-o", "profile.csv", "--force"]),
     "diagnose": ("diagnosis", ["diagnose", "experiment.toml", "-o", "diagnosis", "--bootstrap", "99", "--causes", "contact-loss",
                                "--force"]),
+    "diagnose new": ("new.toml", ["diagnose", "new", "sweep.csv", "-o", "new.toml", "--force"]),
     "report": ("page.html", ["report", "small.h5", "-o", "page.html", "--force"]),
     "plot": ("figure.svg", ["plot", "small.h5", "--figure", "packing", "-o", "figure.svg", "--force"]),
     "man": ("pages", ["man", "-o", "pages", "--force"]),

@@ -40,6 +40,16 @@ CALLS = {
     "fit power-law": ["fit power-law table.csv -o made.csv"],
     "diagnose": ["diagnose experiment.toml --check", "diagnose experiment.toml --causes contact-loss -o made",
                  "diagnose experiment.toml --causes contact-loss --power --data-sets 20 --diagnoses 0"],
+    "diagnose new": ["diagnose new sweep.csv -o made.toml"],
+    "diagnose check": ["diagnose check experiment.toml"],
+    "diagnose plan": ["diagnose plan experiment.toml --causes contact-loss --data-sets 20 --diagnoses 0"],
+    "diagnose catalogue": ["diagnose catalogue"],
+    "dataset plan": ["dataset plan set.toml"],
+    "dataset run": ["dataset run set.toml -o made.h5"],
+    "dataset table": ["dataset table set.h5 -o made.csv"],
+    "dataset verify": ["dataset verify set.h5"],
+    "dataset join": ["dataset join set.h5 -o made.h5"],
+    "dataset workflow": ["dataset workflow set.toml -o made"],
     "info": ["info packing.h5"],
     "import": ["import points.csv --radius 0.5um --box 8um -o made.h5", "import plain.csv --length-unit 1um --radius 0.5um --open -o made.h5"],
     "export": ["export packing.h5 --format csv -o made.csv"],
@@ -105,6 +115,9 @@ def write_inputs(program, folder):
         subprocess.run([program, *words.split(), "--quiet"], cwd=folder, check=True)
 
     call("generate vem --particles 60 --voids 30 --volume-fraction 0.4 --radius 0.25um -o packing.h5")
+    (folder / "set.toml").write_text('[[generate]]\nverb = "vem"\nparticles = 30\nvolume-fraction = 0.4\n'
+                                     'target-coordination = 4\nradius = "1um"\n[shear]\n')
+    call("dataset run set.toml -o set.h5")
     points = "".join(f"{x},{y},{z}\n" for x in (1, 2, 3) for y in (1, 2, 3) for z in (1, 2, 3))
     (folder / "points.csv").write_text("x [um],y [um],z [um]\n" + points)
     (folder / "plain.csv").write_text("x,y,z\n" + points)
@@ -166,7 +179,7 @@ class Sweep:
             return (f"succeeds without {sorted(missing)}", True) if missing else ("works", False)
         if not re.fullmatch(r"coagula: \S[^\n]*\n", complaint) or "boost" in complaint or "exception" in complaint:
             return f"complains with {complaint!r}", True
-        left = set(os.listdir(self.folder)) - self.inputs - {"state.h5"}
+        left = set(os.listdir(self.folder)) - self.inputs - {"state.h5", "made.h5.parts"}
         if left:
             return f"leaves {sorted(left)} behind", True
         return ("stops on Ctrl-C" if "interrupted" in complaint else "is refused" if code in (2, 4) else "fails with a sentence"), False

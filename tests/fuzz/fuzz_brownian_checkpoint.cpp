@@ -1,6 +1,6 @@
 // The checkpoint of a Brownian run; see checkpoint_edits.hpp and hdf5_edits.hpp for what the input is.
+#include "brownian_checkpoint.hpp"
 #include "checkpoint_edits.hpp"
-#include "verbs/brownian_checkpoint.hpp"
 
 namespace {
 
@@ -24,7 +24,7 @@ std::string sound_file(const fuzz::InputFolder& folder) {
     series.clusters = series.largest = series.percolating = series.formed = series.broken = {0, 1};
     checkpoint.snapshots = {{0.5, checkpoint.positions}};
     const std::string path = folder.write("sound.h5", "");
-    tools::write_checkpoint(path, "run", checkpoint);
+    stages::write_checkpoint(path, "run", checkpoint);
     return fuzz::contents_of(path);
 }
 
@@ -52,6 +52,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const fuzz::InputFolder folder;
     static const std::string sound = sound_file(folder);
     fuzz::read_edited_checkpoint(folder, sound, fuzz::Choices(data, size),
-                                 [](const std::string& path) { check_checkpoint(tools::read_brownian_checkpoint(path, "run")); });
+                                 [](const std::string& path) { check_checkpoint(stages::read_brownian_checkpoint(path, "run")); });
     return 0;
 }

@@ -1,11 +1,11 @@
 // The checkpoint of a quasi-static run; see checkpoint_edits.hpp and hdf5_edits.hpp for what the input is.
 #include "checkpoint_edits.hpp"
-#include "verbs/quasistatic_checkpoint.hpp"
+#include "quasistatic_checkpoint.hpp"
 
 namespace {
 
 using namespace coagula;
-using tools::QuasistaticTest;
+using stages::QuasistaticTest;
 
 /// A small file as the program writes it.
 std::string sound_file(const fuzz::InputFolder& folder) {
@@ -16,7 +16,7 @@ std::string sound_file(const fuzz::InputFolder& folder) {
     QuasistaticTest sweep{{0, 1}, {}, {}};
     sweep.sweep.amplitudes.resize(2);
     const std::string path = folder.write("sound.h5", "");
-    tools::write_quasistatic_checkpoint(path, "run", {ramp, sweep});
+    stages::write_quasistatic_checkpoint(path, "run", {ramp, sweep});
     return fuzz::contents_of(path);
 }
 
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const fuzz::InputFolder folder;
     static const std::string sound = sound_file(folder);
     fuzz::read_edited_checkpoint(folder, sound, fuzz::Choices(data, size), [](const std::string& path) {
-        for (const QuasistaticTest& test : tools::read_quasistatic_checkpoint(path, "run")) {
+        for (const QuasistaticTest& test : stages::read_quasistatic_checkpoint(path, "run")) {
             check_test(test);
         }
     });

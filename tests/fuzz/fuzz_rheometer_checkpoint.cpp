@@ -1,6 +1,6 @@
 // The checkpoint of an explicit rheometer run; see checkpoint_edits.hpp and hdf5_edits.hpp for what the input is.
 #include "checkpoint_edits.hpp"
-#include "verbs/rheometer_checkpoint.hpp"
+#include "rheometer_checkpoint.hpp"
 
 namespace {
 
@@ -30,7 +30,7 @@ std::string sound_file(const fuzz::InputFolder& folder) {
     state.bonds.resize(2);
     state.bonds[0].second = 1;
     const std::string path = folder.write("sound.h5", "");
-    tools::write_checkpoint(path, "run", checkpoint);
+    stages::write_checkpoint(path, "run", checkpoint);
     return fuzz::contents_of(path);
 }
 
@@ -64,6 +64,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const fuzz::InputFolder folder;
     static const std::string sound = sound_file(folder);
     fuzz::read_edited_checkpoint(folder, sound, fuzz::Choices(data, size),
-                                 [](const std::string& path) { check_checkpoint(tools::read_checkpoint(path, "run")); });
+                                 [](const std::string& path) { check_checkpoint(stages::read_checkpoint(path, "run")); });
     return 0;
 }

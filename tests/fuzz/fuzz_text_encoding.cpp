@@ -1,6 +1,6 @@
 // Whatever the bytes are, they become UTF-8.
+#include <coagula/io/printable.hpp>
 #include "text_encoding.hpp"
-#include "utf8.hpp"
 
 #include "reader_contract.hpp"
 

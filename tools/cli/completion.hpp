@@ -1,7 +1,7 @@
 // Completion of the command line in bash and zsh, from the tables of options.
 #pragma once
 
-#include "option.hpp"
+#include "stages.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // The text that --help prints.
 #pragma once
 
-#include "option.hpp"
+#include "stages.hpp"
 
 #include <string>
 

@@ -1,16 +1,15 @@
 // coagula: generate, characterize and shear random sphere packings. Chooses the verb and turns exceptions into exit codes.
-#include "arguments.hpp"
+#include "command_line.hpp"
 #include "help_text.hpp"
 #include "interruption.hpp"
-#include "provenance.hpp"
 #include "report.hpp"
 #include "verbs.hpp"
 
 #include <coagula/common/failures.hpp>
 #include <coagula/common/parallel.hpp>
 #include <coagula/common/spelling.hpp>
+#include <coagula/io/printable.hpp>
 #include <coagula/io/standard_descriptors.hpp>
-#include <coagula/report/printable.hpp>
 
 #include <omp.h>
 #include <sys/resource.h>
@@ -57,7 +56,7 @@ void print_program_help() {
 /// The end of the sentence about words that begin with no verb; with the two words of a verb like "generate vem", if there are two.
 std::string suggestion(const std::vector<std::string>& words) {
     std::vector<std::string> pairs;
-    std::vector<std::string> singles = {"generate", "fit"};
+    std::vector<std::string> singles = {"generate", "fit", "dataset"};
     for (const Verb& verb : all_verbs()) {
         (verb.name.find(' ') == std::string::npos ? singles : pairs).push_back(verb.name);
     }
@@ -65,17 +64,27 @@ std::string suggestion(const std::vector<std::string>& words) {
     return meant.empty() ? did_you_mean(words[0], singles) : meant;
 }
 
-/// The verb that the words begin with; they are removed.
-Verb take_verb(std::vector<std::string>& words) {
-    for (const Verb& verb : all_verbs()) {
-        const std::vector<std::string> name = split(verb.name, ' ');
-        if (words.size() >= name.size() && std::equal(name.begin(), name.end(), words.begin())) {
-            words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(name.size()));
-            return verb;
+/// The verb with the longest name that the words begin with; they are removed.
+const Command& take_command(std::vector<std::string>& words) {
+    const Command* found = nullptr;
+    std::size_t length = 0;
+    for (const Command& command : commands()) {
+        const std::vector<std::string> name = split(command.verb.name, ' ');
+        if (name.size() > length && words.size() >= name.size() && std::equal(name.begin(), name.end(), words.begin())) {
+            found = &command;
+            length = name.size();
         }
+    }
+    if (found != nullptr) {
+        words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(length));
+        return *found;
     }
     if (words.front() == "fit") {
         throw InputError("'fit' needs the name of a law, and the one law is 'fit power-law'");
+    }
+    if (words.front() == "dataset") {
+        throw InputError("'dataset' needs what to do: plan, run, table, verify, join or workflow" +
+                         (words.size() > 1 ? suggestion(words) : std::string{}) + " (see 'coagula --help')");
     }
     if (words.front() == "generate") {
         throw InputError(words.size() > 1
@@ -90,8 +99,8 @@ void run(std::vector<std::string> words) {
     if (words.empty()) {
         throw InputError("a verb is missing (see 'coagula --help')");
     }
-    const bool lists_names =
-        words.size() == 2 && (words[0] == "generate" || words[0] == "fit") && (words[1] == "--help" || words[1] == "-h");
+    const bool lists_names = words.size() == 2 && (words[0] == "generate" || words[0] == "fit" || words[0] == "dataset") &&
+                             (words[1] == "--help" || words[1] == "-h");
     if (words.front() == "--help" || words.front() == "-h" || words.front() == "help" || lists_names) {
         print_program_help();
         flush_output();
@@ -102,16 +111,17 @@ void run(std::vector<std::string> words) {
         flush_output();
         return;
     }
-    const Verb verb = take_verb(words);
-    const Arguments arguments(verb, words);
-    if (arguments.help_wanted()) {
-        std::cout << help_text(verb);
+    const Command& command = take_command(words);
+    const CommandLine line = read_command_line(command.verb, words);
+    if (line.help_wanted) {
+        std::cout << help_text(command.verb);
         flush_output();
         return;
     }
+    const Arguments arguments(command.verb, line.call);
     omp_set_num_threads(
         usable_threads(arguments.has("threads") ? static_cast<int>(arguments.count("threads")) : omp_get_max_threads()));
-    verb.run(arguments);
+    command.run(arguments);
 }
 
 /// The word after --threads, or what follows it and an equals sign; empty where it is not asked for.
@@ -163,7 +173,7 @@ void restart_with_thread_settings(char** argv) {
 }
 
 int complain(const std::string& sentence, int code) {
-    std::cerr << "coagula: " << report::printable(sentence) << std::endl;
+    std::cerr << "coagula: " << io::printable(sentence) << std::endl;
     return code;
 }
 

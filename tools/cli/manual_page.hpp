@@ -1,7 +1,7 @@
 // Manual pages in the language of man(7), from the tables of options.
 #pragma once
 
-#include "option.hpp"
+#include "stages.hpp"
 
 #include <string>
 #include <vector>

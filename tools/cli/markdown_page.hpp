@@ -1,7 +1,7 @@
 // Pages of the verbs in Markdown, from the tables of options: the reference of the manual.
 #pragma once
 
-#include "option.hpp"
+#include "stages.hpp"
 
 #include <string>
 #include <vector>

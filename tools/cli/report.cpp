@@ -1,6 +1,6 @@
 #include "report.hpp"
 
-#include <coagula/report/printable.hpp>
+#include <coagula/io/printable.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -50,7 +50,7 @@ void report(const Arguments& arguments, const Json& json, const Table& table) {
             width = std::max(width, letters_in(label));
         }
         for (const auto& [label, text] : table) {
-            std::cout << label << std::string(width + 3 - letters_in(label), ' ') << report::printable(text) << '\n';
+            std::cout << label << std::string(width + 3 - letters_in(label), ' ') << io::printable(text) << '\n';
         }
     }
     flush_output();

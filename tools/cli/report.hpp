@@ -1,19 +1,9 @@
 // Output of a verb: one JSON object, or a short table. Both are made from the data sets that go into the file.
 #pragma once
 
-#include "arguments.hpp"
-
-#include <coagula/report/results.hpp>
+#include "stages.hpp"
 
 namespace coagula::tools {
-
-using coagula::report::check_finite;
-using coagula::report::describe;
-using coagula::report::Json;
-using coagula::report::Results;
-using coagula::report::Table;
-using coagula::report::to_json;
-using coagula::report::with_unit;
 
 /// Throws std::runtime_error when standard output takes no more.
 void flush_output();

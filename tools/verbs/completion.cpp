@@ -7,8 +7,6 @@
 
 namespace coagula::tools {
 
-namespace {
-
 void run_completion(const Arguments& arguments) {
     const bool bash = arguments.input() == "bash";
     const std::string script = bash ? bash_completion(all_verbs()) : zsh_completion(all_verbs());
@@ -20,15 +18,12 @@ void run_completion(const Arguments& arguments) {
     flush_output();
 }
 
-}  // namespace
-
 Verb completion_verb() {
     return {
         .name = "completion",
         .summary = "print the script that completes the command line in bash or zsh",
         .input = "SHELL",
         .options = {},
-        .run = run_completion,
         .notes =
             {"In bash: source <(coagula completion bash). In zsh: coagula completion zsh > FOLDER/_coagula, FOLDER one of $fpath.",
              "Both are part of an installation of coagula."},

@@ -1,154 +1,18 @@
 // coagula generate brownian: coagulation of a stabilised suspension by Brownian dynamics.
-#include "brownian_checkpoint.hpp"
-#include "brownian_results.hpp"
-#include "cli/checkpoint_file.hpp"
-#include "cli/checkpoint_lock.hpp"
-#include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
-#include "cli/provenance.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
-#include "potential_options.hpp"
-#include "size_distribution_text.hpp"
-#include "stages.hpp"
+#include "potential_curve.hpp"
 
-#include <coagula/generators/coagulation.hpp>
 #include <coagula/io/structure_file.hpp>
+#include <coagula/stages/generate.hpp>
+#include <coagula/stages/output_file.hpp>
+#include <coagula/stages/provenance.hpp>
 
-#include <filesystem>
+#include <cmath>
+#include <optional>
 
 namespace coagula::tools {
-
-namespace {
-
-using namespace generators;
-
-BrownianOptions brownian_options(const Arguments& arguments) {
-    BrownianOptions options;
-    options.temperature = arguments.quantity("temperature");
-    options.viscosity = arguments.quantity("viscosity");
-    options.slowing = arguments.quantity("slowing");
-    options.resistance = {.tangential_stiffness = arguments.optional_quantity("tangential-stiffness").value_or(unset),
-                          .friction = arguments.optional_quantity("friction").value_or(unset),
-                          .rolling_stiffness = arguments.optional_quantity("rolling-stiffness").value_or(unset),
-                          .rolling_friction = arguments.optional_quantity("rolling-friction").value_or(unset)};
-    options.cutoff_gap = arguments.optional_quantity("cutoff-gap").value_or(unset);
-    options.integrator = arguments.text("integrator") == "euler" ? Integrator::euler : Integrator::stabilised;
-    options.sedimentation = {.gravity = arguments.optional_quantity("gravity").value_or(unset),
-                             .density_difference = arguments.optional_quantity("density-difference").value_or(unset)};
-    options.time_step = arguments.optional_quantity("time-step").value_or(unset);
-    options.stop_time = arguments.optional_quantity("stop-time").value_or(unset);
-    options.stop_coordination = arguments.optional_quantity("stop-coordination").value_or(unset);
-    const std::string plateau = arguments.text("stop-plateau");
-    options.stop_plateau = plateau == "coordination" ? PlateauOf::coordination
-                           : plateau == "mean-gap"   ? PlateauOf::mean_gap
-                                                     : PlateauOf::nothing;
-    options.plateau_time = arguments.optional_quantity("plateau-time").value_or(unset);
-    options.plateau_change = arguments.quantity("plateau-change");
-    options.contact_tolerance = arguments.quantity("contact-tolerance");
-    options.sample_interval = arguments.optional_quantity("sample-interval").value_or(unset);
-    for (const std::string& time : split(arguments.text("snapshots", ""))) {
-        options.snapshot_times.push_back(parse_quantity(time, "s", physical::duration));
-    }
-    options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
-    return options;
-}
-
-/// What only a suspension has that is made here.
-const std::vector<std::string> of_suspension = {"particles",         "volume-fraction",         "radius",
-                                                "size-distribution", "equilibration-potential", "equilibration-time"};
-
-/// Of Python's `start` the table of options knows nothing. A packing that is there has no double layer but that of the run.
-void check_beside_start(const Arguments& arguments) {
-    std::vector<std::string> not_read = of_suspension;
-    if (arguments.has("potential-table")) {
-        not_read.insert(not_read.end(),
-                        {"debye-length", "ionic-strength", "double-layer", "hamaker-constant", "permittivity", "valency"});
-    }
-    for (const std::string& name : not_read) {
-        if (arguments.given(name)) {
-            throw InputError("--" + name + " is not read where the run goes on from a packing" +
-                             (arguments.has("potential-table") ? " by a table of the potential" : ""));
-        }
-    }
-}
-
-/// What the options need to be read.
-void add_conditions(std::vector<Option>& options) {
-    std::vector<std::string> of_run;  // those of the potential apart, and what a picture needs
-    for (const Option& option : options) {
-        of_run.push_back(option.name);
-    }
-    for (const Option& option : potential_options()) {
-        std::erase(of_run, option.name);
-    }
-    for (const char* name : {"radius", "start", "force"}) {
-        std::erase(of_run, name);
-    }
-    not_read_with(options, of_suspension, "start");
-    not_read_with(options, of_run, "potential-curve");
-    read_only_with(options, {"picture"}, "potential-curve");
-    read_only_with(options, {"friction"}, "tangential-stiffness");
-    read_only_with(options, {"rolling-friction"}, "rolling-stiffness");
-    read_only_with(options, {"density-difference"}, "gravity");
-    read_only_with(options, {"plateau-time", "plateau-change"}, "stop-plateau", {"coordination", "mean-gap"});
-    read_only_with(options, {"checkpoint-interval"}, "checkpoint");
-}
-
-/// Random positions, brought to equilibrium at a high surface potential.
-Packing suspension_of(const Arguments& arguments, const BrownianOptions& run, const Eigen::VectorXd& given,
-                      const Progress& progress) {
-    if (!arguments.has("volume-fraction")) {
-        throw InputError("coagula generate brownian needs --volume-fraction, or --start");
-    }
-    return stabilised_suspension(
-        {arguments.quantity("volume-fraction"), radii_of(arguments, given, run.seed), run.seed},
-        [&](double radius) { return make_potential(arguments, radius, arguments.quantity("equilibration-potential")); }, run,
-        arguments.optional_quantity("equilibration-time").value_or(unset), progress);
-}
-
-/// What must be the same for a run to go on: everything but when it stops and where results go.
-std::string fingerprint(const Arguments& arguments) {
-    Json options = arguments.to_json();
-    for (const char* name : {"output", "force", "quiet", "json", "threads", "checkpoint", "checkpoint-interval", "picture",
-                             "stop-time", "stop-coordination"}) {
-        options.erase(name);
-    }
-    return options.dump();
-}
-
-/// Samples that follow from the stop time go on as they began, whatever it is now. The first one is at time 0.
-void keep_sample_interval(const BrownianCheckpoint& checkpoint, BrownianOptions& options) {
-    if (std::isnan(options.sample_interval) && checkpoint.series.time.size() > 1) {
-        options.sample_interval = checkpoint.series.time[1];
-    }
-}
-
-/// The run, from its checkpoint if there is one.
-BrownianRun run_or_resume(const Arguments& arguments, const Packing& start, const PairPotential& potential,
-                          BrownianOptions& options, const Progress& progress) {
-    const std::string path = arguments.text("checkpoint", "");
-    if (path.empty()) {
-        return simulate_brownian(start, potential, options, progress);
-    }
-    const CheckpointLock lock(path);
-    const std::string signature = fingerprint(arguments) + io::positions_sha256(start);
-    std::optional<BrownianCheckpoint> resumed;
-    if (std::filesystem::exists(path)) {
-        resumed = read_brownian_checkpoint(path, signature);
-        keep_sample_interval(*resumed, options);
-    }
-    BrownianControl control;
-    control.resume = resumed ? &*resumed : nullptr;
-    const double interval = arguments.quantity("checkpoint-interval");
-    Stopwatch since;
-    control.checkpoint_due = [&] { return since.seconds() > interval; };
-    control.on_checkpoint = [&](const BrownianCheckpoint& checkpoint) {
-        write_checkpoint(path, signature, checkpoint);
-        since = Stopwatch();
-    };
-    return with_checkpoint(path, [&] { return simulate_brownian(start, potential, options, progress, control); });
-}
 
 void run_generate_brownian(const Arguments& arguments) {
     const Stopwatch clock;
@@ -162,7 +26,7 @@ void run_generate_brownian(const Arguments& arguments) {
         if (std::isnan(radius)) {
             throw InputError("--potential-curve needs --radius");
         }
-        report_potential(arguments, make_potential(arguments, radius), radius);
+        report_potential(arguments, stages::make_potential(stages::pair_forces(arguments), radius), radius);
         return;
     }
     if (!arguments.has("output")) {
@@ -170,11 +34,11 @@ void run_generate_brownian(const Arguments& arguments) {
     }
     const std::string output = arguments.text("output");
     check_output(arguments, output);
-    Generated made = generate_brownian(arguments, start, {}, progress);
+    const Packing* first = start ? &*start : nullptr;
+    Generated made = generate(stages::brownian_run(arguments, first), first, progress);
     progress.update("writing", 1.0);
     const Results& results = made.findings.results;
-    io::write_structure(output, made.structure, {}, results, describe_call(arguments, start ? &*start : nullptr, clock),
-                        arguments.flag("force"));
+    io::write_structure(output, made.structure, {}, results, describe_call(arguments, first, clock), arguments.flag("force"));
     Json json = to_json(results, made.findings.group);
     json["particles"] = made.structure.packing.size();
     json["volume_fraction"] = volume_fraction(made.structure.packing);
@@ -185,113 +49,6 @@ void run_generate_brownian(const Arguments& arguments) {
     table.emplace_back("time", with_unit(clock.seconds(), "s"));
     table.emplace_back("written to", output);
     report(arguments, json, table);
-}
-
-}  // namespace
-
-Generated generate_brownian(const Arguments& arguments, const std::optional<Packing>& start, const Eigen::VectorXd& radii,
-                            const Progress& progress) {
-    BrownianOptions options = brownian_options(arguments);
-    if (std::isnan(options.stop_time) && std::isnan(options.stop_coordination) && options.stop_plateau == PlateauOf::nothing) {
-        throw InputError("coagula generate brownian needs --stop-time, --stop-coordination or --stop-plateau");
-    }
-    if (arguments.text("hydrodynamics") == "mean-field" && (start || arguments.has("volume-fraction"))) {
-        options.slowing *= mean_field_slowing(start ? volume_fraction(*start) : arguments.quantity("volume-fraction"));
-    }
-    const double radius = radii.size() > 0 ? radii.mean() : arguments.optional_quantity("radius").value_or(unset);
-    // Wrong options of the potential shall not wait for the equilibration.
-    if (!start && !std::isnan(radius)) {
-        choose_time_step(make_potential(arguments, radius), radius, radius, options);
-    }
-    if (start) {
-        check_beside_start(arguments);
-    }
-    const Packing first = start ? *start : suspension_of(arguments, options, radii, progress);
-    const PairPotential potential = make_potential(arguments, mean_radius(first));
-    BrownianRun made = run_or_resume(arguments, first, potential, options, progress);
-
-    Findings found{.group = "/generation/brownian", .results = datasets_of(made, potential, options), .table = table_of(made)};
-    if (arguments.flag("heterogeneity")) {
-        const Results measured = heterogeneity_of(made, first, options, progress);
-        found.results.insert(found.results.end(), measured.begin(), measured.end());
-    }
-    check_finite(found.results);
-    io::Structure structure{std::move(made.packing), std::move(made.contacts), {}, made.time};
-    for (Snapshot& snapshot : made.snapshots) {
-        structure.earlier.push_back({snapshot.time, std::move(snapshot.positions)});
-    }
-    return {std::move(structure), std::move(found)};
-}
-
-Verb generate_brownian_verb() {
-    std::vector<Option> options = {
-        count("particles", "number of particles", "8000", within(2, 1e8)),
-        quantity("volume-fraction", "1", "volume of the spheres over that of the box; required without --start", "",
-                 between(0, 0.55)),
-        particle_radius("mean radius of the particles; required, unless a table or a file gives the radii"),
-        reads(text(
-            "size-distribution", "NAME",
-            "monodisperse, normal:S, lognormal:S (S = standard deviation over the mean) or FILE.csv (columns radius, fraction)",
-            "monodisperse")),
-        reads(text("start", "FILE", "go on from the packing in this file instead of a suspension in equilibrium")),
-        quantity("equilibration-potential", "V", "surface potential at which the suspension is brought to equilibrium", "50mV",
-                 within(1e-6, 1)),
-        quantity("equilibration-time", "s", "duration of that equilibration; a quarter of R^2/D when not given", "",
-                 physical::duration)};
-    for (Option& option : potential_options()) {
-        options.push_back(std::move(option));
-    }
-    const std::vector<Option> rest = {
-        quantity("viscosity", "Pa s", "viscosity of the liquid", "1e-3", within(1e-9, 1e9)),
-        quantity("slowing", "1", "diffusion coefficient of a particle over that of a free one, by hydrodynamics on average", "1",
-                 within(1e-6, 1)),
-        choice("hydrodynamics", {"none", "mean-field"},
-               "mean-field: diffusion is also reduced by the factor (1 - 1.56 phi)(1 - 0.27 phi)", "none"),
-        quantity("tangential-stiffness", "N/m", "tangential stiffness of a contact; contacts slide freely when not given", "",
-                 physical::stiffness),
-        quantity(
-            "friction", "1",
-            "coefficient of friction: a contact slips beyond this times its elastic normal force; it never slips when not given",
-            "", physical::friction),
-        quantity("rolling-stiffness", "N/m", "rolling stiffness of a contact; contacts roll freely when not given", "",
-                 physical::stiffness),
-        quantity("rolling-friction", "1",
-                 "coefficient of rolling friction: a contact rolls beyond this; its resistance has no limit when not given", "",
-                 physical::friction),
-        quantity("gravity", "m/s2", "acceleration by which particles settle towards a floor; they do not settle when not given", "",
-                 within(1e-9, 1e9)),
-        quantity("density-difference", "kg/m3", "density of the particles less that of the liquid, with --gravity", "",
-                 within(-1e6, 1e6)),
-        choice("integrator", {"stabilised", "euler"}, "time integration: stabilised is SK-ROCK, euler is Euler-Maruyama",
-               "stabilised"),
-        quantity("time-step", "s", "time step; chosen from the potential when not given", "", physical::time),
-        quantity("stop-time", "s", "simulated time at which the run ends", "", physical::duration),
-        quantity("stop-coordination", "1", "the run ends at a sample of the time series with this mean number of contacts", "",
-                 between(0, 12)),
-        choice("stop-plateau", {"none", "coordination", "mean-gap"}, "the run ends as soon as this quantity is level", "none"),
-        quantity("plateau-time", "s",
-                 "time over which --stop-plateau compares the means of the two halves; R^2/D/10 when not given", "",
-                 physical::time),
-        quantity("plateau-change", "1", "relative difference of these means below which the quantity is level", "0.01",
-                 within(1e-12, 1)),
-        quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01", within(0, 0.1)),
-        quantity("sample-interval", "s", "time between samples of the time series; a 200th of the stop time when not given", "",
-                 physical::time),
-        text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),
-        flag("heterogeneity", "measure the degree of heterogeneity at the start, at the snapshots and at the end"),
-        writes(text("checkpoint", "FILE",
-                    "file for the state of the run; a run that finds it goes on from there, also to another stop time")),
-        quantity("checkpoint-interval", "s", "wall-clock time between checkpoints", "60s", physical::duration),
-        count("seed", "seed of the random numbers", "1", at_least(0)),
-        output("HDF5 file to write"),
-        flag("force", "replace an existing file")};
-    options.insert(options.end(), rest.begin(), rest.end());
-    add_conditions(options);
-    return {.name = "generate brownian",
-            .summary = "coagulate a stabilised suspension by Brownian dynamics with DLVO forces",
-            .input = "",
-            .options = std::move(options),
-            .run = run_generate_brownian};
 }
 
 }  // namespace coagula::tools

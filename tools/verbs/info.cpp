@@ -1,13 +1,12 @@
 // coagula info: what is in a file.
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
-#include "info_rows.hpp"
-#include "recorded_options.hpp"
-#include "stages.hpp"
 
 #include <coagula/common/contact_network.hpp>
 #include <coagula/io/structure_file.hpp>
 #include <coagula/io/table.hpp>
+#include <coagula/stages/files.hpp>
+#include <coagula/stages/recorded_options.hpp>
 
 #include <iostream>
 #include <map>
@@ -59,7 +58,7 @@ Json provenance_json(const std::string& path, const std::vector<io::Provenance>&
     for (const io::Provenance& entry : history) {
         list.push_back({{"stage", entry.stage},
                         {"command_line", entry.command_line},
-                        {"options", recorded_options(path, entry.options)},
+                        {"options", stages::recorded_options(path, entry.options)},
                         {"seed", entry.seed},
                         {"version", entry.version},
                         {"time", entry.time},
@@ -130,13 +129,15 @@ Table contents_table(const io::Contents& contents) {
     return table;
 }
 
+}  // namespace
+
 void run_info(const Arguments& arguments) {
     const std::vector<std::string>& paths = arguments.inputs();
     if (arguments.flag("csv")) {
         if (arguments.flag("json") || arguments.flag("quiet")) {
             throw InputError("--csv excludes --json and --quiet");
         }
-        std::cout << io::csv_text(table_of_files(paths));
+        std::cout << io::csv_text(stages::table_of_files(paths));
         flush_output();
         return;
     }
@@ -155,24 +156,13 @@ void run_info(const Arguments& arguments) {
     report(arguments, paths.size() > 1 ? Json{{"files", files}} : files.front(), table);
 }
 
-}  // namespace
-
-std::vector<std::vector<std::string>> table_of_files(const std::vector<std::string>& paths) {
-    InfoRows rows;
-    for (const std::string& path : paths) {
-        const io::Contents contents = io::read_contents(path);
-        rows.add(path, contents);
-    }
-    return rows.with_header();
-}
-
 Verb info_verb() {
-    return {.name = "info",
-            .summary = "what is in files: structure, results, history",
-            .input = "FILE.h5",
-            .options = {flag("csv", "print a table with one row per file: options of the generator and every scalar result")},
-            .run = run_info,
-            .many_inputs = true};
+    return {
+        .name = "info",
+        .summary = "what is in files: structure, results, history",
+        .input = "FILE.h5",
+        .options = {stages::flag("csv", "print a table with one row per file: options of the generator and every scalar result")},
+        .many_inputs = true};
 }
 
 }  // namespace coagula::tools

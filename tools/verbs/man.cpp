@@ -1,13 +1,12 @@
 // coagula man: the manual pages, and the same for the manual in Markdown.
 #include "cli/manual_page.hpp"
 #include "cli/markdown_page.hpp"
-#include "cli/output_file.hpp"
-#include "cli/provenance.hpp"
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"
 
 #include <coagula/common/spelling.hpp>
 #include <coagula/io/atomic_file.hpp>
+#include <coagula/stages/output_file.hpp>
 
 #include <filesystem>
 #include <iostream>
@@ -65,6 +64,8 @@ void write_pages(const Arguments& arguments, const std::string& folder) {
     report(arguments, {{"files", files}}, {{"pages", std::to_string(pages.size())}, {"written to", folder}});
 }
 
+}  // namespace
+
 void run_man(const Arguments& arguments) {
     const std::vector<std::string> words = arguments.has("input") ? arguments.inputs() : std::vector<std::string>{};
     if (arguments.has("output")) {
@@ -83,20 +84,18 @@ void run_man(const Arguments& arguments) {
     flush_output();
 }
 
-}  // namespace
-
 Verb man_verb() {
-    Option folder = text("output", "FOLDER", "write the pages of the program and of all verbs into this folder instead");
+    Option folder = stages::text("output", "FOLDER", "write the pages of the program and of all verbs into this folder instead");
     folder.letter = 'o';
-    return {.name = "man",
-            .summary = "print the manual page of the program or of a verb, for man(1)",
-            .input = "VERB",
-            .options = {choice("format", {"man", "markdown"}, "man: a page for man(1); markdown: a page of the manual", "man"),
-                        folder, flag("force", "replace existing pages")},
-            .run = run_man,
-            .notes = {"To read a page: coagula man shear | man -l -"},
-            .many_inputs = true,
-            .input_required = false};
+    return {
+        .name = "man",
+        .summary = "print the manual page of the program or of a verb, for man(1)",
+        .input = "VERB",
+        .options = {stages::choice("format", {"man", "markdown"}, "man: a page for man(1); markdown: a page of the manual", "man"),
+                    folder, stages::flag("force", "replace existing pages")},
+        .notes = {"To read a page: coagula man shear | man -l -"},
+        .many_inputs = true,
+        .input_required = false};
 }
 
 }  // namespace coagula::tools

@@ -11,7 +11,7 @@
 #include <functional>
 #include <numeric>
 
-#include "utf8.hpp"
+#include <coagula/io/printable.hpp>
 
 namespace coagula::io::hdf5 {
 
@@ -290,6 +290,29 @@ std::string File::read_text(const std::string& dataset) const {
         fail(dataset, "is not a text");
     }
     return texts[0];
+}
+
+std::vector<std::string> File::read_text_list(const std::string& dataset) const {
+    const Handle opened = open_dataset(dataset);
+    const Handle type(H5Dget_type(opened.get()), H5Tclose);
+    const Handle space(H5Dget_space(opened.get()), H5Sclose);
+    return read_texts(dataset, type, space, [&](hid_t memory, void* buffer) {
+        return H5Dread(opened.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
+    });
+}
+
+std::vector<std::string> File::attribute_names(const std::string& object) const {
+    const Handle opened = open_object(object);
+    const int number = opened ? std::max(H5Aget_num_attrs(opened.get()), 0) : 0;
+    std::vector<std::string> names;
+    for (int k = 0; k < number; ++k) {
+        const auto place = static_cast<hsize_t>(k);
+        const ssize_t length = H5Aget_name_by_idx(opened.get(), ".", H5_INDEX_NAME, H5_ITER_INC, place, nullptr, 0, H5P_DEFAULT);
+        std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)), '\0');
+        H5Aget_name_by_idx(opened.get(), ".", H5_INDEX_NAME, H5_ITER_INC, place, name.data(), name.size() + 1, H5P_DEFAULT);
+        names.push_back(std::move(name));
+    }
+    return names;
 }
 
 std::vector<std::string> File::texts_attribute(const std::string& object, const std::string& name) const {

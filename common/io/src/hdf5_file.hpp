@@ -123,6 +123,8 @@ public:
         return values;
     }
     std::string read_text(const std::string& dataset) const;
+    /// A list of texts.
+    std::vector<std::string> read_text_list(const std::string& dataset) const;
     /// The text of an attribute; empty when there is none (or none that is text).
     std::string attribute(const std::string& object, const std::string& name) const;
     std::vector<std::string> texts_attribute(const std::string& object, const std::string& name) const;
@@ -134,6 +136,8 @@ public:
         write_numbers(dataset, shape, NumberType<T>::file(), NumberType<T>::memory(), values);
     }
     void write_text(const std::string& dataset, const std::string& text);
+    /// Writes a list of texts, each with the length of the longest.
+    void write_text_list(const std::string& dataset, const std::vector<std::string>& texts);
     void describe(const std::string& object, const std::string& unit, const std::string& description);
     /// Texts have a fixed length. Below /h5md and /particles the length is variable: MDAnalysis compares these with Python texts,
     /// and h5py makes byte strings of those of fixed length.
@@ -145,8 +149,11 @@ public:
     void set_reference(const std::string& object, const std::string& name, const std::string& referred);
     void link(const std::string& existing, const std::string& name);
     void remove(const std::string& object);
-    /// Everything in `source`: groups, links, references and attributes of the root.
-    void copy_all_from(const File& source);
+    /// Everything in `source`, or in a group of it: groups, links, references and attributes of the root.
+    void copy_all_from(const File& source, const std::string& group = "/");
+    /// The same as a group of this file, where nothing has its name.
+    void copy_group_from(const File& source, const std::string& group, const std::string& name);
+    std::vector<std::string> attribute_names(const std::string& object) const;
 
     static std::size_t count(const Shape& shape);
 

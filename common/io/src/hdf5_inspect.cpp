@@ -3,8 +3,8 @@
 #include <set>
 #include <utility>
 
+#include <coagula/io/printable.hpp>
 #include "hdf5_file.hpp"
-#include "utf8.hpp"
 
 namespace coagula::io::hdf5 {
 

@@ -254,19 +254,44 @@ void File::remove(const std::string& object) {
     require_written(!has(object) || H5Ldelete(id_.get(), object.c_str(), H5P_DEFAULT) >= 0, path_, object);
 }
 
-void File::copy_all_from(const File& source) {
-    const std::string staging = "/.copy";
-    const std::string staged = staging + '/';
+void File::write_text_list(const std::string& dataset, const std::vector<std::string>& texts) {
+    std::size_t length = 1;
+    for (const std::string& text : texts) {
+        length = std::max(length, text.size());
+    }
+    std::string characters(length * texts.size(), '\0');
+    for (std::size_t k = 0; k < texts.size(); ++k) {
+        characters.replace(k * length, texts[k].size(), texts[k]);
+    }
+    make_room(dataset);
+    const Handle type = text_type(length);
+    const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    const Handle written(H5Dcreate(id_.get(), dataset.c_str(), type.get(), array_space({texts.size()}).get(), links.get(),
+                                   creation_properties({texts.size()}, length).get(), H5P_DEFAULT),
+                         H5Dclose);
+    require_written(written && H5Dwrite(written.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, characters.data()) >= 0, path_,
+                    dataset);
+}
+
+void File::copy_group_from(const File& source, const std::string& group, const std::string& name) {
+    make_room(name);
+    const std::vector<std::string> before = children("/");
     const Handle properties(H5Pcreate(H5P_OBJECT_COPY), H5Pclose);
     H5Pset_copy_object(properties.get(), H5O_COPY_EXPAND_REFERENCE_FLAG);
-    if (H5Ocopy(source.id_.get(), "/", id_.get(), staging.c_str(), properties.get(), H5P_DEFAULT) < 0) {
-        source.fail("/", "cannot be copied: the file is damaged");
+    if (H5Ocopy(source.id_.get(), group.c_str(), id_.get(), name.c_str(), properties.get(), H5P_DEFAULT) < 0) {
+        source.fail(group, "cannot be copied: the file is damaged");
     }
-    for (const std::string& name : children("/")) {
-        if ("/" + name != staging) {
-            remove("/" + name);  // H5Ocopy gives every object that a reference points to a second name, "~obj_pointed_by_..."
+    for (const std::string& other : children("/")) {
+        if (("/" + other != name) && std::find(before.begin(), before.end(), other) == before.end()) {
+            remove("/" + other);  // H5Ocopy gives every object that a reference points to a second name, "~obj_pointed_by_..."
         }
     }
+}
+
+void File::copy_all_from(const File& source, const std::string& group) {
+    const std::string staging = "/.copy";
+    const std::string staged = staging + '/';
+    copy_group_from(source, group, staging);
     for (const std::string& name : children(staging)) {
         const std::string from = staged + name;
         require_written(H5Lmove(id_.get(), from.c_str(), id_.get(), ("/" + name).c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, path_,

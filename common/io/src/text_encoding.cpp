@@ -1,6 +1,6 @@
 #include "text_encoding.hpp"
 
-#include "utf8.hpp"
+#include <coagula/io/printable.hpp>
 
 #include <iconv.h>
 

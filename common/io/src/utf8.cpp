@@ -1,4 +1,4 @@
-#include "utf8.hpp"
+#include <coagula/io/printable.hpp>
 
 #include <cstddef>
 

@@ -1,8 +1,8 @@
 #include "chart_axis.hpp"
 #include "chart_legend.hpp"
 
+#include <coagula/io/printable.hpp>
 #include <coagula/report/chart.hpp>
-#include <coagula/report/printable.hpp>
 
 #include <gtest/gtest.h>
 
@@ -136,7 +136,7 @@ TEST(Charts, NamesFitTheFrameOfTheirLegend) {
     for (int k = 0; k < 99; ++k) {
         umlauts += "ü";
     }
-    EXPECT_TRUE(is_utf8(fitted_name(umlauts, frame)));
+    EXPECT_TRUE(io::is_utf8(fitted_name(umlauts, frame)));
     // Wide letters take more room than gnuplot thinks, narrow ones less.
     Chart chart = chart_of({.name = "WWWWWWWW", .x = {0, 1}, .y = {1, 0}, .mark = Mark::line});
     ChartAxes axes{settle(chart.x, {0, 1}), settle(chart.y, {0, 1}), {}};

@@ -1,0 +1,328 @@
+#include <coagula/experiment/recognised_table.hpp>
+
+#include <coagula/common/checks.hpp>
+#include <coagula/common/readable.hpp>
+#include <coagula/diagnose/check_data.hpp>
+#include <coagula/diagnose/tool_constants.hpp>
+#include <coagula/experiment/export_metadata.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace coagula::experiment {
+
+namespace {
+
+using diagnose::Measurement;
+using diagnose::MeasurementKind;
+
+constexpr double varies_from = 1.2;      // largest over smallest value; set points that an instrument holds vary less
+constexpr double ramp_from = 5;          // K
+constexpr double gap_series_from = 1.5;  // a gap that follows the sample varies less
+constexpr std::size_t fewest_rows = 5;   // of one of several sweeps in a table
+
+/// The numbers of a column in rows that have a storage modulus, or in all rows where none has.
+std::vector<double> readable(const Measurement& table, std::string_view name) {
+    const diagnose::Column* column = diagnose::find_column(table, name);
+    const diagnose::Column* modulus = diagnose::find_column(table, "storage_modulus");
+    const auto finite = [](double value) { return std::isfinite(value); };
+    const bool moduli = modulus != nullptr && std::any_of(modulus->values.begin(), modulus->values.end(), finite);
+    std::vector<double> values;
+    for (std::size_t row = 0; column != nullptr && row < column->values.size(); ++row) {
+        if (finite(column->values[row]) && (!moduli || finite(modulus->values[row]))) {
+            values.push_back(column->values[row]);
+        }
+    }
+    return values;
+}
+
+/// Largest over smallest magnitude; 1 for a column that is missing or zero somewhere.
+double spread(const Measurement& table, std::string_view name) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0;
+    for (const double value : readable(table, name)) {
+        low = std::min(low, std::abs(value));
+        high = std::max(high, std::abs(value));
+    }
+    return low > 0 && high > 0 && std::isfinite(low) ? high / low : 1;
+}
+
+std::string range_of(const Measurement& table, std::string_view name) {
+    const std::vector<double> values = readable(table, name);
+    const std::string unit(diagnose::find_quantity(name)->unit);
+    return std::string(name) + " goes from " + with_unit(values.front(), unit) + " to " + with_unit(values.back(), unit);
+}
+
+bool has(const Measurement& table, std::string_view name) {
+    return !readable(table, name).empty();
+}
+
+RecognisedTable with_axis(MeasurementKind kind, const Measurement& table, std::string_view axis) {
+    return {kind, range_of(table, axis)};
+}
+
+/// What to do about columns that nobody understood.
+std::string remedy(const io::PlainTable& table, const std::string& missing) {
+    const std::vector<std::string> unknown = not_understood(table, {});
+    if (unknown.empty()) {
+        return "";
+    }
+    const std::string heading = unknown.size() == 1 ? unknown[0].substr(1, unknown[0].size() - 2) : "HEADING";
+    return "; not understood: " + list_of(unknown) +
+           "; if one of them is it, write an experiment file whose [[measurement]] says " + "columns = { " + missing + " = \"" +
+           heading + "\" }";
+}
+
+/// What cannot be a measurement of moduli.
+std::string other_test(const io::PlainTable& table) {
+    const auto numbers = [&](const char* quantity) {
+        return std::any_of(table.columns.begin(), table.columns.end(), [&](const io::PlainColumn& column) {
+            return column.quantity == quantity &&
+                   std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
+        });
+    };
+    if (!table.has_headings) {
+        return "the file names no columns; write columns = [\"strain [%]\", \"G' [Pa]\", ...], one name per column, and a kind";
+    }
+    for (const io::PlainColumn& column : table.columns) {
+        if (column.quantity == "storage_modulus") {
+            return "the column '" + column.heading + "' holds no number";
+        }
+    }
+    const bool oscillates = numbers("angular_frequency") || numbers("frequency");
+    const std::string test = oscillates                      ? "an oscillation: "
+                             : numbers("relaxation_modulus") ? "a relaxation: "
+                             : numbers("shear_rate")         ? "a flow curve, creep or step: "
+                                                             : "";
+    const std::string modulus = oscillates ? "there is neither a storage modulus nor |G*| or |eta*| with a phase or loss tangent"
+                                           : "there is no storage modulus";
+    return test + modulus + remedy(table, "storage_modulus");
+}
+
+RecognisedTable by_columns(const io::PlainTable& plain, const Measurement& table) {
+    if (has(table, "x") && has(table, "y") && has(table, "z")) {
+        return {MeasurementKind::coordinates, "there are x, y and z"};
+    }
+    if (has(table, "pore_radius") && has(table, "exclusion_probability")) {
+        return with_axis(MeasurementKind::pore_curve, table, "pore_radius");
+    }
+    if (has(table, "third_harmonic_storage") && has(table, "strain")) {
+        return with_axis(MeasurementKind::harmonics, table, "strain");
+    }
+    if (!has(table, "storage_modulus")) {
+        // In a creep the rate falls, but the stress stays.
+        const bool flows = has(table, "viscosity") || has(table, "stress");
+        const bool creeps = has(table, "stress") && spread(table, "stress") < varies_from;
+        if (flows && !creeps && spread(table, "shear_rate") > varies_from) {
+            return with_axis(MeasurementKind::flow_curve, table, "shear_rate");
+        }
+        return {std::nullopt, other_test(plain)};
+    }
+    for (const char* axis : {"heterogeneity", "coordination", "volume_fraction"}) {
+        if (spread(table, axis) > 1) {
+            return with_axis(MeasurementKind::structure_series, table, axis);
+        }
+    }
+    const double frequency = spread(table, "angular_frequency");
+    const double strain = spread(table, "strain");
+    if (frequency > varies_from && frequency >= strain) {
+        return with_axis(MeasurementKind::frequency_sweep, table, "angular_frequency");
+    }
+    if (strain > varies_from) {
+        return with_axis(MeasurementKind::amplitude_sweep, table, "strain");
+    }
+    if (!has(table, "strain") && spread(table, has(table, "deflection") ? "deflection" : "stress") > varies_from) {
+        return {std::nullopt, "a sweep of the amplitude without a column of the strain, which is the axis of an amplitude-sweep"};
+    }
+    if (spread(table, "gap") > gap_series_from) {
+        return with_axis(MeasurementKind::gap_series, table, "gap");
+    }
+    const std::vector<double> temperature = readable(table, "temperature");
+    const auto [coldest, warmest] = std::minmax_element(temperature.begin(), temperature.end());
+    if (!temperature.empty() && *warmest - *coldest > ramp_from) {
+        return {std::nullopt, "a ramp of the temperature, which is the axis of no kind"};
+    }
+    if (has(table, "time")) {
+        return with_axis(MeasurementKind::time_sweep, table, "time");
+    }
+    return {std::nullopt, "no column varies that is the axis of a kind"};
+}
+
+/// Whether the sample gives way: its modulus falls by half or more while the strain grows, or its viscosity while the rate does.
+bool yields(const Measurement& table) {
+    const bool flows = table.kind == MeasurementKind::flow_curve;
+    if (!flows && table.kind != MeasurementKind::amplitude_sweep) {
+        return false;
+    }
+    const char* axis = flows ? "shear_rate" : "strain";
+    const char* answer = flows ? "viscosity" : "storage_modulus";
+    const diagnose::Column* along = diagnose::find_column(table, axis);
+    const diagnose::Column* values = diagnose::find_column(table, answer);
+    std::vector<std::pair<double, double>> rows;
+    for (std::size_t row = 0; along != nullptr && values != nullptr && row < table.rows(); ++row) {
+        if (along->values[row] > 0 && values->values[row] > 0) {
+            rows.emplace_back(along->values[row], values->values[row]);
+        }
+    }
+    if (rows.size() < fewest_rows) {
+        return false;
+    }
+    std::sort(rows.begin(), rows.end());
+    // The torques of the lowest rates may be at the floor of the instrument.
+    const auto [first_rate, first] = rows[flows ? rows.size() / 2 : 0];
+    const auto [last_rate, last] = rows.back();
+    return flows ? std::log(first / last) > 0.2 * std::log(last_rate / first_rate) : first > 2 * last;
+}
+
+/// Units that are assumed where a table names none at all. Strains and phases, which come in two units each, are not among them.
+ColumnRules assumed_units(const io::PlainTable& table) {
+    constexpr std::array assumed = {"angular_frequency", "frequency", "time",   "storage_modulus",   "loss_modulus",
+                                    "complex_modulus",   "viscosity", "stress", "complex_viscosity", "shear_rate"};
+    ColumnRules rules;
+    for (const io::PlainColumn& column : table.columns) {
+        if (!column.unit.empty()) {
+            return {};
+        }
+        if (std::find(assumed.begin(), assumed.end(), column.quantity) != assumed.end()) {
+            const std::string unit(diagnose::find_quantity(column.quantity)->unit);
+            rules.headings.emplace(column.quantity, column.heading + " [" + unit + "]");
+        }
+    }
+    return rules;
+}
+
+/// The table as one measurement.
+RecognisedTable as_one(const io::PlainTable& table, const diagnose::Instrument& instrument) {
+    const std::string label = "table " + std::to_string(table.number);
+    try {
+        const ColumnRules rules = table.has_headings ? assumed_units(table) : ColumnRules{};
+        Measurement measurement = to_measurement(table, MeasurementKind::frequency_sweep, label, rules);
+        diagnose::derive_moduli(measurement, instrument, false);
+        RecognisedTable recognised = by_columns(table, measurement);
+        recognised.rules = rules;
+        if (recognised.kind) {
+            measurement.kind = *recognised.kind;
+            diagnose::derive_viscosity(measurement);
+            recognised.yields = yields(measurement);
+            const diagnose::CheckedMeasurement checked = diagnose::check_data(measurement);
+            if (!checked.problems.empty()) {
+                recognised = {std::nullopt, std::string(diagnose::name_of(*recognised.kind)) + ", but " + checked.problems.front()};
+            }
+        }
+        return recognised;
+    } catch (const InputError& error) {
+        return {std::nullopt, error.what()};
+    }
+}
+
+using RowRange = std::pair<std::size_t, std::size_t>;  ///< first and last row, counted from 0
+
+/// Where a column runs in one direction.
+std::vector<RowRange> runs_of(const std::vector<double>& values) {
+    std::vector<RowRange> runs;
+    double last = std::numeric_limits<double>::quiet_NaN();
+    double direction = 0;
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        const double step = values[row] - last;
+        const bool goes_on = std::isnan(step) || (step != 0 && (direction == 0 || step * direction > 0));
+        if (runs.empty() || !goes_on) {
+            runs.emplace_back(row, row);
+            direction = 0;
+        } else {
+            runs.back().second = row;
+            direction = std::isnan(step) ? direction : step;
+        }
+        last = std::isnan(values[row]) ? last : values[row];
+    }
+    return runs;
+}
+
+/// The sweeps that a table holds one below the other, by the axis that turns back least often; nothing where hardly any row belongs
+/// to one.
+std::vector<RowRange> sweeps_in(const io::PlainTable& table) {
+    std::vector<RowRange> fewest;
+    for (const io::PlainColumn& column : table.columns) {
+        if (column.quantity == "angular_frequency" || column.quantity == "frequency" || column.quantity == "strain") {
+            std::vector<RowRange> runs = runs_of(column.values);
+            fewest = fewest.empty() || runs.size() < fewest.size() ? std::move(runs) : fewest;
+        }
+    }
+    std::size_t rows = 0;
+    for (const auto& [first, last] : fewest) {
+        rows += last - first + 1 >= fewest_rows ? last - first + 1 : 0;
+    }
+    return fewest.size() > 1 && 5 * rows >= 4 * table.rows() ? fewest : std::vector<RowRange>{};
+}
+
+io::PlainTable sweep_of(const io::PlainTable& table, const RowRange& rows) {
+    io::PlainTable part = table;
+    for (io::PlainColumn& column : part.columns) {
+        column.values = {column.values.begin() + static_cast<std::ptrdiff_t>(rows.first),
+                         column.values.begin() + static_cast<std::ptrdiff_t>(rows.second) + 1};
+    }
+    std::erase_if(part.unreadable, [&](const io::UnreadableCell& cell) { return cell.row < rows.first || cell.row > rows.second; });
+    for (io::UnreadableCell& cell : part.unreadable) {
+        cell.row -= rows.first;
+    }
+    return part;
+}
+
+/// The whole table, or the sweeps in it where it cannot be used as a whole.
+std::vector<RecognisedTable> recognise_table(const io::PlainTable& table, const diagnose::Instrument& instrument) {
+    RecognisedTable whole = as_one(table, instrument);
+    std::vector<RecognisedTable> parts;
+    for (const RowRange& rows : whole.kind ? std::vector<RowRange>{} : sweeps_in(table)) {
+        parts.push_back(as_one(sweep_of(table, rows), instrument));
+        parts.back().first = rows.first + 1;
+        parts.back().last = rows.second + 1;
+    }
+    const bool used = std::any_of(parts.begin(), parts.end(), [](const RecognisedTable& part) { return part.kind.has_value(); });
+    return used ? parts : std::vector<RecognisedTable>{std::move(whole)};
+}
+
+/// What the export says about it.
+diagnose::Instrument instrument_of(const io::MeasuredFile& file) {
+    ExportMetadata metadata;
+    metadata.add(file.path, file, 0, 0);
+    diagnose::Experiment experiment;
+    metadata.give_to(experiment);
+    return experiment.instrument;
+}
+
+}  // namespace
+
+std::vector<std::string> understood(const io::PlainTable& table) {
+    std::vector<std::string> quantities;
+    for (const io::PlainColumn& column : table.columns) {
+        const bool numbers =
+            std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
+        if (numbers && !column.quantity.empty() &&
+            std::find(quantities.begin(), quantities.end(), column.quantity) == quantities.end()) {
+            quantities.push_back(column.quantity);
+        }
+    }
+    return quantities;
+}
+
+RecognisedFile recognise(const std::string& path) {
+    RecognisedFile recognised{io::read_measured_file(path), {}};
+    const diagnose::Instrument instrument = instrument_of(recognised.file);
+    for (std::size_t place = 0; place < recognised.file.tables.size(); ++place) {
+        if (recognised.file.tables[place].point == 0) {
+            for (RecognisedTable& table : recognise_table(recognised.file.tables[place], instrument)) {
+                table.place = place;
+                recognised.tables.push_back(std::move(table));
+            }
+        }
+    }
+    return recognised;
+}
+
+std::size_t rows_of(const io::PlainTable& table, const RecognisedTable& what) {
+    return what.first == 0 ? table.rows() : what.last - what.first + 1;
+}
+
+}  // namespace coagula::experiment

@@ -1,0 +1,81 @@
+// Making structures: by void expansion, and by coagulation of a suspension.
+#pragma once
+
+#include <coagula/common/packing.hpp>
+#include <coagula/common/progress.hpp>
+#include <coagula/generators/brownian_dynamics.hpp>
+#include <coagula/generators/pair_potential.hpp>
+#include <coagula/generators/void_expansion.hpp>
+#include <coagula/io/structure_file.hpp>
+#include <coagula/stages/arguments.hpp>
+#include <coagula/stages/checkpointing.hpp>
+#include <coagula/stages/findings.hpp>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coagula::stages {
+
+/// A structure that a generator made, and what is known of it.
+struct Generated {
+    io::Structure structure;
+    Findings findings;
+};
+
+/// The results that a file keeps of a generator: those of the void expansion follow from the structure and the options.
+Results kept_results(const Findings& generated);
+
+struct VemRun {
+    generators::VoidExpansionOptions expansion;
+};
+
+Verb generate_vem_verb();
+/// @param radii N radii [m] instead of those that the options say; empty: none.
+VemRun vem_run(const Arguments& arguments, const Eigen::VectorXd& radii = {});
+Generated generate(const VemRun& run, const Progress& progress);
+
+/// The pair potential of particles by their mean radius.
+struct PairForces {
+    std::optional<generators::TabulatedLaw> table;  ///< in place of attraction and double layer
+    generators::DoubleLayer layer;                  ///< its surface potential is unset with a table
+    bool superposition = true;                      ///< of the double layers; else Hogg, Healy and Fuerstenau
+    double hamaker_constant = 0;                    ///< [J]
+    std::optional<double> yukawa_energy;            ///< at contact [J]
+    double yukawa_length = unset;                   ///< [m]
+    std::optional<double> contact_stiffness;        ///< [N/m]; chosen by firm_contact when empty
+    std::optional<double> equilibrium_gap;          ///< [m]; likewise
+};
+
+PairForces pair_forces(const Arguments& arguments);
+
+/// @param radius of both particles [m].
+/// @param surface_potential instead of that of the forces, and of their table [V].
+generators::PairPotential make_potential(const PairForces& forces, double radius,
+                                         std::optional<double> surface_potential = std::nullopt);
+
+/// How a suspension is brought to equilibrium before it coagulates.
+struct Suspension {
+    generators::SuspensionOptions placed;
+    double stabilising_potential = 0.05;  ///< surface potential [V]
+    double duration = unset;              ///< [s]; chosen when unset
+};
+
+struct BrownianRun {
+    generators::BrownianOptions motion;
+    PairForces forces;
+    std::optional<Suspension> suspension;  ///< none: the run goes on from a packing
+    bool heterogeneity = false;            ///< is measured at the start, at the snapshots and at the end
+    Checkpointing checkpoint;
+    double checkpoint_interval = 60;  ///< wall-clock time [s]
+};
+
+Verb generate_brownian_verb();
+/// @param start the packing from which the run goes on; null: a suspension is made. @param radii as above.
+BrownianRun brownian_run(const Arguments& arguments, const Packing* start = nullptr, const Eigen::VectorXd& radii = {});
+/// @param start as above.
+Generated generate(const BrownianRun& run, const Packing* start, const Progress& progress);
+
+}  // namespace coagula::stages

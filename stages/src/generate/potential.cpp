@@ -1,0 +1,122 @@
+#include "potential.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/generators/coagulation.hpp>
+#include <coagula/io/table.hpp>
+
+#include <stdexcept>
+
+namespace coagula::stages {
+
+namespace {
+
+using namespace generators;
+
+double screening_length(const Arguments& arguments) {
+    if (!arguments.has("ionic-strength")) {
+        return arguments.has("debye-length") ? arguments.quantity("debye-length") : 10e-9;
+    }
+    if (arguments.has("debye-length")) {
+        throw InputError(arguments.spelled("debye-length") + " and " + arguments.spelled("ionic-strength") +
+                         " both set the Debye length: give one of them");
+    }
+    return debye_length(arguments.quantity("ionic-strength"), arguments.quantity("permittivity"),
+                        arguments.quantity("temperature"));
+}
+
+TabulatedLaw read_potential(const std::string& path) {
+    constexpr double largest = physical::length.high;
+    const auto columns = io::read_table(path, {{.name = "gap", .unit = "m", .low = -largest, .high = largest},
+                                               {.name = "energy", .unit = "J", .low = -1e-12, .high = 1e-12}});
+    try {
+        return {{columns[0].begin(), columns[0].end()}, {columns[1].begin(), columns[1].end()}};
+    } catch (const std::invalid_argument& error) {
+        throw InputError(path + ": " + error.what());
+    }
+}
+
+std::vector<PairLaw> dlvo_laws(const PairForces& forces, const PairRadii& radii, double surface_potential) {
+    DoubleLayer layer = forces.layer;
+    layer.surface_potential = surface_potential;
+    std::vector<PairLaw> laws{HamakerAttraction(forces.hamaker_constant, radii)};
+    if (forces.superposition) {
+        laws.emplace_back(LinearSuperposition(layer, radii));
+    } else {
+        laws.emplace_back(HoggHealyFuerstenau(layer, radii));
+    }
+    return laws;
+}
+
+}  // namespace
+
+std::vector<Option> potential_options() {
+    return {
+        quantity("surface-potential", "V", "surface potential of the particles; required unless a table gives the potential", "",
+                 within(-1, 1)),
+        quantity("debye-length", "m", "Debye length of the double layer; 10 nm when not given", "", physical::length),
+        quantity("ionic-strength", "mol/m3", "ionic strength of a z:z electrolyte, from which the Debye length follows", "",
+                 within(1e-9, 1e5)),
+        choice("double-layer", {"superposition", "hogg-healy-fuerstenau"}, "approximation of the double-layer repulsion",
+               "superposition"),
+        quantity("hamaker-constant", "J", "Hamaker constant of the van der Waals attraction", "4.76e-20J", within(0, 1e-15)),
+        quantity("permittivity", "1", "relative permittivity of the liquid", "81", within(1, 1e4)),
+        count("valency", "valency of the ions of the electrolyte", "1", within(1, 10)),
+        quantity("yukawa-energy", "J", "energy at contact of an additional Yukawa potential", "", within(-1e-15, 1e-15)),
+        quantity("yukawa-length", "m", "screening length of the Yukawa potential", "", physical::length),
+        reads(text("potential-table", "FILE", "CSV file with columns 'gap [unit],energy [unit]', in place of these potentials")),
+        quantity("contact-stiffness", "N/m", "stiffness of the elastic contact below a cut-off gap; 4e5 kB T/R^2 when not given",
+                 "", physical::stiffness),
+        quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "",
+                 physical::length),
+        quantity("cutoff-gap", "m", "gap beyond which there are no forces; R when not given", "", physical::length),
+        quantity("temperature", "K", "temperature of the suspension", "293K", within(1, 1e4)),
+        flag("potential-curve", "print the potential against the gap and run nothing"),
+        writes(text("picture", "FILE", "with --potential-curve: draw the curve into this file, .svg, .png or .pdf"))};
+}
+
+PairForces pair_forces(const Arguments& arguments) {
+    PairForces forces;
+    if (arguments.has("potential-table")) {
+        if (arguments.has("surface-potential")) {
+            throw InputError(arguments.spelled("potential-table") + " and " + arguments.spelled("surface-potential") +
+                             " exclude each other");
+        }
+        forces.table = read_potential(arguments.text("potential-table"));
+    } else if (!arguments.has("surface-potential")) {
+        throw InputError(arguments.caller_of() + " needs " + arguments.spelled("surface-potential") + " or " +
+                         arguments.spelled("potential-table"));
+    }
+    if (arguments.has("yukawa-energy") != arguments.has("yukawa-length")) {
+        throw InputError(arguments.spelled("yukawa-energy") + " and " + arguments.spelled("yukawa-length") + " need each other");
+    }
+    forces.layer = {.surface_potential = arguments.optional_quantity("surface-potential").value_or(unset),
+                    .debye_length = screening_length(arguments),
+                    .relative_permittivity = arguments.quantity("permittivity"),
+                    .temperature = arguments.quantity("temperature"),
+                    .valency = static_cast<int>(arguments.count("valency"))};
+    forces.superposition = arguments.text("double-layer") == "superposition";
+    forces.hamaker_constant = arguments.quantity("hamaker-constant");
+    forces.yukawa_energy = arguments.optional_quantity("yukawa-energy");
+    forces.yukawa_length = arguments.optional_quantity("yukawa-length").value_or(unset);
+    forces.contact_stiffness = arguments.optional_quantity("contact-stiffness");
+    forces.equilibrium_gap = arguments.optional_quantity("equilibrium-gap");
+    return forces;
+}
+
+PairPotential make_potential(const PairForces& forces, double radius, std::optional<double> surface_potential) {
+    const PairRadii radii{radius, radius};
+    std::vector<PairLaw> laws;
+    if (forces.table && !surface_potential) {
+        laws.emplace_back(*forces.table);
+    } else {
+        laws = dlvo_laws(forces, radii, surface_potential.value_or(forces.layer.surface_potential));
+    }
+    if (forces.yukawa_energy) {
+        laws.emplace_back(Yukawa(*forces.yukawa_energy, forces.yukawa_length, radii));
+    }
+    const ElasticContact firm = firm_contact(radius, forces.layer.temperature);
+    return {std::move(laws),
+            {forces.contact_stiffness.value_or(firm.stiffness), forces.equilibrium_gap.value_or(firm.equilibrium_gap)}};
+}
+
+}  // namespace coagula::stages
