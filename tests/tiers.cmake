@@ -36,6 +36,7 @@ set(coagula_slow_tests
   "cli[.]diagnose[.]CementPaste[.].*"
   "cli[.]measured_data[.]ReferenceStructure[.].*"
   "cli[.]power[.].*"
+  "cli[.]dataset[.]Runs[.](killed|bytes|chunks|designs|failures|added|workflow|deleted|without|fewer|finished|verify|index).*"
   "cli[.]recipe[.].*"
   "cli[.]report[.].*"
   "facts[.]sample"

@@ -18,7 +18,7 @@ BELOW = {
     "report": ["common", "common/io", "generators", "characterize", "mechanics", "diagnose", "experiment"],
     "stages": ["common", "common/io", "generators", "characterize", "mechanics", "diagnose", "experiment", "report"],
     "tools": ["common", "common/io", "generators", "characterize", "mechanics", "diagnose", "experiment", "report", "stages"],
-    "python": ["common", "common/io", "generators", "characterize", "mechanics", "diagnose", "experiment", "report", "stages", "tools"],
+    "python": ["common", "common/io", "generators", "characterize", "mechanics", "diagnose", "experiment", "report", "stages"],
 }
 
 # The floors of a library, the lowest first; rooms on one floor do not include each other. "" is what lies in no room. A public header

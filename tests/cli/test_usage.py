@@ -5,8 +5,9 @@ import unittest
 
 from support import ProgramTest, VEM
 
-VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "plot", "report", "info", "import", "export", "completion",
-         "man"]
+VERBS = ["generate vem", "characterize", "shear", "calibrate", "fit power-law", "diagnose", "diagnose new", "diagnose check", "diagnose plan",
+         "diagnose catalogue", "dataset plan", "dataset run", "dataset table", "dataset verify", "dataset join", "dataset workflow", "plot",
+         "report", "info", "import", "export", "completion", "man"]
 
 
 class Help(ProgramTest):
@@ -148,7 +149,7 @@ class WrongUsage(ProgramTest):
             (["plot", "a.h5", "--figure", "packing", "-o", "p.svg", "--format", "png"], "--format is read only with --paper"),
             (["plot", "a.h5", "--figure", "packing", "-o", "p.svg", "--resolution", "100"], "--resolution is read for a PNG only"),
             (["diagnose", "e.toml", "--new", "--level", "0.1"], "--level is not read with --new"),
-            (["diagnose", "e.toml", "--power", "--bootstrap", "999"], "--bootstrap is at most 199 with --power"),
+            (["diagnose", "e.toml", "--power", "--bootstrap", "999"], "--bootstrap is at most 199 in a plan"),
             (["diagnose", "e.toml", "--check", "--seed", "2"], "--seed is not read with --check"),
             (["diagnose", "--catalogue", "--causes", "ageing"], "--causes is not read with --catalogue"),
         ]

@@ -106,7 +106,7 @@ class Figures(OverFiles):
         with self.assertRaisesRegex(coagula.InputError, "^paper needs output"):
             coagula.plot(files, paper=True)
         with self.assertRaises(TypeError):
-            coagula.plot(files, figure="pore-curve", colour="red")
+            coagula.plot(files, figure="pore-curve", shade="red")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 #include "help_text.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace coagula::tools {
@@ -30,12 +31,17 @@ Value value_of(const Option& option) {
     return {};
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string joined(const std::vector<std::string>& words, const std::string& between = " ") {
     std::string text;
     for (const std::string& word : words) {
-        text += (text.empty() ? "" : " ") + word;
+        text += (text.empty() ? "" : between) + word;
     }
     return text;
+}
+
+/// Whether the first word of some verbs is a verb by itself.
+bool is_verb(const std::vector<Verb>& verbs, const std::string& word) {
+    return std::any_of(verbs.begin(), verbs.end(), [&](const Verb& verb) { return verb.name == word; });
 }
 
 /// First words of verbs of two words, with the second ones: "generate" with "vem brownian".
@@ -249,6 +255,14 @@ std::string filled(std::string text, const std::string& mark, const std::string&
 std::string bash_completion(const std::vector<Verb>& verbs) {
     std::string second;
     for (const auto& [first, words] : families(verbs)) {
+        if (is_verb(verbs, first)) {
+            second +=
+                "        " + first + ")\n            if ((COMP_CWORD > 2)); then\n                case ${COMP_WORDS[2]} in\n" +
+                "                    " + joined(words, "|") + ") verb+=\" ${COMP_WORDS[2]}\" ;;\n                esac\n" +
+                "            elif [[ -n $current && ' " + joined(words) + "' == *\" $current\"* ]]; then\n" +
+                "                _coagula_words '" + joined(words) + "'\n                return\n            fi\n            ;;\n";
+            continue;
+        }
         second += "        " + first + ")\n            if ((COMP_CWORD == 2)); then\n                _coagula_words '" +
                   joined(words) +
                   "'\n                return\n            fi\n            verb+=\" ${COMP_WORDS[2]}\"\n            ;;\n";
@@ -263,6 +277,13 @@ std::string bash_completion(const std::vector<Verb>& verbs) {
 std::string zsh_completion(const std::vector<Verb>& verbs) {
     std::string second;
     for (const auto& [first, words] : families(verbs)) {
+        if (is_verb(verbs, first)) {
+            second += "        (" + first + ")\n            if ((CURRENT == 3)); then\n                compadd --" +
+                      zsh_names(words) + "\n            elif [[ \" " + joined(words) + " \" == *\" $words[3] \"* ]]; then\n" +
+                      "                verb+=\" $words[3]\"\n                shift words\n                ((CURRENT -= 1))\n"
+                      "            fi\n            ;;\n";
+            continue;
+        }
         second += "        (" + first + ")\n            if ((CURRENT == 3)); then\n                compadd --" + zsh_names(words) +
                   "\n                return\n            fi\n            verb+=\" $words[3]\"\n            shift words\n"
                   "            ((CURRENT -= 1))\n            ;;\n";

@@ -1,6 +1,7 @@
 #include "cli/verbs.hpp"
 
 #include <coagula/stages/characterize.hpp>
+#include <coagula/stages/dataset.hpp>
 #include <coagula/stages/diagnose.hpp>
 #include <coagula/stages/files.hpp>
 #include <coagula/stages/shear.hpp>
@@ -23,6 +24,12 @@ const std::vector<Command>& commands() {
                                              {diagnose_check_verb(), run_diagnose_check},
                                              {diagnose_plan_verb(), run_diagnose_plan},
                                              {diagnose_catalogue_verb(), run_diagnose_catalogue},
+                                             {dataset_plan_verb(), run_dataset_plan},
+                                             {dataset_run_verb(), run_dataset_run},
+                                             {dataset_table_verb(), run_dataset_table},
+                                             {dataset_verify_verb(), run_dataset_verify},
+                                             {dataset_join_verb(), run_dataset_join},
+                                             {dataset_workflow_verb(), run_dataset_workflow},
                                              {info_verb(), run_info},
                                              {import_verb(), run_import},
                                              {export_verb(), run_export},

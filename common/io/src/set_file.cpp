@@ -143,6 +143,13 @@ const SetColumn* SetHead::column(const std::string& name) const {
     return found == index.end() ? nullptr : &*found;
 }
 
+Packing packing_as_stored(const Packing& packing) {
+    const auto rounded = [](const auto& lengths) { return ((lengths * layout::nanometres) / layout::nanometres).eval(); };
+    const Cell cell = packing.cell.is_periodic() ? Cell::periodic(rounded(packing.cell.lengths()))
+                                                 : Cell::open(rounded(packing.cell.origin()), rounded(packing.cell.lengths()));
+    return {cell, layout::stored_positions(packing) / layout::nanometres, rounded(packing.radii)};
+}
+
 std::string group_of_structure(const std::string& id) {
     return structures_group + "/" + id;
 }

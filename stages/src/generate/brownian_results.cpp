@@ -43,7 +43,8 @@ Results datasets_of(const generators::BrownianRun& run, const PairPotential& pot
         io::integer(brownian_group + "steps", run.steps, "time steps"),
         io::text(brownian_group + "ended_by", run.ended_by, "criterion that ended the run: time, coordination or plateau"),
         io::scalar(brownian_group + "coordination", run.coordination, "1", "mean number of contacts at the end"),
-        io::scalar(brownian_group + "contact_tolerance", options.contact_tolerance, "1", "pairs nearer than (1 + x) (r_i + r_j) touch"),
+        io::scalar(brownian_group + "contact_tolerance", options.contact_tolerance, "1",
+                   "pairs nearer than (1 + x) (r_i + r_j) touch"),
         io::scalar(brownian_group + "diffusion_time", step.diffusion_time, "s", "R^2/D of a particle of mean radius"),
         io::scalar(brownian_group + "time_step/value", step.time_step, "s", "time step"),
         io::integer(brownian_group + "time_step/stages", step.stages, "force evaluations per step"),
@@ -56,12 +57,14 @@ Results datasets_of(const generators::BrownianRun& run, const PairPotential& pot
         io::scalar(brownian_group + "potential/contact_energy", potential.contact_minimum().energy / thermal, "1",
                    "energy of two particles in contact, over kB T"),
         io::scalar(brownian_group + "potential/cut_gap", potential.cut_gap(), "m", "below this gap the contact is elastic"),
-        io::scalar(brownian_group + "potential/contact_stiffness", potential.contact().stiffness, "N/m", "stiffness of the contact")};
+        io::scalar(brownian_group + "potential/contact_stiffness", potential.contact().stiffness, "N/m",
+                   "stiffness of the contact")};
     add_series(results, run.series);
     return results;
 }
 
-Results heterogeneity_of(const generators::BrownianRun& run, const Packing& start, const BrownianOptions& options, const Progress& progress) {
+Results heterogeneity_of(const generators::BrownianRun& run, const Packing& start, const BrownianOptions& options,
+                         const Progress& progress) {
     std::vector<double> time;
     std::vector<double> width;
     std::vector<double> coordination;

@@ -20,7 +20,11 @@ std::string utc_now() {
 }  // namespace
 
 std::string version_text() {
-    return std::string(version) + " (" + revision + ")";
+    std::string text = version;
+    text += " (";
+    text += revision;
+    text += ")";
+    return text;
 }
 
 io::Provenance describe_call(const Arguments& arguments, const Packing* input, const Stopwatch& clock) {

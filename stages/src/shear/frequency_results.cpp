@@ -58,15 +58,15 @@ void append_network(Results& results, const FrequencyResponse& response, double 
     results.push_back(io::text(frequency_group + "method", "frequency", "harmonic response of the bonded network with losses"));
     results.push_back(io::integer(frequency_group + "contacts", response.contacts, "number of bonds"));
     results.push_back(io::integer(frequency_group + "rattlers", response.rattlers, "particles that carry no load"));
-    results.push_back(
-        io::scalar(frequency_group + "bond_tolerance", bond_tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
+    results.push_back(io::scalar(frequency_group + "bond_tolerance", bond_tolerance, "1",
+                                 "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
     results.push_back(io::text(frequency_group + "model", io::contact_model_text(model), "the contact model, as a TOML file"));
     results.push_back(io::scalar(frequency_group + "contact_stiffness/normal", model.normal_stiffness / 2, "N/m",
                                  "stiffness of the normal spring of a contact"));
     results.push_back(io::scalar(frequency_group + "contact_stiffness/shear", model.shear_stiffness / 2, "N/m",
                                  "stiffness of the shear spring of a contact"));
-    results.push_back(io::vector(frequency_group + "frequency", over_points(response, [](const auto& p) { return p.frequency; }), "Hz",
-                                 "frequency of the strain"));
+    results.push_back(io::vector(frequency_group + "frequency", over_points(response, [](const auto& p) { return p.frequency; }),
+                                 "Hz", "frequency of the strain"));
 }
 
 /// Mean, standard deviation and the six orientations of one part of G*.
@@ -126,7 +126,8 @@ void append_stiffness(Results& results, const FrequencyResponse& response) {
 void append_solution(Results& results, const FrequencyResponse& response) {
     Eigen::VectorXi iterations(static_cast<Index>(response.points.size()));
     std::transform(response.points.begin(), response.points.end(), iterations.begin(), [](const auto& p) { return p.iterations; });
-    results.push_back(io::integers(frequency_group + "iterations", iterations, "iterations of the solver, largest number over the strains"));
+    results.push_back(
+        io::integers(frequency_group + "iterations", iterations, "iterations of the solver, largest number over the strains"));
     results.push_back(io::vector(frequency_group + "residual", over_points(response, [](const auto& p) { return p.residual; }), "1",
                                  "|f - K u| / |f|, largest over the strains"));
     Eigen::MatrixXd dissipation(static_cast<Index>(response.points.size()), 6);

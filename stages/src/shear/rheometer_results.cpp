@@ -66,8 +66,8 @@ void append_network(Results& results, const RheometerResult& result, const mecha
         io::text(rheometer_group + "boundary", plates ? "plates" : "periodic",
                  plates ? "layers of the periodic repetition, one fixed, one driven" : "the periodic cell is sheared"));
     results.push_back(io::integer(rheometer_group + "contacts", result.contacts, "number of bonds"));
-    results.push_back(
-        io::scalar(rheometer_group + "bond_tolerance", bond_tolerance, "1", "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
+    results.push_back(io::scalar(rheometer_group + "bond_tolerance", bond_tolerance, "1",
+                                 "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
     results.push_back(io::text(rheometer_group + "model", io::contact_model_text(options.model), "the contact as a TOML file"));
     results.push_back(io::scalar(rheometer_group + "contact_stiffness/normal", result.contact_normal_stiffness, "N/m",
                                  "stiffness of an unloaded contact: two particles in series"));
@@ -79,7 +79,8 @@ void append_protocol(Results& results, const RheometerResult& result, const mech
     results.push_back(
         io::scalar(rheometer_group + "frequency", options.frequency, "Hz", "frequency of the oscillations, with scaled masses"));
     results.push_back(io::scalar(rheometer_group + "damping", options.damping, "1", "coefficient of the local damping"));
-    results.push_back(io::integer(rheometer_group + "steps_per_oscillation", options.steps_per_oscillation, "time steps of an oscillation"));
+    results.push_back(
+        io::integer(rheometer_group + "steps_per_oscillation", options.steps_per_oscillation, "time steps of an oscillation"));
     results.push_back(io::scalar(rheometer_group + "time_step", result.time_step, "s", "time step of the run"));
     results.push_back(io::scalar(rheometer_group + "mass_scaling", result.mass_scaling, "1", "mass in the run over the real mass"));
     results.push_back(io::scalar(rheometer_group + "inertial_number", result.inertial_number, "1",
@@ -113,7 +114,8 @@ void append_moduli(Results& results, const RheometerResult& result) {
         names += (names.empty() ? "" : ",") + name;
     }
     results.push_back(io::scalar(rheometer_group + "phase", result.phase(), "rad", "phase of the mean moduli"));
-    results.push_back(io::text(rheometer_group + "orientations", names, "plate normal and shear direction, the order of all arrays"));
+    results.push_back(
+        io::text(rheometer_group + "orientations", names, "plate normal and shear direction, the order of all arrays"));
 }
 
 void append_plates(Results& results, const RheometerResult& result) {

@@ -1,6 +1,8 @@
 // A data set of many structures in one file: an index of columns, the structures in the layout of single files, and its card.
 #pragma once
 
+#include <coagula/common/packing.hpp>
+
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -29,10 +31,10 @@ struct SetStructure {
 };
 
 struct SetHead {
-    std::vector<std::pair<std::string, std::string>> card;        ///< attributes of the file: title, authors, licence ...
-    std::string sweep;                                            ///< text of the sweep file
-    std::vector<std::pair<std::string, std::string>> provenance;  ///< name and text of each entry
-    std::vector<SetColumn> index;                                 ///< equally long
+    std::vector<std::pair<std::string, std::string>> card = {};        ///< attributes of the file: title, authors, licence ...
+    std::string sweep = {};                                            ///< text of the sweep file
+    std::vector<std::pair<std::string, std::string>> provenance = {};  ///< name and text of each entry
+    std::vector<SetColumn> index = {};                                 ///< equally long
 
     /// The column of this name; null where there is none.
     const SetColumn* column(const std::string& name) const;
@@ -55,6 +57,9 @@ std::string structure_sha256(const std::string& file);
 
 /// The same of all structures of a set, by their ids.
 std::vector<std::pair<std::string, std::string>> structure_sums(const std::string& set);
+
+/// The packing as it is read again after it was written: lengths go through nanometres.
+Packing packing_as_stored(const Packing& packing);
 
 /// The group of a structure in a set.
 std::string group_of_structure(const std::string& id);

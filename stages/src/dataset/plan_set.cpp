@@ -1,0 +1,149 @@
+// dataset plan: how many structures, and what they take.
+#include "set_cost.hpp"
+#include "set_work.hpp"
+
+#include <coagula/common/checks.hpp>
+#include <coagula/stages/provenance.hpp>
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace coagula::stages {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Memory that the stages take for each particle, as measured with the usual measures and the direct solver [byte].
+constexpr double bytes_per_particle = 3e4;
+constexpr double bytes_of_program = 6e7;
+constexpr std::int64_t most_calibrated = 1000;  // particles
+
+double particles_of(const SetRow& row) {
+    return static_cast<double>(row.generate.count("particles"));
+}
+
+/// The same structure with so few particles that it is made in seconds.
+SetRow small_row(const SetRow& row) {
+    SetRow small = row;
+    const std::int64_t particles = row.generate.count("particles");
+    if (particles > most_calibrated) {
+        small.generate = row.generate.with_count("particles", most_calibrated);
+        if (row.generate.has("voids")) {
+            const double share = static_cast<double>(row.generate.count("voids")) / static_cast<double>(particles);
+            small.generate = small.generate.with_count("voids", std::llround(share * most_calibrated));
+        }
+    }
+    return small;
+}
+
+struct Cost {
+    double seconds = 0;  ///< of one processor for a particle
+    double bytes = 0;    ///< in the set for a particle
+};
+
+/// Computes one structure and removes it again.
+Cost measured_cost(const SetRow& row, const SetRun& run) {
+    const fs::path folder = fs::temp_directory_path() / ("coagula-plan-" + row.id);
+    const SetParts parts(folder.string());
+    fs::create_directories(parts.folder());
+    const SetRow small = small_row(row);
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const Stopwatch clock;
+    compute_rows({&small}, parts, run.keep_structures);
+    const double seconds = clock.seconds();
+    omp_set_num_threads(threads);
+    const std::optional<SetRecord> record = parts.record(row.id);
+    std::error_code missing;
+    const auto bytes = fs::file_size(parts.structure(row.id), missing);
+    std::error_code ignored;
+    fs::remove_all(parts.folder(), ignored);
+    if (!record || !record->done) {
+        throw InputError("the structure " + small.generate.call() + " with " + std::to_string(small.generate.count("particles")) +
+                         " particles cannot be made: " + (record ? record->message : "nothing came of it"));
+    }
+    return {seconds / particles_of(small), missing ? 0 : static_cast<double>(bytes) / particles_of(small)};
+}
+
+}  // namespace
+
+double bytes_of_process(const Sweep& sweep) {
+    double most = 0;
+    for (const SetRow& row : sweep.rows) {
+        most = std::max(most, particles_of(row));
+    }
+    return bytes_of_program + bytes_per_particle * most;
+}
+
+int jobs_of(const Sweep& sweep, const SetRun& run) {
+    const int wanted = run.jobs > 0 ? run.jobs : omp_get_num_procs();
+    if (run.memory == 0) {
+        return wanted;
+    }
+    const double each = bytes_of_process(sweep);
+    if (each > run.memory) {
+        throw InputError("memory: a structure of this sweep takes about " + with_unit(each / 1e9, "1") +
+                         " GB, more than the budget allows");
+    }
+    return std::clamp(static_cast<int>(run.memory / each), 1, wanted);
+}
+
+Printed plan_sweep(const Sweep& sweep, const SetRun& run, const Progress& progress) {
+    const int jobs = jobs_of(sweep, run);
+    std::map<std::string, Cost> costs;
+    std::set<std::string> generated;
+    double seconds = 0;
+    double bytes = 0;
+    for (std::size_t k = 0; k < sweep.rows.size(); ++k) {
+        const SetRow& row = sweep.rows[k];
+        progress.update("calibration", static_cast<double>(k) / static_cast<double>(sweep.rows.size()), row.generate.verb());
+        if (!costs.contains(row.generate.verb())) {
+            costs[row.generate.verb()] = measured_cost(row, run);
+        }
+        const Cost& cost = costs.at(row.generate.verb());
+        seconds += cost.seconds * particles_of(row);
+        bytes += cost.bytes * particles_of(row);
+        generated.insert(row.made_of);
+    }
+    const double on_jobs = seconds / jobs;
+    const double memory = bytes_of_process(sweep) * jobs;
+    const Json json = {{"structures", sweep.rows.size()},
+                       {"generated", generated.size()},
+                       {"jobs", jobs},
+                       {"processor_seconds", seconds},
+                       {"seconds", on_jobs},
+                       {"memory", memory},
+                       {"bytes", bytes}};
+    const auto duration = [](double time) {
+        return time < 120    ? with_unit(std::round(time), "s")
+               : time < 7200 ? to_text(std::round(time / 60)) + " min"
+                             : to_text(std::round(time / 360) / 10) + " h";
+    };
+    const auto rounded = [](double size) { return to_text(std::round(size / 1e6)) + " MB"; };
+    return {json,
+            {{"structures", std::to_string(sweep.rows.size()) + ", of " + std::to_string(generated.size()) + " generated packings"},
+             {"time", "about " + duration(on_jobs) + " with " + std::to_string(jobs) + (jobs == 1 ? " job" : " jobs") + ", " +
+                          duration(seconds) + " of processor time"},
+             {"memory", "about " + rounded(memory)},
+             {"size of the set", "about " + rounded(bytes)}}};
+}
+
+Verb dataset_plan_verb() {
+    return {
+        .name = "dataset plan",
+        .summary = "how many structures a sweep has, and the time, memory and room that they take",
+        .input = "SWEEP.toml",
+        .options = {count("jobs", "structures that are computed at the same time; as many as processors when not given", "",
+                          within(1, 1024)),
+                    quantity("memory", "byte", "memory for all of them together", "", within(1e7, 1e15)),
+                    flag("no-structures", "the set would keep its index only")},
+        .notes = {"One structure of each generator, of at most 1000 particles, is computed to tell; times grow as the number of "
+                  "particles."}};
+}
+
+}  // namespace coagula::stages

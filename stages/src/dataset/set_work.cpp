@@ -1,0 +1,108 @@
+#include "set_work.hpp"
+
+#include <coagula/common/failures.hpp>
+#include <coagula/io/atomic_file.hpp>
+#include <coagula/io/input_file.hpp>
+#include <coagula/io/set_file.hpp>
+#include <coagula/io/structure_file.hpp>
+#include <coagula/stages/characterize.hpp>
+#include <coagula/stages/generate.hpp>
+#include <coagula/stages/provenance.hpp>
+#include <coagula/stages/shear.hpp>
+
+#include <new>
+
+namespace coagula::stages {
+
+namespace {
+
+/// An entry of the history without times: equal sets have equal bytes.
+io::Provenance timeless_call(const Arguments& arguments, const Packing* input) {
+    io::Provenance entry = describe_call(arguments, input, Stopwatch());
+    entry.time = "";
+    entry.seconds = 0;
+    return entry;
+}
+
+Generated made_structure(const Arguments& arguments) {
+    return arguments.verb() == generate_vem_verb().name ? generate(vem_run(arguments), {})
+                                                        : generate(brownian_run(arguments), nullptr, {});
+}
+
+/// What the stages after the generator find.
+struct Found {
+    std::vector<io::Addition> additions = {};
+    std::vector<Findings> findings = {};
+};
+
+Found find(const SetRow& row, const Packing& packing) {
+    Found found;
+    if (row.characterize) {
+        found.findings.push_back(measure(characterize_run(*row.characterize), packing, {}));
+        found.additions.push_back(addition_of(found.findings.back(), std::nullopt, timeless_call(*row.characterize, &packing)));
+    }
+    if (row.shear) {
+        Sheared sheared = shear(shear_run(*row.shear), packing, {});
+        found.additions.push_back(addition_of(sheared.findings, sheared.bonds, timeless_call(*row.shear, &packing)));
+        found.findings.push_back(std::move(sheared.findings));
+    }
+    return found;
+}
+
+/// Runs the work; what goes wrong becomes the message of the record.
+template <class Work>
+bool succeeds(SetRecord& record, const Work& work) {
+    try {
+        work();
+        return true;
+    } catch (const std::exception& error) {
+        record.message = failure_sentence(error);
+        return false;
+    }
+}
+
+}  // namespace
+
+std::optional<SetRecord> SetParts::record(const std::string& id) const {
+    const std::filesystem::path path = folder_ / (id + ".json");
+    if (!std::filesystem::exists(path)) {
+        return std::nullopt;
+    }
+    std::optional<SetRecord> record = record_from(io::read_file(path.string()));
+    return record && record->id == id ? record : std::nullopt;
+}
+
+void SetParts::keep(const SetRecord& record) const {
+    io::write_file((folder_ / (record.id + ".json")).string(), record_text(record), true);
+}
+
+void compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts, bool with_structures) {
+    std::optional<Generated> made;
+    std::optional<Packing> packing;  // as a file holds it: what is found is what a call for that file would find
+    SetRecord common{.id = {}, .version = version_text()};
+    succeeds(common, [&] {
+        made = made_structure(rows.front()->generate);
+        packing = io::packing_as_stored(made->structure.packing);
+    });
+    for (const SetRow* row : rows) {
+        SetRecord record = common;
+        record.id = row->id;
+        Found found;
+        record.done = made && succeeds(record, [&] { found = find(*row, *packing); });
+        if (record.done) {
+            append_results(record, made->findings);
+            for (const Findings& findings : found.findings) {
+                append_results(record, findings);
+            }
+        }
+        if (record.done && with_structures) {
+            const std::string path = parts.structure(row->id);
+            io::write_structure(path, made->structure, {}, kept_results(made->findings), timeless_call(row->generate, nullptr),
+                                true, found.additions);
+            record.sha256 = io::structure_sha256(path);
+        }
+        parts.keep(record);
+    }
+}
+
+}  // namespace coagula::stages

@@ -1,0 +1,327 @@
+"""coagula dataset: sweeps, runs that are killed and go on, sets that are used."""
+
+import hashlib
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from support import PROGRAM, ProgramTest
+
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
+SWEEP = """title = "small"
+authors = ["A. Nobody", "B. Somebody"]
+licence = "CC0-1.0"
+
+[[generate]]
+verb = "vem"
+particles = 60
+voids = [10, 30]
+volume-fraction = 0.4
+radius = "0.25um"
+replicates = 3
+
+[characterize]
+only = "coordination,doh"
+
+[shear]
+shear-stiffness = [10, 50]
+"""
+ROWS = 12
+
+
+def values(path):
+    """All data sets of a file by their paths, as bytes."""
+    found = {}
+
+    def take(name, item):
+        if isinstance(item, h5py.Dataset):
+            found[name] = item[()].tobytes() if hasattr(item[()], "tobytes") else item[()]
+
+    with h5py.File(path) as file:
+        file.visititems(take)
+    return found
+
+
+def checksum(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+class Sweeps(ProgramTest):
+    """Bad sweeps end before anything runs."""
+
+    GOOD = '[[generate]]\nverb = "vem"\nparticles = 60\nvolume-fraction = 0.4\nradius = "0.25um"\n'
+
+    def refuse(self, text, *says):
+        self.write("sweep.toml", text)
+        for verb in ("run", "plan"):
+            output = ["-o", "set.h5"] if verb == "run" else []
+            self.fail_with(2, "dataset", verb, "sweep.toml", *output, says=["sweep.toml", *says])
+
+    def test_not_toml(self):
+        self.refuse("a =", "line 1")
+
+    def test_no_generator(self):
+        self.refuse('title = "x"\n', "[[generate]]")
+
+    def test_unknown_keys(self):
+        self.refuse('titel = "x"\n' + self.GOOD, "'titel'", "did you mean 'title'?")
+        self.refuse(self.GOOD + "[desing]\nkind = 'grid'\n", "'desing'", "did you mean 'design'?")
+
+    def test_unknown_generator(self):
+        self.refuse(self.GOOD.replace('"vem"', '"vme"'), "'verb'", "did you mean 'vem'?")
+        self.refuse(self.GOOD.replace('verb = "vem"\n', ""), "'verb'", "is missing")
+
+    def test_unknown_option(self):
+        self.refuse(self.GOOD + "volume_fraction = 0.3\n", "[[generate]]", "'volume_fraction'", "did you mean 'volume-fraction'?")
+        self.refuse(self.GOOD + "[shear]\nmehod = 'linear'\n", "[shear]", "'mehod'", "did you mean 'method'?")
+
+    def test_options_without_place(self):
+        self.refuse(self.GOOD + 'output = "a.h5"\n', "'output'", "has no place in a set")
+        self.refuse(self.GOOD + '[shear]\nmethod = "dem"\ncheckpoint = "a"\n', "'checkpoint'", "has no place in a set")
+
+    def test_empty_list(self):
+        self.refuse(self.GOOD + "voids = []\n", "'voids'", "empty list")
+
+    def test_values_twice(self):
+        self.refuse(self.GOOD + "voids = [10, 20, 10]\n", "'voids'", "twice")
+
+    def test_same_structure_twice(self):
+        self.refuse(self.GOOD + self.GOOD, "same options")
+
+    def test_nested_values(self):
+        self.refuse(self.GOOD + "voids = [[10]]\n", "'voids'", "must be a number")
+        self.refuse(self.GOOD + "voids = 2024-01-01\n", "'voids'", "must be a number")
+
+    def test_ranges(self):
+        for given, says in (("{ from = 1, to = 5 }", "needs 'steps'"), ("{ to = 5, steps = 2 }", "without 'from'"),
+                            ("{ from = 5, to = 1, steps = 2 }", "must run upwards"), ("{ from = 1, to = 1, steps = 2 }", "must run upwards"),
+                            ("{ from = 0, to = 9, steps = 3, scale = 'log' }", "above 0"), ("{ from = 1, to = 9, steps = 1 }", "'steps'"),
+                            ("{ from = 1, to = 3, steps = 9 }", "more steps than values"), ("{ from = 1, to = 9, step = 3 }", "did you mean 'steps'?"),
+                            ("{ from = 1, to = 9, steps = 3, scale = 'ln' }", "'scale'"), ("{ from = '1um', to = 9, steps = 3 }", "'voids'")):
+            with self.subTest(range=given):
+                self.refuse(self.GOOD + f"voids = {given}\n", "'voids'", says)
+
+    def test_range_of_texts(self):
+        self.refuse(self.GOOD + "size-distribution = { from = 1, to = 2, steps = 2 }\n", "takes no range")
+
+    def test_design(self):
+        many = self.GOOD + "voids = { from = 10, to = 30 }\n"
+        self.refuse(many + "[design]\nkind = 'gird'\n", "[design]", "did you mean 'grid'?")
+        self.refuse(many + "[design]\nkind = 'sobol'\n", "'samples'", "is missing")
+        self.refuse(many + "[design]\nkind = 'sobol'\nsamples = 0\n", "'samples'", "from 1")
+        self.refuse(many + "[design]\nkind = 'sobol'\nsamples = 4\nseed = 3\n", "'seed'")
+        self.refuse(self.GOOD + "[design]\nkind = 'grid'\nsamples = 4\n", "'samples'")
+        self.refuse(many.replace("30 }", "30, steps = 3 }") + "[design]\nkind = 'sobol'\nsamples = 4\n", "'steps'")
+
+    def test_too_many_structures(self):
+        self.refuse(self.GOOD + "voids = { from = 1, to = 60, steps = 60 }\nreplicates = 200000\n", "more than 200000 structures")
+        self.refuse(self.GOOD + "seed = { from = 1, to = 1000000000, steps = 1000000000 }\n", "'seed'")
+
+    def test_replicates(self):
+        self.refuse(self.GOOD + "replicates = 0\n", "'replicates'")
+        self.refuse(self.GOOD + "replicates = 2\nseed = [1, 2]\n", "'replicates'", "seed")
+        self.refuse(self.GOOD + "[shear]\nreplicates = 2\n", "[shear]", "'replicates'")
+
+    def test_values_that_a_verb_refuses(self):
+        self.refuse(self.GOOD.replace("0.4", "[0.4, 0.9]"), "[[generate]]", "volume-fraction", "out of range")
+        self.refuse(self.GOOD.replace('"0.25um"', "0.25"), "radius", "has no unit")
+        self.refuse(self.GOOD + "[shear]\nmethod = ['linear', 'quasistatic']\nramp = 0.1\n", "[shear]", "ramp is read only with")
+        self.refuse(self.GOOD + "[characterize]\nonly = 'dooh'\n", "[characterize]", "did you mean 'doh'?")
+        self.refuse('[[generate]]\nverb = "brownian"\nvolume-fraction = 0.2\nradius = "0.25um"\nsurface-potential = "0mV"\n', "stop-time")
+
+    def test_card(self):
+        self.refuse("title = 3\n" + self.GOOD, "'title'", "text")
+
+    def test_verbs_without_a_name(self):
+        self.fail_with(2, "dataset", says="'dataset' needs what to do")
+        self.fail_with(2, "dataset", "rum", says="did you mean 'dataset run'?")
+
+
+@unittest.skipIf(h5py is None, "needs python3-h5py")
+class Runs(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.sweep = self.write("sweep.toml", SWEEP)
+
+    def run_set(self, name="set.h5", *words, sweep="sweep.toml"):
+        return self.succeed_json("dataset", "run", sweep, "-o", name, *words)
+
+    def test_index(self):
+        found = self.run_set()
+        self.assertEqual((found["structures"], found["computed"], found["failed"]), (ROWS, ROWS, 0))
+        with h5py.File(self.folder / "set.h5") as file:
+            index = file["index"]
+            self.assertEqual({len(column) for column in index.values()}, {ROWS})
+            self.assertEqual([name for name in index if "unit" not in index[name].attrs or "description" not in index[name].attrs], [])
+            self.assertEqual(sorted(set(index["voids"])), [10, 30])
+            self.assertEqual(sorted(set(index["seed"])), [1, 2, 3])
+            self.assertEqual(sorted(set(index["shear-stiffness"])), [10, 50])
+            self.assertEqual(index["shear-stiffness"].attrs["unit"], b"N/m")
+            self.assertNotIn("target-coordination", index)  # does not vary
+            self.assertEqual(set(index["status"][()]), {b"done"})
+            self.assertEqual(sorted(file["structures"]), sorted(name.decode() for name in index["id"][()]))
+            self.assertEqual(file.attrs["title"], b"small")
+            self.assertEqual(file.attrs["authors"], b"A. Nobody, B. Somebody")
+            self.assertEqual(file["sweep"][()].decode(), SWEEP)
+            for row, name in enumerate(index["id"][()]):
+                structure = file["structures"][name.decode()]
+                self.assertEqual(structure["mechanics/linear/storage_modulus/mean"][()], index["storage_modulus.mean"][row])
+                self.assertEqual(structure["characterization/doh/a"][()], index["doh.a"][row])
+                self.assertEqual(structure["characterization/uncertainty/doh/a"][()] if "uncertainty/doh/a" in structure["characterization"] else None,
+                                 index["doh.a.stderr"][row] if "doh.a.stderr" in index else None)
+        self.assertFalse((self.folder / "set.h5.parts").exists())
+
+    def test_structure_is_that_of_the_verbs(self):
+        self.run_set()
+        self.succeed("generate", "vem", "--particles", 60, "--voids", 30, "--volume-fraction", 0.4, "--radius", "0.25um", "--seed", 2, "-o", "a.h5")
+        self.succeed("characterize", "a.h5", "--only", "coordination,doh")
+        self.succeed("shear", "a.h5", "--shear-stiffness", 50)
+        single = {name: value for name, value in values(self.folder / "a.h5").items() if not name.startswith("provenance")}
+        with h5py.File(self.folder / "set.h5") as file:
+            index = file["index"]
+            row = next(k for k in range(ROWS) if (index["voids"][k], index["seed"][k], index["shear-stiffness"][k]) == (30, 2, 50))
+            prefix = f"structures/{index['id'][row].decode()}/"
+        in_set = {name[len(prefix):]: value for name, value in values(self.folder / "set.h5").items()
+                  if name.startswith(prefix) and not name.startswith(prefix + "provenance")}
+        self.assertEqual(single, in_set)
+
+    def test_bytes_do_not_depend_on_jobs(self):
+        for jobs in (1, 2, 5):
+            self.run_set(f"{jobs}.h5", "--jobs", jobs)
+        self.assertEqual(len({checksum(self.folder / f"{jobs}.h5") for jobs in (1, 2, 5)}), 1)
+
+    def test_killed_runs_go_on(self):
+        self.run_set("whole.h5")
+        rng = random.Random(1)
+        for _ in range(20):
+            call = subprocess.Popen([PROGRAM, "dataset", "run", "sweep.toml", "-o", "set.h5", "--jobs", "2", "--quiet"], cwd=self.folder,
+                                    start_new_session=True)
+            time.sleep(rng.uniform(0.0, 0.4))
+            os.killpg(call.pid, signal.SIGKILL)
+            call.wait()
+        found = self.run_set("set.h5")
+        self.assertEqual(found["failed"], 0)
+        self.assertEqual(values(self.folder / "set.h5"), values(self.folder / "whole.h5"))
+        self.assertEqual(sorted(name for name in os.listdir(self.folder) if not name.startswith(".")), ["set.h5", "sweep.toml", "whole.h5"])
+
+    def test_finished_structures_are_kept(self):
+        self.run_set()
+        before = values(self.folder / "set.h5")
+        self.assertEqual(self.run_set()["computed"], 0)
+        self.assertEqual(values(self.folder / "set.h5"), before)
+
+    def test_deleted_structure_alone_is_computed_again(self):
+        self.run_set()
+        before = values(self.folder / "set.h5")
+        with h5py.File(self.folder / "set.h5", "r+") as file:
+            del file["structures"][sorted(file["structures"])[3]]
+        self.fail_with(2, "dataset", "verify", "set.h5", says=["set.h5", "is missing"])
+        self.assertEqual(self.run_set()["computed"], 1)
+        self.assertEqual(values(self.folder / "set.h5"), before)
+
+    def test_added_values_alone_are_computed(self):
+        self.run_set()
+        self.write("sweep.toml", SWEEP.replace("[10, 30]", "[10, 20, 30]"))
+        self.assertEqual(self.run_set()["computed"], 6)
+        self.run_set("whole.h5")
+        self.assertEqual(values(self.folder / "set.h5"), values(self.folder / "whole.h5"))
+
+    def test_fewer_values_need_force(self):
+        self.run_set()
+        self.write("sweep.toml", SWEEP.replace("[10, 30]", "30"))
+        self.fail_with(2, "dataset", "run", "sweep.toml", "-o", "set.h5", says=["set.h5", "6 structures", "--force"])
+        self.assertEqual(self.run_set("set.h5", "--force")["computed"], 0)
+
+    def test_failures_are_recorded(self):
+        self.write("sweep.toml", SWEEP.replace("voids = [10, 30]", "voids = [10, 30]\ntarget-coordination = [4.69, 0.5]"))
+        found = self.run_set()
+        self.assertEqual((found["structures"], found["failed"]), (2 * ROWS, ROWS))
+        with h5py.File(self.folder / "set.h5") as file:
+            failed = [k for k, status in enumerate(file["index/status"][()]) if status == b"failed"]
+            self.assertEqual(len(failed), ROWS)
+            self.assertTrue(all(file["index/message"][k] for k in failed))
+            self.assertEqual(len(file["structures"]), ROWS)
+        self.assertEqual(self.run_set()["computed"], 0)
+        self.assertEqual(self.run_set("set.h5", "--retry-failed")["computed"], ROWS)
+
+    def test_without_structures(self):
+        self.run_set("set.h5", "--no-structures")
+        self.run_set("whole.h5")
+        with h5py.File(self.folder / "set.h5") as file, h5py.File(self.folder / "whole.h5") as whole:
+            self.assertEqual(len(file["structures"]), 0)
+            self.assertEqual(list(file["index/storage_modulus.mean"]), list(whole["index/storage_modulus.mean"]))
+        self.succeed("dataset", "verify", "set.h5")
+
+    def test_designs(self):
+        varied = SWEEP.replace("voids = [10, 30]", "voids = { from = 5, to = 60, scale = 'log' }").replace("replicates = 3\n", "") \
+                      .replace("0.4", "{ from = 0.3, to = 0.5 }").replace("[10, 50]", "10")
+        for kind in ("latin-hypercube", "sobol"):
+            with self.subTest(kind=kind):
+                self.write("design.toml", varied + f"[design]\nkind = '{kind}'\nsamples = 8\n")
+                self.run_set(f"{kind}.h5", sweep="design.toml")
+                with h5py.File(self.folder / f"{kind}.h5") as file:
+                    fractions = file["index/volume-fraction"][()]
+                    layers = sorted(int((value - 0.3) / 0.2 * 8) for value in fractions)
+                    if kind == "sobol":
+                        self.assertEqual(sum(layer < 4 for layer in layers), 4)
+                    else:
+                        self.assertEqual(layers, list(range(8)))  # one point in each layer
+                    self.assertEqual(file["index/voids"].dtype.kind, "i")
+
+    def test_table(self):
+        self.run_set()
+        lines = self.succeed("dataset", "table", "set.h5").splitlines()
+        self.assertEqual(len(lines), 1 + ROWS)
+        self.assertIn("storage_modulus.mean [Pa]", lines[0])
+        self.succeed("dataset", "table", "set.h5", "-o", "table.csv")
+        self.assertEqual((self.folder / "table.csv").read_text().splitlines(), lines)
+
+    def test_verify(self):
+        self.run_set()
+        self.assertEqual(self.succeed_json("dataset", "verify", "set.h5", "--sample", 2)["computed_again"], 2)
+        with h5py.File(self.folder / "set.h5", "r+") as file:
+            next(iter(file["structures"].values()))["characterization/doh/a"][...] = 1
+        self.fail_with(2, "dataset", "verify", "set.h5", says=["set.h5", "checksum"])
+
+    def test_chunks_join_to_the_whole(self):
+        self.run_set("whole.h5")
+        for number in (1, 2, 3):
+            self.run_set(f"part{number}.h5", "--chunk", f"{number}/3")
+        self.fail_with(2, "dataset", "join", "part1.h5", "part2.h5", "-o", "set.h5", says="lack")
+        self.succeed("dataset", "join", "part1.h5", "part2.h5", "part3.h5", "-o", "set.h5")
+        self.assertEqual(values(self.folder / "set.h5"), values(self.folder / "whole.h5"))
+
+    def test_plan(self):
+        found = self.succeed_json("dataset", "plan", "sweep.toml", "--jobs", 2)
+        self.assertEqual((found["structures"], found["generated"], found["jobs"]), (ROWS, 6, 2))
+        self.assertGreater(found["seconds"], 0)
+        self.assertGreater(found["bytes"], 1e4)
+        self.assertEqual(os.listdir(self.folder), ["sweep.toml"])
+
+    def test_foreign_files(self):
+        self.copy_of_packing("set.h5")
+        self.fail_with(2, "dataset", "run", "sweep.toml", "-o", "set.h5", says=["set.h5", "no data set"])
+        self.fail_with(2, "dataset", "table", "set.h5", says=["set.h5", "no data set"])
+        self.fail_with(2, "dataset", "run", "sweep.toml", "-o", "sweep.toml", says="sweep.toml")
+
+    @unittest.skipIf(shutil.which("snakemake") is None, "snakemake is not installed (Debian: snakemake)")
+    def test_workflow(self):
+        self.run_set("whole.h5")
+        self.succeed("dataset", "workflow", "sweep.toml", "-o", "flow", "--chunks", 3)
+        environment = {**os.environ, "PATH": os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"], "HOME": str(self.folder)}
+        done = subprocess.run(["snakemake", "--cores", "2", "--quiet"], cwd=self.folder / "flow", env=environment, capture_output=True,
+                              text=True, timeout=250)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(values(self.folder / "flow" / "set.h5"), values(self.folder / "whole.h5"))
+
+
+if __name__ == "__main__":
+    unittest.main()
