@@ -75,9 +75,9 @@ private:
 std::optional<TableHead> HeadFinder::with_line_below(bool in_section) const {
     const LineRole role = role_of(dialect_, cells_.front());
     const bool may_be_unmarked = in_section && role == LineRole::metadata && cells_.size() > 1;
-    const bool unmarked = may_be_unmarked && std::none_of(cells_.begin(), cells_.end(), looks_like_number) &&
-                          std::any_of(cells_.begin(), cells_.end(),
-                                      [](const std::string& cell) { return !quantity_of_heading(cell).empty(); });
+    const bool unmarked =
+        may_be_unmarked && std::none_of(cells_.begin(), cells_.end(), looks_like_number) &&
+        std::any_of(cells_.begin(), cells_.end(), [](const std::string& cell) { return !quantity_of_heading(cell).empty(); });
     if (!in_section || !(role == LineRole::headings || unmarked)) {
         return std::nullopt;
     }
