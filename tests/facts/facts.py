@@ -29,8 +29,8 @@ EXPERIMENTS = HERE / "experiments.tar.xz"
 EXPECTED = HERE / "expected.json.xz"
 TOLERANCE = 1e-6
 
-# Sentences, times, paths.
-NO_FACTS = {"words", "sentence", "statement", "notes", "what", "seconds", "report", "extended_model", "extended_structures", "proposed_measurement",
+# Sentences, times, paths, and what is left of a number by rounding.
+NO_FACTS = {"residual", "words", "sentence", "statement", "notes", "what", "seconds", "report", "extended_model", "extended_structures", "proposed_measurement",
             "labels", "call", "command", "file", "output", "version"}
 # Numbers between 0 and 1, and logarithms of ratios: what counts is their difference, not its part of a small one.
 OF_ORDER_ONE = {"posterior", "p_value", "extended_p_value", "information", "predicted_resolution", "log_bayes_factor", "bayes_factor",
@@ -62,8 +62,11 @@ MODELS = {
 
 
 def facts_in(value):
-    """What of a printed object is facts; numbers with ten digits."""
+    """What of a printed object is facts; numbers with ten digits. Causes are found by their names: the last of them, as probable as others, are
+    in any order."""
     if isinstance(value, dict):
+        if "causes" in value:
+            value = value | {"causes": {cause["name"]: cause for cause in value["causes"]}}
         return {key: facts_in(each) for key, each in value.items() if key not in NO_FACTS and not (key == "where" and isinstance(each, str))}
     if isinstance(value, list):
         return [facts_in(each) for each in value]

@@ -15,6 +15,10 @@ class Differences(unittest.TestCase):
                 "where": [{"axis": "time", "sentence": "G' rises"}]}
         self.assertEqual(facts.facts_in(told), {"verdict": "tied", "remainder": {"p_value": 0.5}, "where": [{"axis": "time"}]})
 
+    def test_causes_are_in_any_order(self):
+        causes = [{"name": "ageing", "posterior": 0.5}, {"name": "slip", "posterior": 0.4}]
+        self.assertEqual(facts.facts_in({"causes": causes}), facts.facts_in({"causes": causes[::-1]}))
+
     def test_numbers_differ_by_a_part_in_a_million(self):
         self.assertEqual(self.found({"value": 1.0}, {"value": 1.0 + 5e-7}), [])
         self.assertEqual(self.found({"value": 1e-9}, {"value": 1.00001e-9}), ["value: 1e-09 -> 1.00001e-09"])
