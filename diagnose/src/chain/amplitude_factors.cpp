@@ -64,11 +64,11 @@ bool Forward::strain_varies(const Settings& settings, const Observation& observa
 Eigen::VectorXcd Forward::breaking_response(const Settings& settings, const Observation& observation,
                                             const BondStrain& strain) const {
     if (!strain_varies(settings, observation)) {
-        return simulator_.amplitude_response(settings, strain.before, strain.amplitude);
+        return amplitude_response(simulator_, settings, strain.before, strain.amplitude);
     }
     static const std::vector<Ring> rings = plate_rings(panels);
     const auto in = [&](const Ring& ring) -> Eigen::VectorXcd {
-        return ring.weight * simulator_.amplitude_response(settings, ring.radius * strain.before, ring.radius * strain.amplitude);
+        return ring.weight * amplitude_response(simulator_, settings, ring.radius * strain.before, ring.radius * strain.amplitude);
     };
     Eigen::VectorXcd mean = in(rings[0]);
     for (std::size_t k = 1; k < rings.size(); ++k) {
@@ -81,9 +81,9 @@ Eigen::VectorXcd Forward::breaking_response(const Settings& settings, const Obse
 std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, const Observation& observation,
                                                       const std::vector<double>& amplitudes) const {
     if (!strain_varies(settings, observation)) {
-        return simulator_.exact_amplitude_response(settings, amplitudes);
+        return exact_amplitude_response(simulator_, settings, amplitudes);
     }
-    const YieldCurves curve = simulator_.exact_yield_curve(settings, amplitudes);
+    const YieldCurves curve = exact_yield_curve(simulator_, settings, amplitudes);
     std::vector<Yielded> mean(amplitudes.size());
     for (const Ring& ring : plate_rings(panels)) {
         double before = 0;
@@ -211,7 +211,7 @@ Eigen::VectorXcd Forward::exact_amplitude_factors(const Settings& settings) cons
     return factors;
 }
 
-/// G* / G from breaking bonds, observations x mean and errors of Simulator::amplitude_response; the mean alone if exact. A bond
+/// G* / G from breaking bonds, observations x mean and errors of amplitude_response; the mean alone if exact. A bond
 /// that broke stays broken.
 Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) const {
     const Settings settings = with_weakest_bonds(given);
@@ -222,7 +222,7 @@ Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) c
         return exact_amplitude_factors(settings);
     }
     const std::vector<BondStrain> bonds = bond_strains(settings);
-    const Index columns = simulator_.amplitude_response(settings, 0, 0).size();
+    const Index columns = amplitude_response(simulator_, settings, 0, 0).size();
     Eigen::MatrixXcd factors = Eigen::MatrixXcd::Ones(static_cast<Index>(observations_.size()), columns);
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];

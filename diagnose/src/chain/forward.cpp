@@ -2,7 +2,8 @@
 
 #include "data/median.hpp"
 #include "observables/pore_curves.hpp"
-#include "responses/contact_losses.hpp"
+#include "responses/imaged_centres.hpp"
+#include "responses/pore_response.hpp"
 #include "shared_errors.hpp"
 
 #include <algorithm>
@@ -33,6 +34,15 @@ Eigen::VectorXcd newtonian_moduli(const std::vector<Observation>& observations) 
         moduli[row] = Complex(0, is_steady(one) ? 1 : one.angular_frequency);
     }
     return moduli;
+}
+
+Conditions conditions_of(const Observation& observation) {
+    return {observation.strain, observation.angular_frequency, observation.structures};
+}
+
+/// Whether the material's own modulus is in the number.
+bool shows_network(const Observation& observation) {
+    return is_modulus(observation) && !observation.third_harmonic && !is_fluid(observation);
 }
 
 /// Of every observation the first one that shows the same G*, G'' beside G' of a row; else itself.
@@ -100,36 +110,15 @@ Complex Forward::seen_by_instrument(const Model& model, std::size_t number, Comp
     return modulus;
 }
 
-/// Linear modulus of every group of structures that some observation needs.
-std::map<std::size_t, double> Forward::linear_moduli(const Settings& settings, bool exact) const {
-    std::map<std::size_t, double> linear;
-    for (const Observation& observation : observations_) {
-        const std::size_t group = observation.structures;
-        if (!linear.contains(group) && is_modulus(observation)) {
-            const double free =
-                exact ? simulator_.exact_linear_modulus(settings, group) : simulator_.linear_modulus(settings, group);
-            const double stretched =
-                exact ? simulator_.exact_prestress_response(settings, group) : simulator_.prestress_response(settings, group);
-            linear[group] = free * stretched;
+/// G* / G of what acts in the contacts and between the particles while no bond breaks.
+Complex Forward::linear_response(const Settings& settings, const Conditions& here, bool exact) const {
+    Complex factor = 1;
+    for (const Response& response : network_responses()) {
+        if (response.acts(settings, here)) {
+            factor *= response.factor(simulator_, settings, here, exact);
         }
     }
-    return linear;
-}
-
-/// G* / G of what acts in the contacts and between the particles while no bond breaks.
-Complex Forward::linear_response(const Settings& settings, const Observation& observation, bool exact) const {
-    Complex response = 1;
-    if (std::isfinite(observation.strain)) {
-        response *= simulator_.contact_response(settings, observation.strain);
-    }
-    if (has_contact_losses(settings) && std::isfinite(observation.angular_frequency)) {
-        response *= 1.0 + contact_losses(settings, observation.angular_frequency);
-    }
-    if (settings.felt_viscosity > 0 && std::isfinite(observation.angular_frequency)) {
-        response *= exact ? simulator_.exact_drag_response(settings, observation.angular_frequency, observation.structures)
-                          : simulator_.drag_response(settings, observation.angular_frequency, observation.structures);
-    }
-    return response;
+    return factor;
 }
 
 /// G* of the material at every observation for a scale of 1, to which it is proportional; of a fluid as it is.
@@ -185,8 +174,8 @@ void Forward::replace_fluids(UncertainModuli& moduli) const {
 /// they yield and are dragged on.
 UncertainModuli Forward::network(const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
-    const std::map<std::size_t, double> linear = linear_moduli(settings, exact);
     const std::vector<BondStrain> bonds = bond_strains(settings);
+    std::map<std::size_t, double> linear;  // moduli by group
     Eigen::VectorXcd moduli = Eigen::VectorXcd::Zero(static_cast<Index>(observations_.size()));
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
@@ -195,65 +184,56 @@ UncertainModuli Forward::network(const Model& model, bool exact) const {
             modulus = moduli[static_cast<Index>(first)];
         } else if (observation.third_harmonic) {
             modulus = third_harmonic(settings, observation, bonds[k]);
-        } else if (is_modulus(observation) && !is_fluid(observation)) {
-            modulus = linear.at(observation.structures) * linear_response(settings, observation, exact);
+        } else if (shows_network(observation)) {
+            const Conditions here = conditions_of(observation);
+            const auto [found, added] = linear.try_emplace(here.group, 0.0);
+            if (added) {
+                found->second = exact ? exact_linear_modulus(simulator_, settings, here.group)
+                                      : linear_modulus(simulator_, settings, here.group);
+            }
+            modulus = found->second * linear_response(settings, here, exact);
         }
     }
     const Eigen::MatrixXcd yielding = moduli.asDiagonal() * amplitude_factors(settings, exact);
     const Eigen::Index yield_errors = yielding.cols() - 1;
-    const Eigen::MatrixXd stiffening = exact ? Eigen::MatrixXd(moduli.size(), 0) : stiffening_errors(settings);
-    Eigen::MatrixXcd changes(moduli.size(), yield_errors + stiffening.cols());
-    changes << yielding.rightCols(yield_errors).colwise() - yielding.col(0), yielding.col(0).asDiagonal() * stiffening;
-    UncertainModuli all(yielding.col(0), std::move(changes));
-    if (!exact && settings.felt_viscosity > 0) {
-        add_drag_errors(settings, all);
+    UncertainModuli all(yielding.col(0), yielding.rightCols(yield_errors).colwise() - yielding.col(0));
+    if (yield_errors > 0) {
+        all.degrees = yield_degrees(simulator_);
+    }
+    for (const Response& response : network_responses()) {
+        if (!exact && response.scatter != nullptr) {
+            add_scatter(response, settings, all);
+        }
     }
     return all;
 }
 
-/// Of Hertz contacts, relative: observations x errors, none where contacts are linear springs.
-Eigen::MatrixXd Forward::stiffening_errors(const Settings& settings) const {
-    Eigen::MatrixXd errors(static_cast<Index>(observations_.size()), 0);
-    if (settings.contact_preload <= 0) {
-        return errors;
+/// Adds the errors of a response, also where no row shows them: other rows of the same structures may.
+void Forward::add_scatter(const Response& response, const Settings& settings, UncertainModuli& moduli) const {
+    const Conditions anywhere{.strain = 1, .angular_frequency = 1};
+    if (!response.acts(settings, anywhere)) {
+        return;
     }
-    for (std::size_t k = 0; k < observations_.size(); ++k) {
-        const Observation& observation = observations_[k];
-        if (is_modulus(observation) && !observation.third_harmonic && !is_fluid(observation) && std::isfinite(observation.strain)) {
-            const Eigen::RowVectorXd one = simulator_.contact_errors(settings, observation.strain);
-            if (errors.cols() == 0) {
-                errors.setZero(errors.rows(), one.size());
-            }
-            errors.row(static_cast<Index>(k)) = one;
-        }
-    }
-    return errors;
-}
-
-/// Those that each structure leaves, also where no row shows them.
-void Forward::add_drag_errors(const Settings& settings, UncertainModuli& moduli) const {
-    struct Drag {
-        Complex dragged;
-        Eigen::RowVectorXcd excess;
-    };
-    std::map<std::pair<double, std::size_t>, Drag> drags;  // many rows share a frequency
-    moduli.logarithms.setZero(moduli.mean.size(), simulator_.drag_excess(settings, 1).size() - 1);
-    for (std::size_t k = 0; k < observations_.size(); ++k) {
-        const Observation& observation = observations_[k];
-        const double frequency = observation.angular_frequency;
-        const std::size_t group = observation.structures;
-        if (!is_modulus(observation) || is_fluid(observation) || !std::isfinite(frequency)) {
+    const Scatter any = response.scatter(simulator_, settings, anywhere);
+    const Index rows = moduli.mean.size();
+    Eigen::MatrixXcd changes = Eigen::MatrixXcd::Zero(rows, moduli.changes.cols() + any.relative.size());
+    changes.leftCols(moduli.changes.cols()) = moduli.changes;
+    moduli.changes = std::move(changes);
+    moduli.logarithms.conservativeResizeLike(Eigen::MatrixXcd::Zero(rows, moduli.logarithms.cols() + any.logarithmic.size()));
+    moduli.degrees = std::min(moduli.degrees, response.degrees(simulator_));
+    for (Index row = 0; row < rows; ++row) {
+        const Observation& observation = observations_[static_cast<std::size_t>(row)];
+        const Conditions here = conditions_of(observation);
+        if (!shows_network(observation) || !response.acts(settings, here)) {
             continue;
         }
-        const auto [found, added] = drags.try_emplace({frequency, group});
-        Drag& drag = found->second;
-        if (added) {
-            drag = {1.0 - 1.0 / simulator_.drag_response(settings, frequency, group),
-                    simulator_.drag_excess(settings, frequency, group)};
+        const Scatter scatter = response.scatter(simulator_, settings, here);
+        moduli.changes.row(row).tail(scatter.relative.size()) = moduli.mean[row] * scatter.relative;
+        if (scatter.logarithmic.size() > 0) {
+            moduli.dragged[row] = 1.0 - 1.0 / response.factor(simulator_, settings, here, false);
+            moduli.excess[row] = scatter.expected;
+            moduli.logarithms.row(row) = scatter.logarithmic;
         }
-        moduli.dragged[static_cast<Index>(k)] = drag.dragged;
-        moduli.excess[static_cast<Index>(k)] = drag.excess[0];
-        moduli.logarithms.row(static_cast<Index>(k)) = drag.excess.tail(drag.excess.size() - 1);
     }
 }
 
@@ -273,15 +253,15 @@ double Forward::seen_of_structure(const Settings& settings, const Observation& o
     if (std::isfinite(observation.distance)) {
         double sum = 0;
         for (std::size_t shell = observation.row; shell < observation.row + observation.shells; ++shell) {
-            sum += simulator_.neighbours(settings, shell, exact);
+            sum += neighbours(simulator_, settings, shell, exact);
         }
         return sum;
     }
     if (observation.difference) {
-        return simulator_.repeated_images(settings, exact)[static_cast<std::size_t>(*observation.difference)];
+        return repeated_images(simulator_, settings, exact)[static_cast<std::size_t>(*observation.difference)];
     }
-    return simulator_.exclusion_probability(
-        settings, observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius, exact);
+    return exclusion_probability(simulator_, settings,
+                                 observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius, exact);
 }
 
 /// What the instrument shows of every observation, of these moduli of the material at a normal stiffness of 1 N/m.
@@ -346,7 +326,7 @@ Eigen::VectorXd Forward::structure_deviation(const Eigen::VectorXd& values) cons
         const std::size_t group = observations_[static_cast<std::size_t>(row)].structures;
         if (group > 0 && base[row] != 0) {
             ratios.push_back(std::abs(values[row] / base[row]));
-            deviation[row] = simulator_.structure_error(group) * std::abs(base[row]);
+            deviation[row] = structure_error(simulator_, group) * std::abs(base[row]);
         }
     }
     if (!ratios.empty()) {

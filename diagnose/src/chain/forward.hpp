@@ -10,6 +10,9 @@
 #include "data/strain_history.hpp"
 #include "noise/prediction.hpp"
 #include "observables/observations.hpp"
+#include "responses/amplitude_response.hpp"
+#include "responses/linear_modulus.hpp"
+#include "responses/response.hpp"
 #include "smooth_material.hpp"
 #include "uncertain_moduli.hpp"
 
@@ -47,9 +50,8 @@ public:
     Eigen::VectorXd predict(const Model& model, const Eigen::VectorXd& errors) const;
 
     /// The same between the nodes, with how it changes with the level of a sample and with the independent standard errors that so
-    /// few structures leave: in how they yield (Simulator::amplitude_response), in how Hertz contacts stiffen
-    /// (Simulator::contact_errors) and in how a solvent drags on them (Simulator::drag_excess), and in what images and
-    /// pore curves show (shared_errors), last. About those errors of a smooth material that the data ask for; else about none.
+    /// few structures leave: in how they yield (amplitude_response), in the responses of the network (Scatter), and in what images
+    /// and pore curves show (shared_errors), last. About those errors of a smooth material that the data ask for; else about none.
     Prediction prediction(const Model& model) const;
     /// The same about these errors.
     Prediction prediction(const Model& model, const Eigen::VectorXd& errors) const;
@@ -64,12 +66,12 @@ public:
     const Experiment& experiment() const { return experiment_; }
 
     /// Standard deviation of the error that so few structures leave in the prediction of the rows of structure series
-    /// (Simulator::structure_error) where these have about such values: in proportion to the base model, because a value that is
+    /// (structure_error) where these have about such values: in proportion to the base model, because a value that is
     /// low by chance is no less uncertain. Zero elsewhere, where it scales all rows alike.
     Eigen::VectorXd structure_deviation(const Eigen::VectorXd& values) const;
 
     /// The same for the level of all other rows, relative to it.
-    double level_error() const { return experiment_.material.kind == MaterialKind::network ? simulator_.structure_error() : 0.0; }
+    double level_error() const { return experiment_.material.kind == MaterialKind::network ? structure_error(simulator_) : 0.0; }
 
     bool is_smooth() const { return smooth_.has_value(); }
 
@@ -94,15 +96,12 @@ private:
     std::vector<double> largest_strains_before(const std::vector<double>& strains) const;
     std::vector<BondStrain> bond_strains(const Settings& settings) const;
     Eigen::MatrixXcd amplitude_factors(const Settings& given, bool exact) const;
-    std::map<std::size_t, double> linear_moduli(const Settings& settings, bool exact) const;
-    std::complex<double> linear_response(const Settings& settings, const Observation& observation, bool exact) const;
+    std::complex<double> linear_response(const Settings& settings, const Conditions& here, bool exact) const;
     UncertainModuli material(const Model& model, bool exact) const;
     UncertainModuli network(const Model& model, bool exact) const;
     void scale(UncertainModuli& moduli, const Model& model, bool exact) const;
     void replace_fluids(UncertainModuli& moduli) const;
-    Eigen::MatrixXd stiffening_errors(const Settings& settings) const;
-    void add_drag_errors(const Settings& settings, UncertainModuli& moduli) const;
-    double degrees_of_errors(const Settings& settings, bool any) const;
+    void add_scatter(const Response& response, const Settings& settings, UncertainModuli& moduli) const;
     static bool shows_in_proportion(const Model& model);
     const Eigen::MatrixXd& shared_errors_of(const Model& model) const;
     const UncertainModuli& remembered_material(const Model& model, bool exact) const;

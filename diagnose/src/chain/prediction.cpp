@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <utility>
 #include <variant>
 
@@ -17,21 +16,6 @@ using Complex = std::complex<double>;
 constexpr double small_step = 1e-5;  ///< relative step of a modulus
 
 }  // namespace
-
-/// Smallest degrees of freedom of any structure error.
-double Forward::degrees_of_errors(const Settings& settings, bool any) const {
-    double degrees = smooth_ ? SmoothMaterial::degrees : std::numeric_limits<double>::infinity();
-    if (any && settings.felt_viscosity > 0) {
-        degrees = std::min(degrees, simulator_.drag_degrees());
-    }
-    if (any && settings.contact_preload > 0) {
-        degrees = std::min(degrees, simulator_.contact_degrees());
-    }
-    if (any && std::isfinite(with_weakest_bonds(settings).critical_strain)) {
-        degrees = std::min(degrees, simulator_.yield_degrees());
-    }
-    return degrees;
-}
 
 Prediction Forward::prediction(const Model& model) const {
     if (!smooth_) {
@@ -58,7 +42,7 @@ Prediction Forward::prediction(const Model& model, const Eigen::VectorXd& errors
     changes << changes_by_instrument(model, moduli, values), shared;
     return {values + shared * errors.tail(shared.cols()),
             level_slope(model, moduli.col(0), values),
-            {std::move(changes), degrees_of_errors(model.simulated(), of_material > 0), errors}};
+            {std::move(changes), material.degrees, errors}};
 }
 
 Prediction Forward::change_by_stiffness(const Model& model, const Prediction& here, double step) const {

@@ -2,6 +2,8 @@
 
 #include "data/table_cells.hpp"
 #include "observables/pore_curves.hpp"
+#include "responses/imaged_centres.hpp"
+#include "responses/pore_response.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -27,12 +29,12 @@ Eigen::MatrixXd errors_of_images(const std::vector<Observation>& observations, S
             continue;
         }
         if (all.cols() == 0) {
-            of_structures = simulator.neighbour_errors_of_structures();
+            of_structures = neighbour_errors_of_structures(simulator);
             add_columns(all, of_structures.cols());
         }
         if (image != observation.measurement) {
             image = observation.measurement;
-            own = simulator.neighbour_errors_of_image(observation.centres, observation.mutual);
+            own = neighbour_errors_of_image(simulator, observation.centres, observation.mutual);
             add_columns(all, own.cols());
         }
         const auto shells = Eigen::seqN(static_cast<Index>(observation.row), static_cast<Index>(observation.shells));
@@ -58,7 +60,7 @@ Eigen::MatrixXd errors_of_pores(const Experiment& experiment, const std::vector<
     if (rows.empty()) {
         return all;
     }
-    const Eigen::MatrixXd errors = simulator.pore_errors(change, radii);
+    const Eigen::MatrixXd errors = pore_errors(simulator, change, radii);
     add_columns(all, errors.cols());
     all(rows, Eigen::all) = errors / std::sqrt(static_cast<double>(simulator.structures()));
     std::size_t table = observations.size();  // the measurement whose sample's errors are the last columns

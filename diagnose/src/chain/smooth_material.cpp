@@ -16,6 +16,7 @@ namespace coagula::diagnose {
 
 namespace {
 
+constexpr double degrees_of_material = 4;  ///< of freedom of the size of the coefficients
 using Complex = std::complex<double>;
 
 constexpr double elements_per_decade = 3;
@@ -197,6 +198,12 @@ Eigen::VectorXd SmoothMaterial::best(const Eigen::VectorXd& coefficients, const 
     const Eigen::VectorXd rest = weights_.cwiseProduct(values_ - seen + changes * coefficients);
     const Eigen::MatrixXd normal = white.transpose() * white + Eigen::MatrixXd::Identity(white.cols(), white.cols());
     return normal.llt().solve(white.transpose() * rest);
+}
+
+UncertainModuli SmoothMaterial::moduli() const {
+    UncertainModuli moduli(Eigen::VectorXcd::Zero(functions_.rows()), functions_);
+    moduli.degrees = degrees_of_material;
+    return moduli;
 }
 
 }  // namespace coagula::diagnose

@@ -17,13 +17,11 @@ namespace coagula::diagnose {
 /// from a few degrees of freedom only.
 class SmoothMaterial {
 public:
-    static constexpr double degrees = 4;
-
     /// @param ages whether it varies with its age, too.
     SmoothMaterial(const std::vector<Observation>& observations, bool ages);
 
     /// By the coefficients: nothing without them.
-    UncertainModuli moduli() const { return {Eigen::VectorXcd::Zero(functions_.rows()), functions_}; }
+    UncertainModuli moduli() const;
 
     /// Where a fit begins: what meets the data best if the instrument shows the material as it is.
     const Eigen::VectorXd& start() const { return start_; }

@@ -2,6 +2,7 @@
 #include "forward.hpp"
 
 #include "plate_field.hpp"
+#include "responses/contact_response.hpp"
 
 #include <array>
 #include <cmath>
@@ -44,13 +45,13 @@ std::vector<Phases> all_phases() {
 std::array<double, 4> Forward::storage_while_breaking(const Settings& settings, const Observation& observation,
                                                       const BondStrain& strain, double sine) const {
     if (!strain_varies(settings, observation)) {
-        return simulator_.storage_while_breaking(settings, strain.before, strain.amplitude, sine);
+        return storage_in_quarters(simulator_, settings, strain.before, strain.amplitude, sine);
     }
     static const std::vector<Ring> rings = plate_rings(1);
     std::array<double, 4> mean{};
     for (const Ring& ring : rings) {
         const auto own =
-            simulator_.storage_while_breaking(settings, ring.radius * strain.before, ring.radius * strain.amplitude, sine);
+            storage_in_quarters(simulator_, settings, ring.radius * strain.before, ring.radius * strain.amplitude, sine);
         for (std::size_t quarter = 0; quarter < own.size(); ++quarter) {
             mean[quarter] += ring.weight * own[quarter];
         }
@@ -70,7 +71,7 @@ std::complex<double> Forward::third_harmonic(const Settings& given, const Observ
     std::complex<double> third = 0;
     static const std::vector<Phases> phases = all_phases();
     for (const Phases& phase : phases) {
-        const double secant = phase.sine * simulator_.contact_secant(settings, strain * phase.sine);
+        const double secant = phase.sine * contact_secant(simulator_, settings, strain * phase.sine);
         const std::array<double, 4> storage = storage_while_breaking(settings, observation, bonds, phase.sine);
         for (std::size_t quarter = 0; quarter < storage.size(); ++quarter) {
             first += secant * storage[quarter] * phase.first[quarter];

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+
 namespace coagula::diagnose {
 
 /// G* of every number that was measured, by independent standard errors: first those that add to it, then those of what a solvent
@@ -11,10 +13,11 @@ namespace coagula::diagnose {
 ///     G* = mean + changes e,    and with it    G* (1 + dragged (exp(excess + logarithms e') - 1))
 struct UncertainModuli {
     Eigen::VectorXcd mean;
-    Eigen::MatrixXcd changes;     ///< numbers x errors that add
-    Eigen::VectorXcd dragged;     ///< part of the mean that the drag adds
-    Eigen::VectorXcd excess;      ///< logarithm of the factor on that part that is expected
-    Eigen::MatrixXcd logarithms;  ///< numbers x errors of the drag
+    Eigen::MatrixXcd changes;                                  ///< numbers x errors that add
+    Eigen::VectorXcd dragged;                                  ///< part of the mean that the drag adds
+    Eigen::VectorXcd excess;                                   ///< logarithm of the factor on that part that is expected
+    Eigen::MatrixXcd logarithms;                               ///< numbers x errors of the drag
+    double degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which the scale of all errors is known
 
     /// Moduli without errors.
     explicit UncertainModuli(const Eigen::VectorXcd& known = {});

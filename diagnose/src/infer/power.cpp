@@ -307,7 +307,7 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     require_causes(options.causes);
     Power power;
     Settings base;
-    const double modulus = simulator.exact_linear_modulus(base);
+    const double modulus = exact_linear_modulus(simulator, base);
     power.storage_modulus = std::isfinite(options.storage_modulus) ? options.storage_modulus : modulus;
     base.normal_stiffness *= power.storage_modulus / modulus;
     power.normal_stiffness = base.normal_stiffness;

@@ -1,6 +1,6 @@
 #include "mechanisms.hpp"
 
-#include <coagula/diagnose/simulator.hpp>
+#include "responses/thinned_contacts.hpp"
 
 namespace coagula::diagnose::mechanisms {
 
@@ -26,8 +26,8 @@ Mechanism missing_contacts() {
             "several coordinations separate them.",
         .parameters = {{"missing_share", "1", 0, 0.3, false}},
         .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) -> std::complex<double> {
-            return sample.exact ? sample.simulator.exact_thinned_response(sample.settings, values[0], row.structures)
-                                : sample.simulator.thinned_response(values[0], row.structures);
+            return sample.exact ? exact_thinned_response(sample.simulator, sample.settings, values[0], row.structures)
+                                : thinned_response(sample.simulator, values[0], row.structures);
         }},
         .applies = shows_level_or_structures};
 }

@@ -1,8 +1,7 @@
 #include "mechanisms.hpp"
 
 #include "data/strain_history.hpp"
-
-#include <coagula/diagnose/simulator.hpp>
+#include "responses/thinned_contacts.hpp"
 
 namespace coagula::diagnose::mechanisms {
 
@@ -36,7 +35,7 @@ std::complex<double> left_by_shear(const Observation& row, Values values, const 
         return 1;
     }
     const double share = share_of_bonds(sample.history.of(row.measurement), row.time, values);
-    return sample.simulator.thinned_response(1 - share, row.structures);
+    return thinned_response(sample.simulator, 1 - share, row.structures);
 }
 
 bool shears_in_time(const Experiment& experiment) {

@@ -20,9 +20,9 @@ std::complex<double> settled_layers(const Observation& row, double difference, c
     double fraction = row.volume_fraction;
     if (std::isnan(fraction)) {
         const double stated = row.structures == 0 ? sample.experiment.sample.volume_fraction : unset;
-        fraction = std::isfinite(stated) ? stated : sample.simulator.volume_fraction(row.structures);
+        fraction = std::isfinite(stated) ? stated : mean_volume_fraction(sample.simulator, row.structures);
     }
-    return layers_in_series(sample.simulator.volume_fraction_exponent(sample.settings, sample.exact),
+    return layers_in_series(volume_fraction_exponent(sample.simulator, sample.settings, sample.exact),
                             settled_difference(fraction, difference) / fraction);
 }
 

@@ -1,14 +1,12 @@
-// Amplitude sweeps with bonds that break, by the explicit rheometer.
-#include <coagula/diagnose/simulator.hpp>
+#include "amplitude_response.hpp"
 
 #include <coagula/common/contact_law.hpp>
 #include <coagula/common/contact_network.hpp>
 #include <coagula/common/parallel.hpp>
 #include <coagula/mechanics/rheometer.hpp>
 
-#include "cache_key.hpp"
+#include "linear_modulus.hpp"
 #include "population_curve.hpp"
-#include "unit_stiffness.hpp"
 
 #include <Eigen/Core>
 
@@ -54,13 +52,11 @@ std::vector<double> with_nodes_between(std::vector<double> amplitudes, double cr
     return amplitudes;
 }
 
-}  // namespace
-
 /// Two oscillations at each of some growing amplitudes by the explicit rheometer in a sheared cell, over the modulus at a strain so
 /// small that nothing breaks. In the second one bonds hold: what it loses is the rate of the run, and the first has lost the rest
 /// in breaking.
-std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& settings, double strength,
-                                      const std::vector<double>& amplitudes, const Progress& progress) const {
+std::vector<Yielded> sweep(const Packing& packing, const Settings& settings, double strength, const std::vector<double>& amplitudes,
+                           const Progress& progress) {
     mechanics::RheometerOptions options;
     options.model = breaking_model(settings.stiffness_ratio, strength);
     options.boundary = mechanics::RheometerBoundary::periodic;
@@ -74,9 +70,9 @@ std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& set
         options.course.push_back({amplitude / amplitudes.back(), false});
     }
     options.oscillations = static_cast<int>(options.course.size());
-    const ContactNetwork bonds = find_contacts(structures_[structure], settings.bond_tolerance);
+    const ContactNetwork bonds = find_contacts(packing, settings.bond_tolerance);
     const mechanics::RheometerRun run =
-        mechanics::run_rheometer(structures_[structure], bonds, options, {mechanics::ShearOrientation{}}, progress).runs.front();
+        mechanics::run_rheometer(packing, bonds, options, {mechanics::ShearOrientation{}}, progress).runs.front();
     const double unbroken = run.oscillations[1].fundamental_storage;
     std::vector<Yielded> responses;
     for (std::size_t k = 2; k < run.oscillations.size(); k += 2) {
@@ -88,75 +84,80 @@ std::vector<Yielded> Simulator::sweep(std::size_t structure, const Settings& set
     return responses;
 }
 
+/// The numbers of a sweep in the cache.
+std::vector<double> numbers_of(const std::vector<Yielded>& responses) {
+    std::vector<double> values;
+    for (const Yielded& response : responses) {
+        values.insert(values.end(), {response.first.real(), response.first.imag(), response.settled});
+    }
+    return values;
+}
+
+std::vector<Yielded> yielded_of(const std::vector<double>& values) {
+    std::vector<Yielded> responses;
+    for (std::size_t place = 0; place < values.size(); place += 3) {
+        responses.push_back({Complex(values[place], values[place + 1]), values[place + 2]});
+    }
+    return responses;
+}
+
 /// Runs those sweeps, of structure k at amplitudes[k], that the cache does not hold, one beside the other: a structure is too small
-/// for several threads. The keys of all in the cache.
-std::vector<std::string> Simulator::run_sweeps(const Settings& settings, const std::vector<std::vector<double>>& amplitudes) {
+/// for several threads.
+std::vector<std::vector<Yielded>> structure_responses(Simulator& simulator, const Settings& settings,
+                                                      const std::vector<std::vector<double>>& amplitudes) {
     // Strain times stiffness over strength is what counts, so that unit stiffness serves all.
-    const double strength = settings.critical_strain * stiffness_in_series(unit_stiffness, unit_stiffness) * radius_;
-    std::vector<std::string> keys;
+    const double strength = settings.critical_strain * stiffness_in_series(unit_stiffness, unit_stiffness) * simulator.radius();
+    std::vector<ResultKey> keys;
     std::vector<std::size_t> missing;
     for (std::size_t k = 0; k < amplitudes.size(); ++k) {
-        std::vector<double> what{settings.stiffness_ratio, settings.bond_tolerance, strength};
-        what.insert(what.end(), amplitudes[k].begin(), amplitudes[k].end());
-        keys.push_back(key_of("breaking " + names_[k], what));
-        const auto found = cache_.find(keys[k]);
-        if (!amplitudes[k].empty() && (found == cache_.end() || found->second.size() != 3 * amplitudes[k].size())) {
+        keys.push_back({"breaking", k, {settings.stiffness_ratio, settings.bond_tolerance, strength}});
+        keys[k].at.insert(keys[k].at.end(), amplitudes[k].begin(), amplitudes[k].end());
+        if (!amplitudes[k].empty() && simulator.in_cache(keys[k], 3 * amplitudes[k].size()) == nullptr) {
             missing.push_back(k);
-            (void)structures_[k];  // made now, where it is made on demand: two threads must not
+            (void)simulator.structure(k);  // made now, where it is made on demand: two threads must not
         }
     }
     if (!missing.empty()) {
-        progress_.update("simulating", 0.0, "amplitude sweep with breaking bonds");
+        simulator.progress().update("simulating", 0.0, "amplitude sweep with breaking bonds");
     }
     std::mutex mutex;
     const Progress shared([&](std::string_view stage, double fraction, std::string_view remark) {
         const std::lock_guard lock(mutex);
-        progress_.update(stage, fraction, remark);
+        simulator.progress().update(stage, fraction, remark);
         return true;
     });
     run_together(missing.size(), [&](std::size_t place) {
         const std::size_t k = missing[place];
-        std::vector<double> values;
-        for (const Yielded& response : sweep(k, settings, strength, amplitudes[k], shared)) {
-            values.insert(values.end(), {response.first.real(), response.first.imag(), response.settled});
-        }
+        std::vector<double> values = numbers_of(sweep(simulator.structure(k), settings, strength, amplitudes[k], shared));
         const std::lock_guard lock(mutex);
-        cache_.insert_or_assign(keys[k], std::move(values));
+        simulator.keep(keys[k], std::move(values));
     });
-    return keys;
-}
-
-/// How every structure yields at its amplitudes of a sweep.
-std::vector<std::vector<Yielded>> Simulator::structure_responses(const Settings& settings,
-                                                                 const std::vector<std::vector<double>>& amplitudes) {
-    const std::vector<std::string> keys = run_sweeps(settings, amplitudes);
     std::vector<std::vector<Yielded>> responses(amplitudes.size());
     for (std::size_t k = 0; k < amplitudes.size(); ++k) {
-        for (std::size_t entry = 0; entry < amplitudes[k].size(); ++entry) {
-            const double* values = cache_.at(keys[k]).data() + 3 * entry;
-            responses[k].push_back({Complex(values[0], values[1]), values[2]});
+        if (!amplitudes[k].empty()) {
+            responses[k] = yielded_of(*simulator.in_cache(keys[k], 3 * amplitudes[k].size()));
         }
     }
     return responses;
 }
 
 /// How every structure yields at the nodes of the strength curve.
-std::vector<std::vector<Yielded>> Simulator::nodes_of_strength_curves() {
+std::vector<std::vector<Yielded>> nodes_of_strength_curves(Simulator& simulator) {
     Settings settings;
     settings.critical_strain = 1e-4;
     std::vector<double> amplitudes;
     for (const double load : loads) {
         amplitudes.push_back(load * settings.critical_strain);
     }
-    return structure_responses(settings, std::vector(structures_.size(), amplitudes));
+    return structure_responses(simulator, settings, std::vector(simulator.structures(), amplitudes));
 }
 
 /// Largest strain of each structure up to which no bond breaks, as far as the strength curves tell.
-std::vector<double> Simulator::unbroken_strains(const Settings& settings) {
+std::vector<double> unbroken_strains(Simulator& simulator, const Settings& settings) {
     const Settings base;
-    std::vector<double> strains(structures_.size(), 0);
+    std::vector<double> strains(simulator.structures(), 0);
     if (settings.stiffness_ratio == base.stiffness_ratio && settings.bond_tolerance == base.bond_tolerance) {
-        const std::vector<std::vector<Yielded>> nodes = nodes_of_strength_curves();
+        const std::vector<std::vector<Yielded>> nodes = nodes_of_strength_curves(simulator);
         for (std::size_t k = 0; k < strains.size(); ++k) {
             for (std::size_t node = 0; node < loads.size() && nodes[k][node].first.imag() == 0; ++node) {
                 strains[k] = loads[node] * settings.critical_strain;
@@ -166,14 +167,17 @@ std::vector<double> Simulator::unbroken_strains(const Settings& settings) {
     return strains;
 }
 
-std::vector<Yielded> Simulator::exact_amplitude_response(const Settings& settings, const std::vector<double>& amplitudes) {
+}  // namespace
+
+std::vector<Yielded> exact_amplitude_response(Simulator& simulator, const Settings& settings,
+                                              const std::vector<double>& amplitudes) {
     std::vector<std::vector<double>> breaking;
-    for (const double unbroken : unbroken_strains(settings)) {
+    for (const double unbroken : unbroken_strains(simulator, settings)) {
         breaking.emplace_back(std::upper_bound(amplitudes.begin(), amplitudes.end(), unbroken), amplitudes.end());
     }
-    const double share = 1 / static_cast<double>(structures_.size());
+    const double share = 1 / static_cast<double>(simulator.structures());
     std::vector<Yielded> mean(amplitudes.size());
-    for (std::vector<Yielded>& one : structure_responses(settings, breaking)) {
+    for (std::vector<Yielded>& one : structure_responses(simulator, settings, breaking)) {
         one.insert(one.begin(), mean.size() - one.size(), {1, 1});
         for (std::size_t entry = 0; entry < mean.size(); ++entry) {
             mean[entry].first += share * one[entry].first;
@@ -183,9 +187,9 @@ std::vector<Yielded> Simulator::exact_amplitude_response(const Settings& setting
     return mean;
 }
 
-YieldCurves Simulator::exact_yield_curve(const Settings& settings, const std::vector<double>& amplitudes) {
+YieldCurves exact_yield_curve(Simulator& simulator, const Settings& settings, const std::vector<double>& amplitudes) {
     const std::vector<double> nodes = with_nodes_between(amplitudes, settings.critical_strain);
-    const std::vector<Yielded> run = exact_amplitude_response(settings, nodes);
+    const std::vector<Yielded> run = exact_amplitude_response(simulator, settings, nodes);
     std::vector<double> run_loads;
     Eigen::RowVectorXcd settled(static_cast<Index>(nodes.size()));
     for (std::size_t node = 0; node < nodes.size(); ++node) {
@@ -195,37 +199,42 @@ YieldCurves Simulator::exact_yield_curve(const Settings& settings, const std::ve
     return {run_loads, settled};
 }
 
-/// Of a large sample, and errors.
-const YieldCurves& Simulator::strength_curves() {
-    if (strength_curves_) {
-        return *strength_curves_;
-    }
-    Eigen::MatrixXcd curves(static_cast<Index>(loads.size()), static_cast<Index>(structures_.size()));
-    const std::vector<std::vector<Yielded>> nodes = nodes_of_strength_curves();
-    for (std::size_t k = 0; k < structures_.size(); ++k) {
-        for (std::size_t node = 0; node < loads.size(); ++node) {
-            curves(static_cast<Index>(node), static_cast<Index>(k)) = Complex(nodes[k][node].settled, nodes[k][node].first.imag());
+namespace {
+
+/// The curve of a large sample, and errors.
+const YieldCurves& strength_curves(Simulator& simulator) {
+    return simulator.remembered({"strength curves"}, [&] {
+        Eigen::MatrixXcd curves(static_cast<Index>(loads.size()), static_cast<Index>(simulator.structures()));
+        const std::vector<std::vector<Yielded>> nodes = nodes_of_strength_curves(simulator);
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            for (std::size_t node = 0; node < loads.size(); ++node) {
+                curves(static_cast<Index>(node), static_cast<Index>(k)) =
+                    Complex(nodes[k][node].settled, nodes[k][node].first.imag());
+            }
         }
-    }
-    return strength_curves_.emplace(loads, population_curve(loads, curves).transpose());
+        return YieldCurves(loads, population_curve(loads, curves).transpose());
+    });
 }
 
-double Simulator::yield_degrees() const {
-    return degrees_of_structure * (static_cast<double>(structures_.size()) - 1);
+}  // namespace
+
+double yield_degrees(const Simulator& simulator) {
+    return degrees_of_structure * (static_cast<double>(simulator.structures()) - 1);
 }
 
-std::array<double, 4> Simulator::storage_while_breaking(const Settings& settings, double before, double amplitude, double sine) {
+std::array<double, 4> storage_in_quarters(Simulator& simulator, const Settings& settings, double before, double amplitude,
+                                          double sine) {
     if (!std::isfinite(settings.critical_strain)) {
         return {1, 1, 1, 1};
     }
-    return strength_curves().storage(before / settings.critical_strain, amplitude / settings.critical_strain, sine);
+    return strength_curves(simulator).storage(before / settings.critical_strain, amplitude / settings.critical_strain, sine);
 }
 
-Eigen::VectorXcd Simulator::amplitude_response(const Settings& settings, double before, double amplitude) {
+Eigen::VectorXcd amplitude_response(Simulator& simulator, const Settings& settings, double before, double amplitude) {
     if (!std::isfinite(settings.critical_strain)) {
         return Eigen::VectorXcd::Ones(1);
     }
-    return strength_curves().response(before / settings.critical_strain, amplitude / settings.critical_strain);
+    return strength_curves(simulator).response(before / settings.critical_strain, amplitude / settings.critical_strain);
 }
 
 }  // namespace coagula::diagnose

@@ -3,6 +3,8 @@
 
 #include <coagula/diagnose/settings.hpp>
 
+#include "response.hpp"
+
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -24,6 +26,13 @@ inline std::complex<double> contact_losses(const Settings& settings, double angu
         losses += settings.springpot_ratio * std::pow(cycles, settings.springpot_exponent);
     }
     return losses;
+}
+
+inline Response losses_in_contacts() {
+    return {.acts = [](const Settings& settings,
+                       const Conditions& at) { return has_contact_losses(settings) && std::isfinite(at.angular_frequency); },
+            .factor = [](Simulator&, const Settings& settings, const Conditions& at,
+                         bool) { return 1.0 + contact_losses(settings, at.angular_frequency); }};
 }
 
 }  // namespace coagula::diagnose

@@ -1,10 +1,8 @@
-// Amplitude response of Hertz contacts, between the nodes of a grid of strains.
-#include <coagula/diagnose/simulator.hpp>
+#include "contact_response.hpp"
 
 #include <coagula/common/contact_network.hpp>
 #include <coagula/mechanics/hertz_curve.hpp>
 
-#include "cache_key.hpp"
 #include "hertz_scatter.hpp"
 #include "interpolation.hpp"
 
@@ -20,52 +18,46 @@ namespace {
 constexpr double any_preload = 1e-4;   ///< of the contacts; the response depends on the strain over it alone
 constexpr int phases_of_quarter = 24;  ///< of a quarter of an oscillation
 
-}  // namespace
-
 /// Stress over strain of one structure at the nodes.
-const std::vector<double>& Simulator::secant_moduli(std::size_t structure) {
-    const auto count = static_cast<std::size_t>(hertz_axis.count);
-    const std::string key = key_of("Hertz contacts " + names_[structure], {hertz_axis.low, hertz_axis.high});
-    auto found = find_result(cache_, key, count);
-    if (found == cache_.end()) {
-        progress_.update("simulating", 0.0, "Hertz contacts");
+const std::vector<double>& secant_moduli(Simulator& simulator, std::size_t structure) {
+    const ResultKey key{"Hertz contacts", structure, {hertz_axis.low, hertz_axis.high}};
+    return simulator.simulated(key, static_cast<std::size_t>(hertz_axis.count), [&](const Packing& packing) {
+        simulator.progress().update("simulating", 0.0, "Hertz contacts");
         std::vector<double> loads;
         for (int node = 0; node < hertz_axis.count; ++node) {
             loads.push_back(hertz_axis.node(node));
         }
-        const Packing& packing = structures_[structure];
-        const ContactNetwork bonds = find_contacts(packing, Settings{}.bond_tolerance);
         Settings hertz;
         hertz.contact_preload = any_preload;
-        const ContactModel contact = contact_model_of(hertz, mean_radius(packing));
-        const std::vector<double> curve = mechanics::hertz_curve(packing, bonds, contact, any_preload, loads, progress_);
-        found = cache_.insert_or_assign(key, curve).first;
-    }
-    return found->second;
+        return mechanics::hertz_curve(packing, find_contacts(packing, hertz.bond_tolerance),
+                                      contact_model_of(hertz, mean_radius(packing)), any_preload, loads, simulator.progress());
+    });
 }
 
 /// Logarithm of the mean over the structures.
-const std::vector<double>& Simulator::secant_curve() {
-    if (secant_curve_.empty()) {
-        secant_curve_.assign(static_cast<std::size_t>(hertz_axis.count), 0.0);
-        for (std::size_t structure = 0; structure < structures_.size(); ++structure) {
-            const std::vector<double>& one = secant_moduli(structure);
+const std::vector<double>& secant_curve(Simulator& simulator) {
+    return simulator.remembered({"Hertz contacts"}, [&] {
+        std::vector<double> curve(static_cast<std::size_t>(hertz_axis.count), 0.0);
+        for (std::size_t structure = 0; structure < simulator.structures(); ++structure) {
+            const std::vector<double>& one = secant_moduli(simulator, structure);
             for (std::size_t node = 0; node < one.size(); ++node) {
-                secant_curve_[node] += one[node] / static_cast<double>(structures_.size());
+                curve[node] += one[node] / static_cast<double>(simulator.structures());
             }
         }
-        for (double& secant : secant_curve_) {
+        for (double& secant : curve) {
             secant = std::log(secant);
         }
-    }
-    return secant_curve_;
+        return curve;
+    });
 }
 
-double Simulator::contact_secant(const Settings& settings, double strain) {
+}  // namespace
+
+double contact_secant(Simulator& simulator, const Settings& settings, double strain) {
     if (settings.contact_preload <= 0) {
         return 1;
     }
-    const std::vector<double>& curve = secant_curve();
+    const std::vector<double>& curve = secant_curve(simulator);
     const double load = std::abs(strain) / settings.contact_preload;
     const double secant =
         std::exp(interpolate_nodes(hertz_axis, load, [&](int node) { return curve[static_cast<std::size_t>(node)]; }));
@@ -85,25 +77,16 @@ auto fundamental(double amplitude, const Function& f) {
     return sum;
 }
 
-}  // namespace
-
-double Simulator::contact_response(const Settings& settings, double amplitude) {
-    if (settings.contact_preload <= 0) {
-        return 1;
-    }
-    return fundamental(amplitude, [&](double strain) { return contact_secant(settings, strain); });
-}
-
-/// Of the fundamental at amplitudes of the nodes, relative.
-const HertzScatter& Simulator::contact_scatter() {
-    if (!contact_scatter_) {
-        Eigen::MatrixXd logarithms(hertz_axis.count, static_cast<Index>(structures_.size()));
-        for (std::size_t structure = 0; structure < structures_.size(); ++structure) {
-            const std::vector<double>& one = secant_moduli(structure);
+/// Errors of the fundamental at amplitudes of the nodes, relative.
+const HertzScatter& scatter_of_fundamentals(Simulator& simulator) {
+    return simulator.remembered({"scatter of Hertz contacts"}, [&] {
+        Eigen::MatrixXd logarithms(hertz_axis.count, static_cast<Index>(simulator.structures()));
+        for (std::size_t structure = 0; structure < simulator.structures(); ++structure) {
+            const std::vector<double>& one = secant_moduli(simulator, structure);
             logarithms.col(static_cast<Index>(structure)) =
                 Eigen::Map<const Eigen::ArrayXd>(one.data(), hertz_axis.count).log() - std::log(one.front());
         }
-        const HertzScatter secants = hertz_scatter(particles(), logarithms);
+        const HertzScatter secants = hertz_scatter(simulator.particles(), logarithms);
         const auto error = [&](int node) -> Eigen::RowVectorXd { return secants.errors.row(node); };
         Settings settings;
         settings.contact_preload = 1;
@@ -111,23 +94,43 @@ const HertzScatter& Simulator::contact_scatter() {
         for (int node = 0; node < hertz_axis.count; ++node) {
             const double amplitude = hertz_axis.node(node);
             const auto moved = [&](double load) {
-                return Eigen::RowVectorXd(contact_secant(settings, load) * interpolate_nodes(hertz_axis, load, error));
+                return Eigen::RowVectorXd(contact_secant(simulator, settings, load) * interpolate_nodes(hertz_axis, load, error));
             };
-            fundamentals.errors.row(node) = fundamental(amplitude, moved) / contact_response(settings, amplitude);
+            fundamentals.errors.row(node) = fundamental(amplitude, moved) / contact_response(simulator, settings, amplitude);
         }
-        contact_scatter_ = std::make_shared<HertzScatter>(std::move(fundamentals));
+        return fundamentals;
+    });
+}
+
+}  // namespace
+
+double contact_response(Simulator& simulator, const Settings& settings, double amplitude) {
+    if (settings.contact_preload <= 0) {
+        return 1;
     }
-    return *contact_scatter_;
+    return fundamental(amplitude, [&](double strain) { return contact_secant(simulator, settings, strain); });
 }
 
-double Simulator::contact_degrees() {
-    return contact_scatter().degrees;
+double contact_degrees(Simulator& simulator) {
+    return scatter_of_fundamentals(simulator).degrees;
 }
 
-Eigen::RowVectorXd Simulator::contact_errors(const Settings& settings, double amplitude) {
-    const Eigen::MatrixXd& errors = contact_scatter().errors;
+Eigen::RowVectorXd contact_errors(Simulator& simulator, const Settings& settings, double amplitude) {
+    const Eigen::MatrixXd& errors = scatter_of_fundamentals(simulator).errors;
     const auto at = [&](int node) -> Eigen::RowVectorXd { return errors.row(node); };
     return interpolate_nodes(hertz_axis, amplitude / settings.contact_preload, at);
+}
+
+Response hertz_contacts() {
+    return {.acts = [](const Settings& settings,
+                       const Conditions& at) { return settings.contact_preload > 0 && std::isfinite(at.strain); },
+            .factor = [](Simulator& simulator, const Settings& settings, const Conditions& at, bool) -> std::complex<double> {
+                return contact_response(simulator, settings, at.strain);
+            },
+            .scatter = [](Simulator& simulator, const Settings& settings, const Conditions& at) -> Scatter {
+                return {.relative = contact_errors(simulator, settings, at.strain)};
+            },
+            .degrees = contact_degrees};
 }
 
 }  // namespace coagula::diagnose

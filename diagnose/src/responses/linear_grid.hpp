@@ -13,25 +13,31 @@ constexpr Axis bending_axis{1e-6, 0.2, 12};
 constexpr Axis tolerance_axis{5e-4, 0.08, 12};
 
 /// A positive quantity of the network at these settings, between the nodes.
-/// @param at the quantity for a stiffness ratio, a bending ratio and a bond tolerance; called at nodes only.
+/// @param at the quantity at a node, which has a stiffness ratio, a bending ratio and a bond tolerance of its own.
 template <class At>
 double between_nodes(const Settings& settings, const At& at) {
-    const Settings base;
-    const auto over_tolerance = [&](double ratio, double bending) {
-        if (settings.bond_tolerance == base.bond_tolerance) {
-            return at(ratio, bending, base.bond_tolerance);
-        }
-        return interpolate(tolerance_axis, settings.bond_tolerance,
-                           [&](double tolerance) { return at(ratio, bending, tolerance); });
+    Settings node;
+    const auto over_tolerance = [&] {
+        return settings.bond_tolerance == Settings{}.bond_tolerance
+                   ? at(node)
+                   : interpolate(tolerance_axis, settings.bond_tolerance, [&](double tolerance) {
+                         node.bond_tolerance = tolerance;
+                         return at(node);
+                     });
     };
-    const auto over_bending = [&](double ratio) {
-        if (settings.bending_ratio < bending_axis.low) {
-            return over_tolerance(ratio, 0);
-        }
-        return interpolate(bending_axis, settings.bending_ratio, [&](double bending) { return over_tolerance(ratio, bending); });
+    const auto over_bending = [&] {
+        node.bending_ratio = 0;
+        return settings.bending_ratio < bending_axis.low ? over_tolerance()
+                                                         : interpolate(bending_axis, settings.bending_ratio, [&](double bending) {
+                                                               node.bending_ratio = bending;
+                                                               return over_tolerance();
+                                                           });
     };
-    return settings.stiffness_ratio == base.stiffness_ratio ? over_bending(base.stiffness_ratio)
-                                                            : interpolate(ratio_axis, settings.stiffness_ratio, over_bending);
+    return settings.stiffness_ratio == node.stiffness_ratio ? over_bending()
+                                                            : interpolate(ratio_axis, settings.stiffness_ratio, [&](double ratio) {
+                                                                  node.stiffness_ratio = ratio;
+                                                                  return over_bending();
+                                                              });
 }
 
 }  // namespace coagula::diagnose

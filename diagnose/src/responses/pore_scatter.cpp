@@ -1,9 +1,7 @@
 #include "pore_scatter.hpp"
 
 #include <coagula/common/checks.hpp>
-#include <coagula/common/dense.hpp>
 #include <coagula/common/surface_distance.hpp>
-#include <coagula/diagnose/simulator.hpp>
 
 #include <algorithm>
 #include <array>
@@ -105,35 +103,6 @@ std::vector<double> covariance_of_pores(const Packing& packing) {
     const double free_waves = waves - 0.5;  // a slope is one real number
     const Eigen::MatrixXd covariance = (probability * probability.adjoint()).real() / free_waves;
     return {covariance.reshaped().begin(), covariance.reshaped().end()};
-}
-
-/// Mean over the structures.
-const Eigen::MatrixXd& Simulator::pore_covariance() {
-    if (pore_covariance_.size() == 0) {
-        const std::vector<double> mean =
-            mean_over_structures("scatter of pores", scatter_radii * scatter_radii, {}, covariance_of_pores);
-        pore_covariance_ = Eigen::Map<const Eigen::MatrixXd>(mean.data(), scatter_radii, scatter_radii);
-    }
-    return pore_covariance_;
-}
-
-Eigen::MatrixXd Simulator::pore_errors(const StructureChange& change, const std::vector<double>& pore_radii) {
-    require(structures_.size() > 0, "the errors of a pore curve need structures");
-    constexpr Index axes = 6;  // the seventh has less than a thousandth of the variance
-    const Eigen::MatrixXd covariance =
-        over_changes(change, [](Simulator& other) { return Eigen::MatrixXd(other.pore_covariance()); });
-    const dense::SymmetricModes modes(covariance);
-    const Eigen::VectorXd deviations = modes.values.tail(axes).cwiseMax(0).cwiseSqrt();
-    const Eigen::MatrixXd at_nodes = modes.vectors.rightCols(axes) * deviations.asDiagonal();
-    Eigen::MatrixXd errors(static_cast<Index>(pore_radii.size()), axes);
-    for (Index row = 0; row < errors.rows(); ++row) {
-        const double radius = pore_radii[static_cast<std::size_t>(row)];
-        const double place = std::clamp(radius / radius_ / scatter_step, 0.0, scatter_radii - 1.0);
-        const Index below = std::min(static_cast<Index>(place), scatter_radii - 2);
-        const double beyond = place - static_cast<double>(below);
-        errors.row(row) = (1 - beyond) * at_nodes.row(below) + beyond * at_nodes.row(below + 1);
-    }
-    return errors;
 }
 
 }  // namespace coagula::diagnose

@@ -1,12 +1,7 @@
-// Linear modulus under a tension in all contacts: the linear solver with the geometric stiffness, at the nodes of a grid.
-#include <coagula/diagnose/simulator.hpp>
+#include "prestress_response.hpp"
 
-#include <coagula/common/contact_network.hpp>
-#include <coagula/mechanics/linear.hpp>
-
-#include "cache_key.hpp"
 #include "interpolation.hpp"
-#include "unit_stiffness.hpp"
+#include "linear_modulus.hpp"
 
 namespace coagula::diagnose {
 
@@ -14,52 +9,50 @@ namespace {
 
 constexpr Axis tension_axis{1e-4, 1e-2, 7};
 
+/// Modulus of one structure for unit stiffness [Pa].
+double prestressed_modulus(Simulator& simulator, std::size_t structure, const Settings& settings) {
+    const ResultKey key{
+        "prestress", structure, {settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance, settings.tension}};
+    const auto run = [&](const Packing& packing) -> std::vector<double> {
+        simulator.progress().update("simulating", 0.0, "linear modulus under tension");
+        const ContactNetwork bonds = find_contacts(packing, settings.bond_tolerance);
+        return {solve_springs(simulator, packing, bonds, settings).mean_shear_modulus()};
+    };
+    return simulator.simulated(key, 1, run).front();
+}
+
+double ratio_of_moduli(Simulator& simulator, const Settings& settings, std::size_t group) {
+    const ResultKey key{
+        "prestress", group, {settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance, settings.tension}};
+    return simulator.remembered(key, [&] {
+        double sum = 0;
+        double free = 0;
+        for (const std::size_t k : simulator.members(group)) {
+            sum += prestressed_modulus(simulator, k, settings);
+            free += moduli_of_structure(simulator, k, settings).front();
+        }
+        return free > 0 ? sum / free : 1.0;
+    });
+}
+
 }  // namespace
 
-/// Of one structure, for unit stiffness [Pa].
-double Simulator::prestressed_modulus(std::size_t structure, const Settings& settings) {
-    const std::string key = key_of("prestress " + names_[structure],
-                                   {settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance, settings.tension});
-    if (const auto found = find_result(cache_, key, 1); found != cache_.end()) {
-        return found->second.front();
-    }
-    progress_.update("simulating", 0.0, "linear modulus under tension");
-    Settings part;
-    part.normal_stiffness = unit_stiffness;
-    part.stiffness_ratio = settings.stiffness_ratio;
-    part.bending_ratio = settings.bending_ratio;
-    part.tension = settings.tension;
-    const Packing& packing = structures_[structure];
-    const ContactNetwork bonds = find_contacts(packing, settings.bond_tolerance);
-    mechanics::LinearOptions options;
-    options.bond_tangents = mechanics::bond_tangents(packing, bonds, contact_model_of(part, radius_));
-    const double modulus = mechanics::solve_linear(packing, bonds, options, progress_).mean_shear_modulus();
-    cache_.insert_or_assign(key, std::vector<double>{modulus});
-    return modulus;
-}
-
-double Simulator::exact_prestress_response(const Settings& settings, std::size_t group) {
+double prestress_response(Simulator& simulator, const Settings& settings, std::size_t group, bool exact) {
     if (settings.tension <= 0) {
         return 1;
     }
-    double sum = 0;
-    double free = 0;
-    for (const std::size_t k : members(group)) {
-        sum += prestressed_modulus(k, settings);
-        free += linear_moduli(k, settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance).front();
-    }
-    return free > 0 ? sum / free : 1.0;
-}
-
-double Simulator::prestress_response(const Settings& settings, std::size_t group) {
-    if (settings.tension <= 0) {
-        return 1;
-    }
-    return interpolate(tension_axis, settings.tension, [&](double tension) {
+    return exact ? ratio_of_moduli(simulator, settings, group) : interpolate(tension_axis, settings.tension, [&](double tension) {
         Settings node;
         node.tension = tension;
-        return exact_prestress_response(node, group);
+        return ratio_of_moduli(simulator, node, group);
     });
+}
+
+Response prestressed_contacts() {
+    return {.acts = [](const Settings& settings, const Conditions&) { return settings.tension > 0; },
+            .factor = [](Simulator& simulator, const Settings& settings, const Conditions& at, bool exact) -> std::complex<double> {
+                return prestress_response(simulator, settings, at.group, exact);
+            }};
 }
 
 }  // namespace coagula::diagnose

@@ -2,8 +2,7 @@
 #include "volume_fraction_gradient.hpp"
 
 #include "linear_grid.hpp"
-
-#include <coagula/diagnose/simulator.hpp>
+#include "linear_modulus.hpp"
 
 #include <coagula/mechanics/straight_line.hpp>
 
@@ -43,54 +42,54 @@ double layers_in_series(double exponent, double relative_difference) {
     return 2 * x / integral;
 }
 
-double Simulator::volume_fraction(std::size_t group) {
-    const auto [found, added] = volume_fractions_.try_emplace(group, 0.0);
-    if (added) {
-        const std::vector<std::size_t> structures = members(group);
+double mean_volume_fraction(Simulator& simulator, std::size_t group) {
+    return simulator.remembered({"volume fraction", group}, [&] {
+        const std::vector<std::size_t> structures = simulator.members(group);
+        double mean = 0;
         for (const std::size_t k : structures) {
-            found->second += coagula::volume_fraction(structures_[k]) / static_cast<double>(structures.size());
+            mean += volume_fraction(simulator.structure(k)) / static_cast<double>(structures.size());
         }
-    }
-    return found->second;
+        return mean;
+    });
 }
 
-/// At one node: slope of the logarithms over the structures that bear a load; 0 where these have one volume fraction only.
-double Simulator::exponent_node(double ratio, double bending, double tolerance) {
-    const std::array place{ratio, bending, tolerance};
-    if (const auto found = exponents_.find(place); found != exponents_.end()) {
-        return found->second;
-    }
+namespace {
+
+/// Slope of the logarithms over the structures that bear a load; 0 where these have one volume fraction only.
+double exponent_over_structures(Simulator& simulator, const Settings& settings) {
     std::vector<double> moduli;
-    for (std::size_t k = 0; k < structures_.size(); ++k) {
-        moduli.push_back(linear_moduli(k, ratio, bending, tolerance).front());
+    for (std::size_t k = 0; k < simulator.structures(); ++k) {
+        moduli.push_back(moduli_of_structure(simulator, k, settings).front());
     }
     const double largest = *std::max_element(moduli.begin(), moduli.end());
     std::vector<double> fractions;
     std::vector<double> borne;
-    for (std::size_t k = 0; k < structures_.size(); ++k) {
+    for (std::size_t k = 0; k < simulator.structures(); ++k) {
         if (moduli[k] > floppy * largest) {
-            fractions.push_back(coagula::volume_fraction(structures_[k]));
+            fractions.push_back(volume_fraction(simulator.structure(k)));
             borne.push_back(moduli[k]);
         }
     }
-    double slope = 0;
-    if (differ_in_volume_fraction(fractions)) {
-        const auto logarithms = [](const std::vector<double>& values) -> Eigen::VectorXd {
-            return Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Index>(values.size())).log();
-        };
-        slope = mechanics::fit_line(logarithms(fractions), logarithms(borne)).slope;
-    }
-    return exponents_[place] = slope;
+    const auto logarithms = [](const std::vector<double>& values) -> Eigen::VectorXd {
+        return Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Index>(values.size())).log();
+    };
+    return differ_in_volume_fraction(fractions) ? mechanics::fit_line(logarithms(fractions), logarithms(borne)).slope : 0.0;
 }
 
-double Simulator::volume_fraction_exponent(const Settings& settings, bool exact) {
+double exponent_node(Simulator& simulator, const Settings& settings) {
+    const ResultKey key{
+        "exponent of volume fraction", 0, {settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance}};
+    return simulator.remembered(key, [&] { return exponent_over_structures(simulator, settings); });
+}
+
+}  // namespace
+
+double volume_fraction_exponent(Simulator& simulator, const Settings& settings, bool exact) {
     if (exact) {
-        return exponent_node(settings.stiffness_ratio, settings.bending_ratio, settings.bond_tolerance);
+        return exponent_node(simulator, settings);
     }
     // The slope is linear in the logarithms of the moduli, which are what is interpolated.
-    return std::log(between_nodes(settings, [&](double ratio, double bending, double tolerance) {
-        return std::exp(exponent_node(ratio, bending, tolerance));
-    }));
+    return std::log(between_nodes(settings, [&](const Settings& node) { return std::exp(exponent_node(simulator, node)); }));
 }
 
 }  // namespace coagula::diagnose

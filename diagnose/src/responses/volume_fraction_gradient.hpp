@@ -1,6 +1,10 @@
 // Layers in series between the plates: a suspension that has settled a little.
 #pragma once
 
+#include <coagula/diagnose/settings.hpp>
+#include <coagula/diagnose/simulator.hpp>
+
+#include <cstddef>
 #include <span>
 
 namespace coagula::diagnose {
@@ -16,5 +20,12 @@ double settled_difference(double volume_fraction, double difference);
 /// modulus of a layer goes as phi to the power `exponent`: the harmonic mean (Reuss 1929, ZAMM 9, 49) over the gap h.
 /// @param relative_difference of volume fraction over its mean, 0 .. 2, 2 excluded.
 double layers_in_series(double exponent, double relative_difference);
+
+/// Mean volume fraction of the structures of a group.
+double mean_volume_fraction(Simulator& simulator, std::size_t group = 0);
+
+/// Slope of the logarithm of the linear modulus over that of the volume fraction, by least squares over all structures that bear a
+/// load; 0 where their volume fractions do not differ by a hundredth.
+double volume_fraction_exponent(Simulator& simulator, const Settings& settings, bool exact = false);
 
 }  // namespace coagula::diagnose

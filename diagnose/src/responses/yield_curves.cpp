@@ -1,4 +1,4 @@
-#include <coagula/diagnose/yield_curves.hpp>
+#include "yield_curves.hpp"
 
 #include <algorithm>
 #include <cmath>

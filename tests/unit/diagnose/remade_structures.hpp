@@ -4,6 +4,7 @@
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
 #include "observables/neighbour_shells.hpp"
+#include "responses/imaged_centres.hpp"
 
 #include <coagula/characterize/pore_sizes.hpp>
 #include <coagula/generators/size_distribution.hpp>
@@ -59,7 +60,7 @@ inline PoreCurve measured_pores(const Packing& packing) {
 
 /// Neighbours in a shell of the plane and in that along z together.
 inline double neighbours_in(Simulator& simulator, const Settings& settings, std::size_t shell) {
-    return simulator.neighbours(settings, shell) + simulator.neighbours(settings, shell + shells_of_direction);
+    return neighbours(simulator, settings, shell) + neighbours(simulator, settings, shell + shells_of_direction);
 }
 
 /// The pore curve of a structure as a table, 25 radii to 1.25 particle radii.

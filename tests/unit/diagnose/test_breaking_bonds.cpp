@@ -1,6 +1,7 @@
 // Sweeps over bonds that break: what is lost belongs to the energy between two strains, not to a strain, and is lost once.
 #include "chain/forward.hpp"
 #include "hidden_effects.hpp"
+#include "responses/amplitude_response.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ Settings weak() {
 
 /// G* / G of the first oscillation at a load after another.
 Complex response(double from, double to) {
-    return simulator().amplitude_response(weak(), from * critical, to * critical)[0];
+    return amplitude_response(simulator(), weak(), from * critical, to * critical)[0];
 }
 
 TEST(BreakingBonds, LoseTheSameEnergyInStepsOfAnySize) {
@@ -65,7 +66,7 @@ TEST(BreakingBonds, LoseWhatTheNetworkHadStored) {
             loads.push_back(load);
             amplitudes.push_back(load * critical);
         }
-        const std::vector<Yielded> runs = simulator().exact_amplitude_response(weak(), amplitudes);
+        const std::vector<Yielded> runs = exact_amplitude_response(simulator(), weak(), amplitudes);
         for (const std::vector<Yielded>& shown : {curve, runs}) {
             EXPECT_GT(lost_over_stored(loads, shown), 0.7) << step;
             EXPECT_LT(lost_over_stored(loads, shown), 1.8) << step;
@@ -81,14 +82,14 @@ TEST(BreakingBonds, LoseWhatTheNetworkHadStored) {
 TEST(BreakingBonds, RunsBetweenAmplitudesToo) {
     Settings settings;
     settings.critical_strain = 1e-4;
-    const YieldCurves run = simulator().exact_yield_curve(settings, {1e-4, 16e-4});
+    const YieldCurves run = exact_yield_curve(simulator(), settings, {1e-4, 16e-4});
     const auto settled = [&](double load) { return run.response(load, load)[0].real(); };
     const std::vector<double> loads{1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 16};
     std::vector<double> amplitudes;
     for (const double load : loads) {
         amplitudes.push_back(1e-4 * load);
     }
-    const std::vector<Yielded> nodes = simulator().exact_amplitude_response(settings, amplitudes);
+    const std::vector<Yielded> nodes = exact_amplitude_response(simulator(), settings, amplitudes);
     for (std::size_t k = 1; k < loads.size(); ++k) {
         EXPECT_NEAR(settled(loads[k]), nodes[k].settled, 1e-12) << loads[k];
         EXPECT_NEAR(run.response(loads[k - 1], loads[k])[0].imag(), nodes[k].first.imag(), 1e-12) << loads[k];

@@ -3,6 +3,7 @@
 #include "chain/forward.hpp"
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
+#include "responses/imaged_centres.hpp"
 
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/rheometer.hpp>
@@ -329,9 +330,9 @@ TEST(HiddenEffects, FalseParticlesAreCounted) {
     all_true.false_share = 0;
     const std::vector<Observation> seen = observations_of(experiment);
     for (const Observation& shell : seen) {
-        const double predicted = simulator().neighbours(settings, shell.row);
+        const double predicted = neighbours(simulator(), settings, shell.row);
         squares += std::pow((shell.value - predicted) / shell.standard_error, 2) / static_cast<double>(seen.size());
-        without += std::pow((shell.value - simulator().neighbours(all_true, shell.row)) / shell.standard_error, 2) /
+        without += std::pow((shell.value - neighbours(simulator(), all_true, shell.row)) / shell.standard_error, 2) /
                    static_cast<double>(seen.size());
     }
     EXPECT_LT(squares, 2);

@@ -1,6 +1,7 @@
 // Errors of the neighbours that an image shows, where particles lie closer in some places than in others: single particles and
 // triangles of touching ones, at random on a lattice. Each triangle has one side near the plane and two near z, whatever axis z is.
 #include "observables/neighbour_shells.hpp"
+#include "responses/imaged_centres.hpp"
 
 #include "remade_structures.hpp"
 
@@ -200,7 +201,7 @@ TEST(NeighbourShells, OfTwoImagesShareTheErrorsOfTheStructures) {
     constexpr Index rows = shell_count - 6;  // nothing is nearer than the contact: one row in each direction
     ASSERT_EQ(observations.size(), 2U * rows);
     const Eigen::MatrixXd errors = Forward(experiment, observations, recipe().simulator).prediction(Model{}).errors.changes;
-    const Index shared = recipe().simulator.neighbour_errors_of_structures().cols();
+    const Index shared = neighbour_errors_of_structures(recipe().simulator).cols();
     ASSERT_GT(shared, 0);
     EXPECT_EQ(errors.topLeftCorner(rows, shared), errors.bottomLeftCorner(rows, shared));
     // The rest is of one image or of the other.

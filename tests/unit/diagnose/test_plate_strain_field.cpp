@@ -2,6 +2,8 @@
 // from explicit runs at many radii of another structure.
 #include "chain/forward.hpp"
 #include "hidden_effects.hpp"
+#include "responses/amplitude_response.hpp"
+#include "responses/linear_modulus.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/rheometer.hpp>
@@ -45,7 +47,7 @@ std::vector<Complex> response(const std::vector<double>& strains, const Settings
     experiment.measurements[0].cone_angle = cone_angle;
     const auto rows = observations_of(experiment);
     const Eigen::VectorXd predicted = Forward(experiment, rows, simulator()).predict(settings, exact);
-    const double linear = exact ? simulator().exact_linear_modulus(settings) : simulator().linear_modulus(settings);
+    const double linear = exact ? exact_linear_modulus(simulator(), settings) : linear_modulus(simulator(), settings);
     std::vector<Complex> responses(strains.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const double value = predicted[static_cast<Eigen::Index>(k)] / linear;
@@ -70,7 +72,7 @@ TEST(PlateStrainField, IsTheIntegralOverTheTorque) {
         for (int ring = 0; ring < radii; ++ring) {
             const double x = (ring + 0.5) / radii;
             torque += 4.0 / radii * std::pow(x, 3) *
-                      simulator().amplitude_response(uniform, k > 0 ? x * strains[k - 1] : 0, x * strains[k])[0];
+                      amplitude_response(simulator(), uniform, k > 0 ? x * strains[k - 1] : 0, x * strains[k])[0];
         }
         EXPECT_LT(std::abs(between_plates[k] - torque), 0.005) << strains[k];
     }
@@ -171,7 +173,7 @@ TEST(PlateStrainField, TheRunAtTheRimServesTheRings) {
             strain *= (ring + 0.5) / radii;
         }
         const double weight = std::pow((ring + 1.0) / radii, 4) - std::pow(static_cast<double>(ring) / radii, 4);
-        const auto run = simulator().exact_amplitude_response(weak(&Settings::critical_strain), local);
+        const auto run = exact_amplitude_response(simulator(), weak(&Settings::critical_strain), local);
         for (std::size_t k = 0; k < strains.size(); ++k) {
             torque[k] += weight * run[k].first;
         }

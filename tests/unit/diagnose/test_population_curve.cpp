@@ -1,7 +1,7 @@
 // The curve of a large sample from a few structures that yield in steps, drawn from a curve that is known.
 #include "responses/population_curve.hpp"
 
-#include <coagula/diagnose/yield_curves.hpp>
+#include "responses/yield_curves.hpp"
 
 #include "hidden_effects.hpp"
 

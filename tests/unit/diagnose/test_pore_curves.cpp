@@ -1,5 +1,6 @@
 // Pore curves as data: what is predicted, how structures scatter, and a hidden change of the structure.
 #include "remade_structures.hpp"
+#include "responses/pore_response.hpp"
 
 #include "chain/forward.hpp"
 #include "chain/shared_errors.hpp"
@@ -94,7 +95,7 @@ TEST(PoreCurves, TablesShareTheErrorsOfTheStructures) {
     const Eigen::MatrixXd errors = shared_errors(experiment, observations, simulator);
     const Eigen::MatrixXd covariance = errors * errors.transpose();
     const Index row = 8;
-    const double of_one = simulator.pore_errors({}, {observations[static_cast<std::size_t>(row)].pore_radius}).squaredNorm();
+    const double of_one = pore_errors(simulator, {}, {observations[static_cast<std::size_t>(row)].pore_radius}).squaredNorm();
     EXPECT_GT(of_one, 1e-6);
     EXPECT_NEAR(covariance(row, row), 1.5 * of_one, 1e-6 * of_one);
     EXPECT_NEAR(covariance(row, row + rows), 0.5 * of_one, 1e-6 * of_one);
@@ -134,16 +135,16 @@ TEST(PoreCurves, OfImagesAreExpectedAsTheyAreSeen) {
                 const Packing& particles = structures_of_recipe()[k % 2];
                 seen[static_cast<Index>(k)] = pores_of(as_spheres(image_of(particles, settings, 900 + 2 * k), particles)).at(pore);
             }
-            const double change = seen.mean() - simulator.exclusion_probability({}, pore);
+            const double change = seen.mean() - exclusion_probability(simulator, {}, pore);
             const double error = std::sqrt((seen.array() - seen.mean()).square().mean() / (images - 1));
-            EXPECT_NEAR(simulator.exclusion_probability(settings, pore, true), seen.mean(), 5 * error);  // it draws nearly as many
-            EXPECT_NEAR(simulator.exclusion_probability(settings, pore), seen.mean(), 5 * error + 0.1 * std::abs(change));
+            EXPECT_NEAR(exclusion_probability(simulator, settings, pore, true), seen.mean(), 5 * error);  // it draws nearly as many
+            EXPECT_NEAR(exclusion_probability(simulator, settings, pore), seen.mean(), 5 * error + 0.1 * std::abs(change));
         }
     }
     const double pore = 1.25e-7;
-    const double whole = simulator.exclusion_probability({}, pore);
-    EXPECT_GT(simulator.exclusion_probability(image_errors(1e-9, 1e-9, 0.09, 0), pore), whole + 0.03);
-    EXPECT_LT(simulator.exclusion_probability(image_errors(1e-9, 1e-9, 0, 0.08), pore), whole - 0.02);
+    const double whole = exclusion_probability(simulator, {}, pore);
+    EXPECT_GT(exclusion_probability(simulator, image_errors(1e-9, 1e-9, 0.09, 0), pore), whole + 0.03);
+    EXPECT_LT(exclusion_probability(simulator, image_errors(1e-9, 1e-9, 0, 0.08), pore), whole - 0.02);
 }
 
 /// Particles that are missed leave larger pores. Where the coordinates say so the pores need no other cause.

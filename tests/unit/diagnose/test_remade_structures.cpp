@@ -1,5 +1,7 @@
 // Causes that change the structures themselves: particles of several sizes.
 #include "remade_structures.hpp"
+#include "responses/imaged_centres.hpp"
+#include "responses/linear_modulus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,27 +68,27 @@ TEST(Polydispersity, BetweenTheNodesStructuresAreMet) {
                 << deviation << ", shell " << shell;
         }
         // Moduli of two structures of 300 particles scatter by a tenth about their mean.
-        EXPECT_NEAR(recipe().simulator.linear_modulus(with_sizes(deviation)) / exact.linear_modulus(Settings{}), 1, 0.3);
+        EXPECT_NEAR(linear_modulus(recipe().simulator, with_sizes(deviation)) / linear_modulus(exact, Settings{}), 1, 0.3);
     }
 }
 
 /// What is in the cache needs no structure: a second diagnosis makes none.
 TEST(Polydispersity, StructuresAreMadeOnceAndOnlyWhenAskedFor) {
     Recipe first;
-    first.simulator.neighbours(Settings{}, contact_shell);
-    first.simulator.linear_modulus(Settings{});
+    neighbours(first.simulator, Settings{}, contact_shell);
+    linear_modulus(first.simulator, Settings{});
     EXPECT_EQ(first.made, 0);
-    first.simulator.neighbours(with_sizes(0.4), contact_shell);
-    first.simulator.linear_modulus(with_sizes(0.4));
+    neighbours(first.simulator, with_sizes(0.4), contact_shell);
+    linear_modulus(first.simulator, with_sizes(0.4));
     EXPECT_EQ(first.made, 8);  // two structures at four nodes
     Recipe second;
     second.cache = first.cache;
-    EXPECT_EQ(second.simulator.neighbours(with_sizes(0.4), contact_shell),
-              first.simulator.neighbours(with_sizes(0.4), contact_shell));
-    EXPECT_EQ(second.simulator.linear_modulus(with_sizes(0.4)), first.simulator.linear_modulus(with_sizes(0.4)));
+    EXPECT_EQ(neighbours(second.simulator, with_sizes(0.4), contact_shell),
+              neighbours(first.simulator, with_sizes(0.4), contact_shell));
+    EXPECT_EQ(linear_modulus(second.simulator, with_sizes(0.4)), linear_modulus(first.simulator, with_sizes(0.4)));
     EXPECT_EQ(second.made, 0);
     Simulator of_files({structure(200, 1)}, {"file"}, first.cache);
-    EXPECT_THROW(of_files.neighbours(with_sizes(0.1), contact_shell), std::invalid_argument);
+    EXPECT_THROW(neighbours(of_files, with_sizes(0.1), contact_shell), std::invalid_argument);
 }
 
 /// Sizes that are normal, not lognormal, in structures of another number of particles, are seen through coordinates.

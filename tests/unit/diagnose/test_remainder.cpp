@@ -5,6 +5,7 @@
 
 #include "hidden_effects.hpp"
 #include "infer/remainder.hpp"
+#include "responses/linear_modulus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -140,7 +141,7 @@ TEST(Remainder, ThatExplainsAllIsNoEvidenceForACause) {
 /// All that is seen is a level below that of the known particles: many causes lower it.
 TEST(Remainder, OfTheLevelAloneNamesNoCauseAlone) {
     Experiment experiment = sweeps_of([](double) { return level; }, 13);
-    const double stiffness = level / simulator().linear_modulus({}) * Settings{}.normal_stiffness;
+    const double stiffness = level / linear_modulus(simulator(), {}) * Settings{}.normal_stiffness;
     experiment.sample.normal_stiffness = 1.5 * stiffness;
     experiment.sample.normal_stiffness_error = 0.03;
     const Diagnosis found = diagnosed(experiment);

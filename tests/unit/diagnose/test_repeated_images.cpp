@@ -6,6 +6,7 @@
 
 #include "hidden_effects.hpp"
 #include "infer/candidate_measurements.hpp"
+#include "responses/imaged_centres.hpp"
 #include "support/reference_data.hpp"
 
 #include "observables/observations.hpp"
@@ -46,7 +47,7 @@ void expect_as_simulated(const Experiment& experiment, const Settings& settings)
     const auto seen = differences_in(experiment);
     ASSERT_EQ(seen.size(), 3U);
     for (const bool exact : {false, true}) {
-        const auto expected = simulator().repeated_images(settings, exact);
+        const auto expected = repeated_images(simulator(), settings, exact);
         for (std::size_t k = 0; k < 3; ++k) {
             EXPECT_NEAR(seen[k].value, expected[k], 3 * seen[k].standard_error + 0.01 * expected[k])
                 << observable_of(seen[k]) << (exact ? ", exact" : "");
@@ -90,7 +91,7 @@ TEST(RepeatedImages, MayDriftAsAWhole) {
 
 TEST(RepeatedImages, OfExactCentresAreExpectedToAgree) {
     for (const bool exact : {false, true}) {
-        EXPECT_EQ(simulator().repeated_images(Settings{}, exact), (std::array<double, 3>{0, 0, 0}));
+        EXPECT_EQ(repeated_images(simulator(), Settings{}, exact), (std::array<double, 3>{0, 0, 0}));
     }
 }
 

@@ -2,7 +2,9 @@
 #include "chain/forward.hpp"
 #include "hidden_effects.hpp"
 #include "infer/hypothesis.hpp"
+#include "responses/drag_response.hpp"
 #include "responses/drag_scatter.hpp"
+#include "responses/linear_modulus.hpp"
 
 #include <coagula/diagnose/model.hpp>
 #include <coagula/mechanics/frequency.hpp>
@@ -27,19 +29,19 @@ Settings with_drag(double reduced) {
 }
 
 TEST(SolventDrag, LosesInProportionToTheFrequency) {
-    const Complex slow = simulator().exact_drag_response(with_drag(1e-8), 1);
-    const Complex fast = simulator().exact_drag_response(with_drag(1e-8), 10);
+    const Complex slow = exact_drag_response(simulator(), with_drag(1e-8), 1);
+    const Complex fast = exact_drag_response(simulator(), with_drag(1e-8), 10);
     EXPECT_GT(slow.imag(), 1e-7);
     EXPECT_NEAR(fast.imag() / slow.imag(), 10, 0.1);
     EXPECT_NEAR(fast.real(), 1, 0.01 * fast.imag());
     // Slower where the softest motions no longer follow, but steeper than the springpots of contact-loss, exponent 0.3 at most.
     for (const double frequency : {1.0, 10.0, 100.0}) {
-        const double more = simulator().drag_response(with_drag(1e-6), 10 * frequency).imag() /
-                            simulator().drag_response(with_drag(1e-6), frequency).imag();
+        const double more = drag_response(simulator(), with_drag(1e-6), 10 * frequency).imag() /
+                            drag_response(simulator(), with_drag(1e-6), frequency).imag();
         EXPECT_GT(std::log10(more), 0.5) << frequency;
         EXPECT_LT(std::log10(more), 1.0 + 1e-9) << frequency;
     }
-    EXPECT_EQ(simulator().drag_response(Settings{}, 1), Complex(1));
+    EXPECT_EQ(drag_response(simulator(), Settings{}, 1), Complex(1));
 }
 
 /// Particles that the solvent carries with it move affinely.
@@ -53,7 +55,7 @@ TEST(SolventDrag, EndsAtTheAffineModulus) {
         relaxed += linear.mean_shear_modulus();
     }
     for (const double reduced : {100.0, 1e5}) {
-        const Complex response = simulator().drag_response(with_drag(reduced), 1);
+        const Complex response = drag_response(simulator(), with_drag(reduced), 1);
         EXPECT_NEAR(response.real() / (affine / relaxed), 1, 1e-3);
         EXPECT_LT(response.imag(), 0.01 * response.real());
     }
@@ -62,8 +64,8 @@ TEST(SolventDrag, EndsAtTheAffineModulus) {
 TEST(SolventDrag, CurveAgreesWithTheSolver) {
     for (const double reduced : logarithmic_steps(3e-7, 30, 9)) {
         const Settings settings = with_drag(reduced);
-        const Complex curve = simulator().drag_response(settings, 1);
-        const Complex solved = simulator().exact_drag_response(settings, 1);
+        const Complex curve = drag_response(simulator(), settings, 1);
+        const Complex solved = exact_drag_response(simulator(), settings, 1);
         EXPECT_LT(std::abs(curve - solved), 0.01 * std::abs(solved - 1.0)) << reduced;
     }
 }
@@ -71,8 +73,8 @@ TEST(SolventDrag, CurveAgreesWithTheSolver) {
 /// Sum of the squares of independent errors of the logarithm of the loss: their variance.
 double variance_of_loss(Simulator& some, const Settings& settings) {
     double sum = 0;
-    const Complex lost = some.drag_response(settings, 1) - 1.0;
-    const Eigen::RowVectorXcd excess = some.drag_excess(settings, 1);
+    const Complex lost = drag_response(some, settings, 1) - 1.0;
+    const Eigen::RowVectorXcd excess = drag_excess(some, settings, 1);
     for (const Complex error : excess.tail(excess.size() - 1)) {
         sum += std::pow((lost * error).imag() / lost.imag(), 2);
     }
@@ -155,7 +157,7 @@ TEST(SolventDrag, TheStructuresLeaveAnErrorThatHoldsOthers) {
         const Settings settings = with_drag(reduced);
         std::vector<double> lost;
         for (const auto& one : alone) {
-            lost.push_back(one->exact_linear_modulus({}) * one->drag_response(settings, 1).imag());
+            lost.push_back(exact_linear_modulus(*one, {}) * drag_response(*one, settings, 1).imag());
         }
         const double all = std::accumulate(lost.begin(), lost.end(), 0.0);
         const double relative = std::sqrt(variance_of_loss(pair, settings));
@@ -167,7 +169,7 @@ TEST(SolventDrag, TheStructuresLeaveAnErrorThatHoldsOthers) {
     }
     EXPECT_GT(std::sqrt(squares / count), 0.5);
     EXPECT_LT(std::sqrt(squares / count), 1.5);
-    EXPECT_GT(pair.drag_degrees(), 6);
+    EXPECT_GT(drag_degrees(pair), 6);
 }
 
 /// What is proposed may show nothing of the sample: an oil alone. The errors of the structures are the same ones all the same.
@@ -243,8 +245,8 @@ TEST(SolventDrag, IsExpectedAboveThatOfTheStructures) {
     const Eigen::VectorXd many = forward.predict(settings, Eigen::VectorXd::Zero(forward.errors_of(settings)));
     for (Eigen::Index row = 0; row < few.size(); ++row) {
         const Observation& one = rows[static_cast<std::size_t>(row)];
-        const Complex drag = simulator().drag_response(settings, one.angular_frequency) - 1.0;
-        const Complex excess = simulator().drag_excess(settings, one.angular_frequency)[0];
+        const Complex drag = drag_response(simulator(), settings, one.angular_frequency) - 1.0;
+        const Complex excess = drag_excess(simulator(), settings, one.angular_frequency)[0];
         EXPECT_GT(excess.real(), 0.03);  // half the variance of so many particles together
         const auto part = [&](Complex response) { return one.loss ? response.imag() : response.real(); };
         EXPECT_NEAR(many[row] / few[row], part(1.0 + drag * std::exp(excess)) / part(1.0 + drag), 1e-9);
@@ -257,7 +259,7 @@ TEST(SolventDrag, ErrorsTurnThePhaseAsStructuresDo) {
     Simulator one({structure(200, 1)}, {"alone 1"}, cache);
     Simulator other({structure(200, 2)}, {"alone 2"}, cache);
     const auto ratio = [&](double reduced) {
-        return std::log((one.drag_response(with_drag(reduced), 1) - 1.0) / (other.drag_response(with_drag(reduced), 1) - 1.0));
+        return std::log((drag_response(one, with_drag(reduced), 1) - 1.0) / (drag_response(other, with_drag(reduced), 1) - 1.0));
     };
     double product = 0;
     double square = 0;
@@ -265,7 +267,7 @@ TEST(SolventDrag, ErrorsTurnThePhaseAsStructuresDo) {
         const double turned = 0.25 * pi * (ratio(reduced * std::exp(1)).real() - ratio(reduced / std::exp(1)).real());
         product += turned * ratio(reduced).imag();
         square += turned * turned;
-        const auto excess = [&](double place) { return one.drag_excess(with_drag(place), 1); };
+        const auto excess = [&](double place) { return drag_excess(one, with_drag(place), 1); };
         const Eigen::RowVectorXd slope = (excess(1.02 * reduced) - excess(reduced / 1.02)).real() / (2 * std::log(1.02));
         EXPECT_LT((excess(reduced).imag() - 0.5 * pi * slope).norm(), 0.05 * slope.norm()) << reduced;
     }

@@ -1,5 +1,10 @@
 // Results that come from a file may have lost numbers; then they are simulated again.
 #include "hidden_effects.hpp"
+#include "responses/contact_response.hpp"
+#include "responses/drag_response.hpp"
+#include "responses/imaged_centres.hpp"
+#include "responses/linear_modulus.hpp"
+#include "responses/prestress_response.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,26 +33,26 @@ void expect_made_again(const Ask& ask) {
 }
 
 TEST(StoredResults, AreMadeAgainWhereNumbersAreLost) {
-    expect_made_again([](Simulator& simulator) { return simulator.exact_linear_modulus(Settings{}); });
+    expect_made_again([](Simulator& simulator) { return exact_linear_modulus(simulator, Settings{}); });
     expect_made_again([](Simulator& simulator) {
         Settings settings;
         settings.tension = 1e-3;
-        return simulator.exact_prestress_response(settings);
+        return prestress_response(simulator, settings, 0, true);
     });
     Settings dragged;
     dragged.felt_viscosity = 1e-3;
-    expect_made_again([&](Simulator& simulator) { return simulator.exact_drag_response(dragged, 1e3); });
-    expect_made_again([&](Simulator& simulator) { return simulator.drag_response(dragged, 1e3); });
+    expect_made_again([&](Simulator& simulator) { return exact_drag_response(simulator, dragged, 1e3); });
+    expect_made_again([&](Simulator& simulator) { return drag_response(simulator, dragged, 1e3); });
     expect_made_again([](Simulator& simulator) {
         Settings settings;
         settings.contact_preload = 1e-3;
-        return simulator.contact_secant(settings, 1e-3);
+        return contact_secant(simulator, settings, 1e-3);
     });
     expect_made_again([](Simulator& simulator) {
         Settings settings;
         settings.localisation_plane = 0.02 * 2 * simulator.radius();
         settings.localisation_axis = 0.04 * 2 * simulator.radius();
-        return simulator.repeated_images(settings, true);
+        return repeated_images(simulator, settings, true);
     });
 }
 

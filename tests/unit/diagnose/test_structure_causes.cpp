@@ -1,5 +1,8 @@
 // Structures that have another volume fraction, coordination or heterogeneity than the recipe says.
 #include "remade_structures.hpp"
+#include "responses/imaged_centres.hpp"
+#include "responses/linear_modulus.hpp"
+#include "responses/pore_response.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +32,7 @@ TEST(StructureChanges, NoneIsTheStructureAsItIs) {
     none.volume_fraction_change = 0;
     Recipe fresh;
     EXPECT_EQ(&fresh.simulator.remade({}), &fresh.simulator);
-    EXPECT_EQ(fresh.simulator.neighbours(none, any_shell), fresh.simulator.neighbours(Settings{}, any_shell));
+    EXPECT_EQ(neighbours(fresh.simulator, none, any_shell), neighbours(fresh.simulator, Settings{}, any_shell));
     EXPECT_EQ(fresh.made, 0);
 }
 
@@ -70,15 +73,15 @@ TEST(StructureChanges, ContactsFollowTheCoordination) {
     constexpr std::size_t contact_shell = 4;  // 0.95 to 1.05 diameters
     const double touching = neighbours_in(recipe().simulator, Settings{}, contact_shell);
     EXPECT_NEAR(neighbours_in(recipe().simulator, connected, contact_shell) - touching, 5.1 - 4.69, 0.25);
-    EXPECT_GT(recipe().simulator.linear_modulus(connected), 1.2 * recipe().simulator.linear_modulus(Settings{}));
+    EXPECT_GT(linear_modulus(recipe().simulator, connected), 1.2 * linear_modulus(recipe().simulator, Settings{}));
 }
 
 /// Fewer voids, larger pores.
 TEST(StructureChanges, PoresFollowTheVoids) {
     Settings few;
     few.voids = 0.125;
-    EXPECT_GT(recipe().simulator.exclusion_probability(few, 0.25e-6),
-              1.5 * recipe().simulator.exclusion_probability(Settings{}, 0.25e-6));
+    EXPECT_GT(exclusion_probability(recipe().simulator, few, 0.25e-6),
+              1.5 * exclusion_probability(recipe().simulator, Settings{}, 0.25e-6));
 }
 
 TEST(StructureCauses, ApplyWhereTheRecipeComesToAllOfTheirRange) {
@@ -200,7 +203,7 @@ TEST(StructureCauses, ALevelAloneIsNeverOneOfThem) {
     std::vector<std::complex<double>> moduli;
     for (int k = 0; k < 8; ++k) {
         sweep.columns[0].values.push_back(0.1 * std::pow(2, k));
-        moduli.emplace_back(1.3 * recipe().simulator.linear_modulus(connected), 0);
+        moduli.emplace_back(1.3 * linear_modulus(recipe().simulator, connected), 0);
     }
     add_moduli(sweep, moduli, 0.01, 69, false);
     experiment.measurements = {sweep};

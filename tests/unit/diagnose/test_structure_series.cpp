@@ -2,6 +2,8 @@
 // structures with other seeds than those that the diagnosis knows.
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
+#include "responses/amplitude_response.hpp"
+#include "responses/linear_modulus.hpp"
 
 #include <coagula/diagnose/power.hpp>
 #include <coagula/mechanics/quasistatic.hpp>
@@ -174,16 +176,16 @@ TEST(StructureError, IsTheScatterOfMeansOfDrawnStructures) {
     double mean = 0;
     double squared = 0;
     for (std::size_t group = 1; group <= 6; ++group) {
-        const double modulus = simulator.exact_linear_modulus({}, group);
+        const double modulus = exact_linear_modulus(simulator, {}, group);
         mean += modulus / 6;
         squared += modulus * modulus / 6;
     }
     const double observed = std::sqrt((squared - mean * mean) * 6 / 5) / mean;
     // Five degrees of freedom against eighteen: a ratio beyond these limits has a probability of 1 %.
-    EXPECT_GT(observed / simulator.structure_error(1), 0.25);
-    EXPECT_LT(observed / simulator.structure_error(1), 2.2);
-    const double all = simulator.structure_error(0) * simulator.exact_linear_modulus({}, 0);
-    EXPECT_NEAR(all / (simulator.structure_error(1) * simulator.exact_linear_modulus({}, 1)), std::sqrt(4.0 / 24), 1e-12);
+    EXPECT_GT(observed / structure_error(simulator, 1), 0.25);
+    EXPECT_LT(observed / structure_error(simulator, 1), 2.2);
+    const double all = structure_error(simulator, 0) * exact_linear_modulus(simulator, {}, 0);
+    EXPECT_NEAR(all / (structure_error(simulator, 1) * exact_linear_modulus(simulator, {}, 1)), std::sqrt(4.0 / 24), 1e-12);
 }
 
 /// Two sets of four structures: how far their mean curves of breaking bonds are apart, over the errors that both state.
@@ -193,7 +195,7 @@ TEST(StructureError, GroupsNeedNotFollowEachOther) {
         SimulationCache cache;
         Simulator some({structure(64, 1), structure(64, 2), structure(64, 3), structure(64, 4)}, {"a", "b", "c", "d"}, cache, {},
                        {1, 1, last, last});
-        return some.structure_error(last);
+        return structure_error(some, last);
     };
     EXPECT_GT(error_of_last(2), 0);
     EXPECT_EQ(error_of_last(7), error_of_last(2));
@@ -218,7 +220,8 @@ TEST(StructureError, IsWhatMeanCurvesOfYieldDifferBy) {
     double parts = 0;
     for (double load = 1.5; load <= 8; load += 0.5) {
         const auto at = [&](Simulator& simulator) {
-            return simulator.amplitude_response(settings, (load - 0.5) * settings.critical_strain, load * settings.critical_strain);
+            return amplitude_response(simulator, settings, (load - 0.5) * settings.critical_strain,
+                                      load * settings.critical_strain);
         };
         std::complex<double> variance = 0;  // of G' and of G''
         for (Simulator* simulator : {&one, &other}) {
@@ -242,7 +245,8 @@ TEST(StructureError, OfYieldIsNotKnownOfOneStructure) {
     SimulationCache cache;
     Settings settings;
     settings.critical_strain = 1e-4;
-    EXPECT_EQ(Simulator({structure(64, 1)}, {"one"}, cache).amplitude_response(settings, 0, 2e-4).size(), 1);
+    Simulator alone({structure(64, 1)}, {"one"}, cache);
+    EXPECT_EQ(amplitude_response(alone, settings, 0, 2e-4).size(), 1);
 }
 
 /// A level of the modulus within what so few structures leave open is no discrepancy where the stiffness is known, one far beyond
@@ -257,7 +261,7 @@ TEST(StructureError, OfTheLevelCountsWhereTheStiffnessIsKnown) {
     Settings truth;
     truth.normal_stiffness = 40;
     const auto is_found = [&](double departure, double sample_effect) {
-        const double modulus = simulator.exact_linear_modulus(truth) * std::exp(departure * simulator.structure_error());
+        const double modulus = exact_linear_modulus(simulator, truth) * std::exp(departure * structure_error(simulator));
         Measurement table;
         table.label = "sweep";
         table.sample = "sample";
@@ -277,7 +281,7 @@ TEST(StructureError, OfTheLevelCountsWhereTheStiffnessIsKnown) {
         options.noise.sample = sample_effect;
         return diagnose(experiment, simulator, options).detected;
     };
-    ASSERT_GT(simulator.structure_error(), 0.05) << "the known stiffness itself is hardly better known";
+    ASSERT_GT(structure_error(simulator), 0.05) << "the known stiffness itself is hardly better known";
     for (const double sample_effect : {0.01, 0.0}) {
         EXPECT_FALSE(is_found(-1, sample_effect));
         EXPECT_FALSE(is_found(1, sample_effect));

@@ -1,6 +1,7 @@
 // Structures that coagulated at another surface potential: what it does to them, and whether it is found in their pores.
 #include "observables/pore_curves.hpp"
 #include "remade_structures.hpp"
+#include "responses/pore_response.hpp"
 
 #include <coagula/characterize/heterogeneity.hpp>
 #include <coagula/generators/brownian_dynamics.hpp>
@@ -84,16 +85,16 @@ TEST(SurfacePotential, ABarrierMakesStructuresMoreHeterogeneous) {
 
 TEST(SurfacePotential, PoresFollowThePotential) {
     Simulator& recipe = recipe_without_barrier();
-    const double none = recipe.exclusion_probability(Settings{}, coagulated_radius);
-    const double high = recipe.exclusion_probability(at(0.015), coagulated_radius);
-    EXPECT_NEAR(high, recipe.remade({.surface_potential = 0.015}).exclusion_probability(Settings{}, coagulated_radius), 1e-12);
-    EXPECT_GT(high, none + recipe.pore_errors({}, {coagulated_radius}).norm() / std::sqrt(2));  // of two structures
+    const double none = exclusion_probability(recipe, Settings{}, coagulated_radius);
+    const double high = exclusion_probability(recipe, at(0.015), coagulated_radius);
+    EXPECT_NEAR(high, exclusion_probability(recipe.remade({.surface_potential = 0.015}), Settings{}, coagulated_radius), 1e-12);
+    EXPECT_GT(high, none + pore_errors(recipe, {}, {coagulated_radius}).norm() / std::sqrt(2));  // of two structures
     // Behind a barrier structures scatter more.
-    EXPECT_GT(recipe.pore_errors({.surface_potential = 0.015}, {coagulated_radius}).norm(),
-              1.2 * recipe.pore_errors({}, {coagulated_radius}).norm());
+    EXPECT_GT(pore_errors(recipe, {.surface_potential = 0.015}, {coagulated_radius}).norm(),
+              1.2 * pore_errors(recipe, {}, {coagulated_radius}).norm());
     // Without a barrier there is nothing to feel.
-    EXPECT_EQ(recipe.exclusion_probability(at(0.001), coagulated_radius),
-              recipe.exclusion_probability(at(0.008), coagulated_radius));
+    EXPECT_EQ(exclusion_probability(recipe, at(0.001), coagulated_radius),
+              exclusion_probability(recipe, at(0.008), coagulated_radius));
 }
 
 TEST(SurfacePotential, AppliesWhereStructuresCoagulate) {

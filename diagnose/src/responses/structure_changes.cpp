@@ -1,13 +1,9 @@
 // Causes that change the structures themselves: the same simulation with structures made again.
-#include <coagula/common/checks.hpp>
-#include <coagula/diagnose/simulator.hpp>
+#include "structure_changes.hpp"
 
-#include "cache_key.hpp"
 #include "interpolation.hpp"
 
 #include <cmath>
-#include <memory>
-#include <utility>
 
 namespace coagula::diagnose {
 
@@ -53,41 +49,13 @@ Value asked_over_changes(Simulator& simulator, const StructureChange& change, co
 
 }  // namespace
 
-void Simulator::use(OtherStages stages) {
-    stages_ = std::move(stages);
+double over_changes(Simulator& simulator, const StructureChange& change, const std::function<double(Simulator&)>& asked) {
+    return asked_over_changes(simulator, change, asked);
 }
 
-Simulator& Simulator::remade(const StructureChange& change) {
-    if (change == StructureChange{}) {
-        return *this;
-    }
-    std::unique_ptr<Simulator>& other = remade_[change];
-    if (other) {
-        return *other;
-    }
-    require(stages_.make && stages_.name, "only structures that a recipe made can be made again");
-    std::vector<std::string> names;
-    std::vector<std::size_t> particles;
-    for (std::size_t k = 0; k < structures_.size(); ++k) {
-        names.push_back(names_[k] + " remade: " + stages_.name(k, change));
-        particles.push_back(structures_.particles(k));
-    }
-    const auto make = [this, change](std::size_t structure) {
-        progress_.update("simulating", 0.0, "structures made again");
-        return stages_.make(structure, change);
-    };
-    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): std::make_unique cannot call a private constructor
-    other.reset(new Simulator(Structures(std::move(particles), make), std::move(names), cache_, progress_, groups_, radius_));
-    other->stages_.measure_pores = stages_.measure_pores;
-    return *other;
-}
-
-double Simulator::over_changes(const StructureChange& change, const std::function<double(Simulator&)>& asked) {
-    return asked_over_changes(*this, change, asked);
-}
-
-Eigen::MatrixXd Simulator::over_changes(const StructureChange& change, const std::function<Eigen::MatrixXd(Simulator&)>& asked) {
-    return asked_over_changes(*this, change, asked);
+Eigen::MatrixXd over_changes(Simulator& simulator, const StructureChange& change,
+                             const std::function<Eigen::MatrixXd(Simulator&)>& asked) {
+    return asked_over_changes(simulator, change, asked);
 }
 
 }  // namespace coagula::diagnose
