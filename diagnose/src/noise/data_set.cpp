@@ -16,7 +16,9 @@ namespace {
 
 constexpr std::size_t fewest_observations = 5;
 constexpr std::size_t most_observations = 3000;  ///< covariances of more take many minutes and say little more
-constexpr double least_error = 1e-4;             ///< of a number over it: what no instrument reads better
+constexpr double usual_storage_error = 0.03;     ///< of a number over it, where its table has no error
+constexpr double usual_loss_error = 0.05;
+constexpr double least_error = 1e-4;  ///< of a number over it: what no instrument reads better
 
 /// For each number the one of the same row that its error is turned towards, -1 if there is none.
 std::vector<Index> partners_of(const std::vector<Observation>& observations) {
@@ -166,9 +168,8 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         const Observation& one = data.observations[k];
         const auto row = static_cast<Index>(k);
         data.values[row] = one.value;
-        const double stated = one.loss ? std::hypot(noise.loss_floor, noise.loss_relative * one.value)
-                                       : std::hypot(noise.storage_floor, noise.storage_relative * one.value);
-        deviation[row] = std::isfinite(one.standard_error) ? one.standard_error : stated;
+        const double usual = (one.loss ? usual_loss_error : usual_storage_error) * std::abs(one.value);
+        deviation[row] = std::isfinite(one.standard_error) ? one.standard_error : usual;
         if (deviation[row] > 0) {
             deviation[row] = std::max(deviation[row], least_error * std::abs(one.value));
         }

@@ -63,14 +63,9 @@ struct NoiseOptions {
     double least_range = 3;
 };
 
-/// Standard deviations of G' and G'': of a row sqrt(floor^2 + (relative x level)^2), and the factor of a sample. Rows whose table
-/// states a standard error use that.
+/// Effect of a sample on the level of its material.
 struct NoiseSettings {
-    double storage_floor = 0;  ///< [Pa]
-    double storage_relative = 0.03;
-    double loss_floor = 0;  ///< [Pa]
-    double loss_relative = 0.05;
-    double sample = 0.1;
+    double sample = 0.1;                                              ///< standard deviation of the factor, less 1
     double sample_degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which `sample` was estimated
 };
 
