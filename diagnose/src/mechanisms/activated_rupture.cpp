@@ -5,8 +5,8 @@ namespace coagula::diagnose::mechanisms {
 namespace {
 
 /// At one frequency bonds of any law break at one force, which is bond-strength.
-bool sweeps_strain_at_two_rates(const Experiment& experiment) {
-    return differs(experiment, [](const Measurement& table, std::size_t row) {
+bool sweeps_strain_at_two_rates(const Knows& knows) {
+    return differs(knows.experiment, [](const Measurement& table, std::size_t row) {
         return varies(table, "strain") ? angular_frequency(table, row) : unset;
     });
 }

@@ -20,12 +20,13 @@ Mechanism ageing() {
             .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample&) -> std::complex<double> {
                 return std::isfinite(row.age) ? 1 + values[0] * std::log10(1 + row.age / start) : 1;
             }},
-            .applies = takes_time,
+            .applies = [](const Knows& knows) { return knows.clock; },
             .in_contact = true,
-            .contact = [](ContactModel& model, Values values) {
-                model.ageing_rate = values[0] / std::numbers::ln10;
-                model.ageing_time = start;
-            }};
+            .contact =
+                [](ContactModel& model, Values values) {
+                    model.ageing_rate = values[0] / std::numbers::ln10;
+                    model.ageing_time = start;
+                }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

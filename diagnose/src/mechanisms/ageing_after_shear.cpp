@@ -12,7 +12,7 @@ Mechanism ageing_after_shear() {
             .signature = "The moduli follow the time since the shear, not the strain, over orders of magnitude.",
             .parameters = {{"build_up_exponent", "1", 0.1, 3, true}, {"build_up_time", "s", 1, 1000, true}},
             .effect = ScalesMaterial{power_of_age},
-            .applies = is_sheared_before};
+            .applies = [](const Knows& knows) { return knows.shear_before; }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

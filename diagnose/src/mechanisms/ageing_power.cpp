@@ -4,8 +4,8 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-bool builds_up_unsheared(const Experiment& experiment) {
-    return takes_time(experiment) && !is_sheared_before(experiment);
+bool builds_up_unsheared(const Knows& knows) {
+    return knows.clock && !knows.shear_before;
 }
 
 }  // namespace

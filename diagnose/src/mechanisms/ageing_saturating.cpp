@@ -19,7 +19,7 @@ Mechanism ageing_saturating() {
             .signature = "The moduli grow with the age of the sample, whatever the strain, and reach a final value.",
             .parameters = {{"growth", "1", 0.3, 1000, true}, {"setting_time", "s", 60, 1e5, true}},
             .effect = ScalesMaterial{saturating},
-            .applies = takes_time};
+            .applies = [](const Knows& knows) { return knows.clock; }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -15,9 +15,7 @@ Mechanism bearing_damping() {
                 return std::isfinite(frequency) ? modulus + std::complex<double>(0, values[0] * frequency / row.torque_per_modulus)
                                                 : modulus;
             }},
-            .applies = [](const Experiment& experiment) {
-                return knows_tool(experiment) && (knows_frequency(experiment) || flows(experiment));
-            }};
+            .applies = [](const Knows& knows) { return knows.torque && (knows.frequency || knows.flow); }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

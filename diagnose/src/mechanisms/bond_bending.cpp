@@ -8,7 +8,7 @@ Mechanism bond_bending() {
             .signature = "The moduli are higher, most where the coordination is low.",
             .parameters = {{"bending_over_normal", "1", 1e-6, 0.1, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.bending_ratio = values[0]; }},
-            .applies = has_moduli,
+            .applies = [](const Knows& knows) { return knows.moduli; },
             .in_contact = true};
 }
 

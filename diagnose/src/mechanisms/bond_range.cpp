@@ -8,7 +8,7 @@ Mechanism bond_range() {
             .signature = "Coordination and modulus are higher together, or lower together.",
             .parameters = {{"tolerance", "1", 1e-3, 0.05, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.bond_tolerance = values[0]; }},
-            .applies = has_moduli};
+            .applies = [](const Knows& knows) { return knows.moduli; }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

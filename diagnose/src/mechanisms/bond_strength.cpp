@@ -12,7 +12,7 @@ Mechanism bond_strength() {
             .effect = ChangesSimulation{[](Settings& settings, Values values) {
                 settings.critical_strain = std::min(settings.critical_strain, values[0]);
             }},
-            .applies = sweeps_amplitude,
+            .applies = [](const Knows& knows) { return knows.strain; },
             .in_contact = true};
 }
 

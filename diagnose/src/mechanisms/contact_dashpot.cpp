@@ -17,7 +17,7 @@ Mechanism contact_dashpot() {
                 "relaxation time.",
             .parameters = {{"dashpot_time", "s", 1e-6, 1, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.dashpot_time = values[0]; }},
-            .applies = knows_frequency,
+            .applies = [](const Knows& knows) { return knows.frequency; },
             .in_contact = true};
 }
 

@@ -11,7 +11,7 @@ Mechanism contact_loss() {
                 settings.springpot_ratio = values[0];
                 settings.springpot_exponent = values[1];
             }},
-            .applies = knows_frequency,
+            .applies = [](const Knows& knows) { return knows.frequency; },
             .in_contact = true};
 }
 

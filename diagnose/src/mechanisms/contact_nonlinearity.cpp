@@ -10,7 +10,7 @@ Mechanism contact_nonlinearity() {
                 "at rest. It is the same on the way down in strain as on the way up, whatever the age.",
             .parameters = {{"preload_overlap", "1", 1e-7, 3e-2, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.contact_preload = values[0]; }},
-            .applies = sweeps_amplitude,
+            .applies = [](const Knows& knows) { return knows.strain; },
             .in_contact = true};
 }
 

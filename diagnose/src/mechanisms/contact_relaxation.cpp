@@ -16,7 +16,7 @@ Mechanism contact_relaxation() {
                 settings.relaxing_ratio = values[0];
                 settings.relaxation_time = values[1];
             }},
-            .applies = knows_frequency,
+            .applies = [](const Knows& knows) { return knows.frequency; },
             .in_contact = true};
 }
 

@@ -1,12 +1,13 @@
 #include "mechanisms.hpp"
+#include "recipes.hpp"
 
 namespace coagula::diagnose::mechanisms {
 
 namespace {
 
 /// Void expansion comes to all coordinations of the range there. Coagulation comes to the upper ones after minutes only.
-bool can_be_aimed_at(const Experiment& experiment) {
-    return sees_void_expansion(experiment) && states_volume_fraction(experiment, 0.3, 0.5) && has_few_voids(*experiment.recipe);
+bool can_be_aimed_at(const Knows& knows) {
+    return sees_void_expansion(knows) && states_volume_fraction(knows, 0.3, 0.5) && has_few_voids(*knows.experiment.recipe);
 }
 
 }  // namespace

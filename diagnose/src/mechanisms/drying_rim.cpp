@@ -14,8 +14,8 @@ std::complex<double> with_skin(std::complex<double> modulus, const Observation& 
     return modulus + moment * values[0] * row.time / row.plate_radius;
 }
 
-bool has_open_rim(const Experiment& experiment) {
-    return knows_radius(experiment) && takes_time(experiment);
+bool has_open_rim(const Knows& knows) {
+    return knows.radius && knows.clock;
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ std::complex<double> fractured(std::complex<double> modulus, const Observation& 
     return modulus * std::max(share, least_share);
 }
 
-bool strains_far(const Experiment& experiment) {
-    return any_measurement(experiment, [](const Measurement& table) {
+bool strains_far(const Knows& knows) {
+    return any_measurement(knows.experiment, [](const Measurement& table) {
         const Column* strain = find_column(table, "strain");
         return strain != nullptr &&
                std::any_of(strain->values.begin(), strain->values.end(), [](double value) { return value > least_strain; });

@@ -17,8 +17,8 @@ std::complex<double> concentrated(const Observation& row, Values values, const S
     return std::pow(left, -values[1]);
 }
 
-bool dries(const Experiment& experiment) {
-    return takes_time(experiment) && experiment.instrument.geometry != Geometry::concentric_cylinders;
+bool dries(const Knows& knows) {
+    return knows.clock && knows.experiment.instrument.geometry != Geometry::concentric_cylinders;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Mechanism gap_error() {
             .effect = ChangesGeometry{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return std::isfinite(row.gap) ? modulus * row.gap / std::max(row.gap + values[0], narrowest * row.gap) : modulus;
             }},
-            .applies = [](const Experiment& experiment) { return knows_gap(experiment) && shows_geometry(experiment); }};
+            .applies = [](const Knows& knows) { return knows.gap && knows.geometry; }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -1,13 +1,14 @@
 #include "mechanisms.hpp"
+#include "recipes.hpp"
 
 namespace coagula::diagnose::mechanisms {
 
 namespace {
 
 /// Void expansion comes to the coordination there, with all numbers of voids of the range.
-bool can_have_other_voids(const Experiment& experiment) {
-    return sees_void_expansion(experiment) && states_volume_fraction(experiment, 0.35, 0.45) &&
-           has_usual_coordination(*experiment.recipe);
+bool can_have_other_voids(const Knows& knows) {
+    return sees_void_expansion(knows) && states_volume_fraction(knows, 0.35, 0.45) &&
+           has_usual_coordination(*knows.experiment.recipe);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ std::complex<double> relaxed(const Observation& row, Values values, const Simula
 }
 
 /// A shear that destroys the structure takes the load with it. A normal force that was recorded says what the load does.
-bool rests_after_filling(const Experiment& experiment) {
-    return takes_time(experiment) && !is_sheared_before(experiment) && !knows_load(experiment);
+bool rests_after_filling(const Knows& knows) {
+    return knows.clock && !knows.shear_before && !knows.load;
 }
 
 }  // namespace

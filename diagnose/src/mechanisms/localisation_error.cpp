@@ -4,8 +4,8 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-bool has_coordinates(const Experiment& experiment) {
-    return any_measurement(experiment, [](const Measurement& table) { return table.kind == MeasurementKind::coordinates; });
+bool has_coordinates(const Knows& knows) {
+    return any_measurement(knows.experiment, [](const Measurement& table) { return table.kind == MeasurementKind::coordinates; });
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <coagula/diagnose/mechanism.hpp>
 
+#include "data/knows.hpp"
+
 #include <coagula/common/checks.hpp>
 #include <coagula/common/spelling.hpp>
 
@@ -100,7 +102,7 @@ bool can_act(const Mechanism& mechanism, const Experiment& experiment) {
         std::holds_alternative<ChangesGeometry>(mechanism.effect) || std::holds_alternative<ChangesTool>(mechanism.effect);
     const MaterialKind kind = experiment.material.kind;
     const bool can = of_instrument || kind == MaterialKind::network || (kind == MaterialKind::newtonian && mechanism.in_any_fluid);
-    return can && mechanism.applies(experiment);
+    return can && mechanism.applies(knowledge_of(experiment));
 }
 
 const Mechanism* find_mechanism(const std::string& name) {

@@ -7,10 +7,10 @@ namespace coagula::diagnose::mechanisms {
 namespace {
 
 /// Where the level is open and all rows have one structure, nothing shows a factor.
-bool shows_level_or_structures(const Experiment& experiment) {
+bool shows_level_or_structures(const Knows& knows) {
     const bool series =
-        any_measurement(experiment, [](const Measurement& table) { return table.kind == MeasurementKind::structure_series; });
-    return has_moduli(experiment) && (std::isfinite(known_scale(experiment).value) || series);
+        any_measurement(knows.experiment, [](const Measurement& table) { return table.kind == MeasurementKind::structure_series; });
+    return knows.moduli && (std::isfinite(known_scale(knows.experiment).value) || series);
 }
 
 }  // namespace

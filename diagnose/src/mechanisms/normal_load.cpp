@@ -21,31 +21,11 @@ std::complex<double> pressed(std::complex<double> modulus, const Observation& ro
     return modulus * (1 + pressure / 3 / (1 + unevenness * pressure));
 }
 
-/// Of a sample that is sheared to and fro.
-bool shows_moduli(const Measurement& table) {
-    const bool moduli = find_column(table, "storage_modulus") != nullptr || find_column(table, "loss_modulus") != nullptr;
-    return moduli && table.kind != MeasurementKind::structure_series && std::isnan(table.fluid_viscosity);
-}
-
-bool shows_load(const Experiment& experiment) {
-    return knows_radius(experiment) && experiment.material.kind != MaterialKind::newtonian && knows_load(experiment);
+bool shows_load(const Knows& knows) {
+    return knows.radius && knows.experiment.material.kind != MaterialKind::newtonian && knows.load;
 }
 
 }  // namespace
-
-bool knows_load(const Experiment& experiment) {
-    std::set<double> forces;
-    for (const Measurement& table : experiment.measurements) {
-        for (std::size_t row = 0; shows_moduli(table) && row < table.rows(); ++row) {
-            const double force = cell(table, "normal_force", row);
-            if (!std::isfinite(force)) {
-                return false;
-            }
-            forces.insert(force);
-        }
-    }
-    return forces.size() > 1;
-}
 
 /// Coagulated spheres of 0.5 um whose contacts hold 0.1 to 20 nN are pressed by their adhesion as by 0.2 to 50 kPa: volume fraction
 /// x coordination x force / (pi d^2) (Rumpf 1970), more where they are smaller. The modulus of a packing goes as the cube root of

@@ -8,9 +8,9 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-bool compares_sizes(const Experiment& experiment) {
-    const std::set<std::size_t> sizes(experiment.structure_sizes.begin(), experiment.structure_sizes.end());
-    return sizes.size() > 1 && !experiment.structure_groups.empty();
+bool compares_sizes(const Knows& knows) {
+    const std::set<std::size_t> sizes(knows.experiment.structure_sizes.begin(), knows.experiment.structure_sizes.end());
+    return sizes.size() > 1 && !knows.experiment.structure_groups.empty();
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ Mechanism phase_offset() {
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return is_steady(row) ? modulus : modulus * std::polar(1.0, values[0]);
             }},
-            .applies = [](const Experiment& experiment) {
-                return any_measurement(experiment,
+            .applies = [](const Knows& knows) {
+                return any_measurement(knows.experiment,
                                        [](const Measurement& table) { return find_column(table, "loss_modulus") != nullptr; });
             }};
 }

@@ -9,9 +9,9 @@ bool varies_strain(const Measurement& table) {
     return varies(table, "strain") && find_column(table, "storage_modulus") != nullptr && std::isnan(table.cone_angle);
 }
 
-bool sweeps_between_plates(const Experiment& experiment) {
-    const auto& geometry = experiment.instrument.geometry;
-    return any_measurement(experiment, varies_strain) && geometry && *geometry == Geometry::plate_plate;
+bool sweeps_between_plates(const Knows& knows) {
+    const auto& geometry = knows.experiment.instrument.geometry;
+    return any_measurement(knows.experiment, varies_strain) && geometry && *geometry == Geometry::plate_plate;
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ Mechanism polydispersity() {
                 "does not.",
             .parameters = {{"relative_size_deviation", "1", 0.02, 0.4, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.size_deviation = values[0]; }},
-            .applies = sees_recipe};
+            .applies = [](const Knows& knows) { return knows.recipe; }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -18,10 +18,10 @@ bool changes_gap(const Measurement& table) {
     return varies(table, "gap") && !std::isfinite(table.fluid_viscosity);
 }
 
-bool drains(const Experiment& experiment) {
-    const bool plates = experiment.instrument.geometry.value_or(Geometry::plate_plate) == Geometry::plate_plate;
-    return plates && knows_gap(experiment) && takes_time(experiment) && experiment.material.kind != MaterialKind::newtonian &&
-           !any_measurement(experiment, changes_gap);
+bool drains(const Knows& knows) {
+    const bool plates = knows.experiment.instrument.geometry.value_or(Geometry::plate_plate) == Geometry::plate_plate;
+    return plates && knows.gap && knows.clock && knows.experiment.material.kind != MaterialKind::newtonian &&
+           !any_measurement(knows.experiment, changes_gap);
 }
 
 }  // namespace

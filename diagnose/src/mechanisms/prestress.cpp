@@ -10,7 +10,7 @@ Mechanism prestress() {
             .signature = "The moduli are higher, most where the coordination is low, at all strains and frequencies alike.",
             .parameters = {{"tension_over_stiffness", "1", 1e-4, 1e-2, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.tension = values[0]; }},
-            .applies = has_moduli,
+            .applies = [](const Knows& knows) { return knows.moduli; },
             .in_contact = true};
 }
 

@@ -10,9 +10,16 @@ std::complex<double> filled(std::complex<double> modulus, const Observation& row
     return std::isfinite(row.plate_radius) ? modulus * std::pow(1 + values[0] / row.plate_radius, power) : modulus;
 }
 
+bool differ_in_radius(const Experiment& experiment) {
+    return differs(experiment, [&](const Measurement& table, std::size_t row) {
+        const double own = cell(table, "plate_radius", row);
+        return std::isnan(own) ? experiment.instrument.plate_radius : own;
+    });
+}
+
 /// Alone it is a level: plates of several radii show it, or a modulus that is known.
-bool shows_radius(const Experiment& experiment) {
-    return knows_radius(experiment) && (differ_in_radius(experiment) || knows_level(experiment));
+bool shows_radius(const Knows& knows) {
+    return knows.radius && (differ_in_radius(knows.experiment) || knows.level);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ std::complex<double> softened(const Observation& row, Values values, const Simul
 }
 
 /// At one strain the same law is a share of the modulus and a constant loss, which anything can be.
-bool strains_differ(const Experiment& experiment) {
-    return differs(experiment, [](const Measurement& table, std::size_t row) { return cell(table, "strain", row); });
+bool strains_differ(const Knows& knows) {
+    return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "strain", row); });
 }
 
 }  // namespace

@@ -21,13 +21,13 @@ Complex with_waves(Complex modulus, const Observation& row, Values values) {
 }
 
 /// Somewhere a sample of twice the density of water would lose a thousandth of its modulus.
-bool shows_waves(const Experiment& experiment) {
+bool shows_waves(const Knows& knows) {
     constexpr double density = 2000;
     constexpr double visible = 1e-3;
-    for (const Measurement& table : experiment.measurements) {
+    for (const Measurement& table : knows.experiment.measurements) {
         for (std::size_t row = 0; row < table.rows() && std::isnan(table.cone_angle); ++row) {
             const double own = cell(table, "gap", row);
-            const double gap = std::isnan(own) ? experiment.instrument.gap : own;
+            const double gap = std::isnan(own) ? knows.experiment.instrument.gap : own;
             const double storage = cell(table, "storage_modulus", row);
             const double size = std::hypot(std::isnan(storage) ? 0.0 : storage, cell(table, "loss_modulus", row));
             if (density * std::pow(angular_frequency(table, row) * gap, 2) / 3 > visible * size) {

@@ -8,8 +8,8 @@ std::complex<double> settling(const Observation& row, Values values, const Simul
     return std::isfinite(row.time) ? settled_layers(row, -values[0] * std::expm1(-row.time / values[1]), sample) : 1;
 }
 
-bool settles_in_time(const Experiment& experiment) {
-    return can_settle_between_plates(experiment) && takes_time(experiment);
+bool settles_in_time(const Knows& knows) {
+    return can_settle_between_plates(knows) && knows.clock;
 }
 
 }  // namespace

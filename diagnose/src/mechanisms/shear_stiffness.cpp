@@ -8,7 +8,7 @@ Mechanism shear_stiffness() {
             .signature = "All moduli change by nearly one factor, which depends a little on the coordination.",
             .parameters = {{"shear_over_normal", "1", 0.05, 1, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.stiffness_ratio = values[0]; }},
-            .applies = has_moduli,
+            .applies = [](const Knows& knows) { return knows.moduli; },
             .in_contact = true};
 }
 

@@ -14,7 +14,7 @@ Mechanism solvent_drag() {
                 "them.",
             .parameters = {{"felt_viscosity", "Pa.s", 1e-3, 100, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.felt_viscosity = values[0]; }},
-            .applies = knows_frequency,
+            .applies = [](const Knows& knows) { return knows.frequency; },
             .in_contact = true};
 }
 

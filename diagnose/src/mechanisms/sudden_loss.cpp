@@ -24,11 +24,12 @@ bool only_strains_more(const Measurement& table) {
 }
 
 /// What gives way while the strain grows may have yielded: networks have a law for that, a material without a model has none.
-bool is_told_from_yielding(const Experiment& experiment) {
-    if (experiment.material.kind != MaterialKind::smooth) {
-        return any_measurement(experiment, has_many_rows);
+bool is_told_from_yielding(const Knows& knows) {
+    if (knows.experiment.material.kind != MaterialKind::smooth) {
+        return any_measurement(knows.experiment, has_many_rows);
     }
-    return any_measurement(experiment, [](const Measurement& table) { return has_many_rows(table) && !only_strains_more(table); });
+    return any_measurement(knows.experiment,
+                           [](const Measurement& table) { return has_many_rows(table) && !only_strains_more(table); });
 }
 
 }  // namespace

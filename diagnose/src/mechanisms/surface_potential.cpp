@@ -10,9 +10,9 @@ namespace {
 constexpr double highest_potential = 0.015;  // V
 constexpr double largest_radius = 0.26e-6;   // m
 
-bool coagulates(const Experiment& experiment) {
-    return sees_recipe(experiment) && experiment.recipe->generator == "brownian" &&
-           experiment.sample.particle_radius <= largest_radius;
+bool coagulates(const Knows& knows) {
+    return knows.recipe && knows.experiment.recipe->generator == "brownian" &&
+           knows.experiment.sample.particle_radius <= largest_radius;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Mechanism temperature_drift() {
                 "shows it too.",
             .parameters = {{"start_difference", "1", -0.3, 0.3, false}, {"settling_time", "s", 60, 3000, true}},
             .effect = ScalesMaterial{drifting},
-            .applies = takes_time,
+            .applies = [](const Knows& knows) { return knows.clock; },
             .in_any_fluid = true};
 }
 

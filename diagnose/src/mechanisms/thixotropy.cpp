@@ -38,9 +38,9 @@ std::complex<double> left_by_shear(const Observation& row, Values values, const 
     return thinned_response(sample.simulator, 1 - share, row.structures);
 }
 
-bool shears_in_time(const Experiment& experiment) {
+bool shears_in_time(const Knows& knows) {
     const auto shears = [](const Measurement& table) { return find_column(table, "strain") != nullptr; };
-    return takes_time(experiment) && knows_frequency(experiment) && any_measurement(experiment, shears);
+    return knows.clock && knows.frequency && any_measurement(knows.experiment, shears);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ Mechanism tool_compliance() {
                 }
                 return modulus / (1.0 + values[0] * row.torque_per_modulus * modulus);
             }},
-            .applies = [](const Experiment& experiment) { return knows_tool(experiment) && shows_geometry(experiment); }};
+            .applies = [](const Knows& knows) { return knows.torque && knows.geometry; }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -13,7 +13,7 @@ Mechanism tool_inertia() {
                 const double frequency = row.angular_frequency;
                 return std::isfinite(frequency) ? modulus - values[0] * frequency * frequency / row.torque_per_modulus : modulus;
             }},
-            .applies = knows_tool_and_frequencies};
+            .applies = [](const Knows& knows) { return knows.torque && knows.frequency; }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

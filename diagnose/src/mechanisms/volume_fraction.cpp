@@ -1,4 +1,5 @@
 #include "mechanisms.hpp"
+#include "recipes.hpp"
 
 namespace coagula::diagnose::mechanisms {
 
@@ -8,11 +9,10 @@ constexpr double quick_potential = 0.012;  // V: above it coagulation takes minu
 
 /// Void expansion reaches its coordination from a volume fraction of 0.3 on, and has more contacts before any void has grown from
 /// 0.53 on.
-bool can_be_diluted(const Experiment& experiment) {
-    return sees_recipe(experiment) && states_volume_fraction(experiment, 0.355, 0.455) &&
-           has_usual_coordination(*experiment.recipe) &&
-           (sees_void_expansion(experiment) ? has_few_voids(*experiment.recipe)
-                                            : experiment.recipe->surface_potential <= quick_potential);
+bool can_be_diluted(const Knows& knows) {
+    return knows.recipe && states_volume_fraction(knows, 0.355, 0.455) && has_usual_coordination(*knows.experiment.recipe) &&
+           (sees_void_expansion(knows) ? has_few_voids(*knows.experiment.recipe)
+                                       : knows.experiment.recipe->surface_potential <= quick_potential);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 namespace coagula::diagnose::mechanisms {
 
-bool can_settle_between_plates(const Experiment& experiment) {
-    const bool plates = experiment.instrument.geometry.value_or(Geometry::plate_plate) == Geometry::plate_plate;
-    return plates && knows_gap(experiment) && differ_in_volume_fraction(experiment.structure_volume_fractions);
+bool can_settle_between_plates(const Knows& knows) {
+    const bool plates = knows.experiment.instrument.geometry.value_or(Geometry::plate_plate) == Geometry::plate_plate;
+    return plates && knows.gap && differ_in_volume_fraction(knows.experiment.structure_volume_fractions);
 }
 
 std::complex<double> settled_layers(const Observation& row, double difference, const SimulatedSample& sample) {

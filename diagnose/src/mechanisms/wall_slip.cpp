@@ -42,7 +42,7 @@ Mechanism wall_slip() {
             .signature = "The apparent modulus is lower, the more so the stiffer the sample and the smaller the gap.",
             .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true}},
             .effect = ChangesGeometry{slipping},
-            .applies = [](const Experiment& experiment) { return knows_walls(experiment) && shows_geometry(experiment); }};
+            .applies = [](const Knows& knows) { return knows.walls && knows.geometry; }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

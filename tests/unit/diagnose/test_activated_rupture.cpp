@@ -1,5 +1,6 @@
 // Bonds that heat helps to break: the law against the rate equation behind it, and sweeps of other structures at two frequencies.
 #include "chain/forward.hpp"
+#include "data/knows.hpp"
 #include "explicit_sweep.hpp"
 #include "hidden_effects.hpp"
 
@@ -83,8 +84,8 @@ TEST(ActivatedRupture, NeedsSweepsOfStrainAtTwoFrequencies) {
     const Mechanism& cause = *find_mechanism("activated-rupture");
     const Measurement one = sweep(1, strains, {1.0, 1.0}, 0, 1);
     Measurement small = sweep(30, {1e-4, 1e-4}, {1.0, 1.0}, 0, 1);
-    EXPECT_FALSE(cause.applies(under_cone({one, small})));
-    EXPECT_TRUE(cause.applies(under_cone({one, sweep(30, strains, {1.0, 1.0}, 0, 1)})));
+    EXPECT_FALSE(cause.applies(knowledge_of(under_cone({one, small}))));
+    EXPECT_TRUE(cause.applies(knowledge_of(under_cone({one, sweep(30, strains, {1.0, 1.0}, 0, 1)}))));
 }
 
 /// The force, over kT / x, that half of the bonds survive when it is reached in a quarter of an oscillation: those that are left

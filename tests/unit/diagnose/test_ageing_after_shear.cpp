@@ -1,4 +1,5 @@
 // A structure that builds up after shear: its law, and whether it is told from what changes with strain.
+#include "data/knows.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/diagnose/diagnosis.hpp>
@@ -72,8 +73,8 @@ TEST(AgeingAfterShear, IsFoundWithItsExponent) {
 TEST(AgeingAfterShear, IsNoCauseWhereNothingWasSheared) {
     const Mechanism* mechanism = find_mechanism("ageing-after-shear");
     ASSERT_NE(mechanism, nullptr);
-    EXPECT_FALSE(mechanism->applies(build_up(false)));
-    EXPECT_TRUE(mechanism->applies(build_up(true)));
+    EXPECT_FALSE(mechanism->applies(knowledge_of(build_up(false))));
+    EXPECT_TRUE(mechanism->applies(knowledge_of(build_up(true))));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Each mechanism, switched on in the simulation, shows the signature that the catalogue claims.
 #include "chain/forward.hpp"
+#include "data/knows.hpp"
 #include "hidden_effects.hpp"
 #include "responses/contact_response.hpp"
 #include "responses/hertz_scatter.hpp"
@@ -204,7 +205,7 @@ TEST(WallSlip, UnderAConeIsThatOfTheGapAtEveryRadius) {
     constexpr double radius = 0.0125;
     constexpr double angle = 0.02;
     Experiment experiment = under_cone(radius, angle);
-    EXPECT_TRUE(find_mechanism("wall-slip")->applies(experiment));
+    EXPECT_TRUE(find_mechanism("wall-slip")->applies(knowledge_of(experiment)));
     Settings settings;
     settings.springpot_ratio = 1;
     settings.springpot_exponent = 0.3;
@@ -226,7 +227,7 @@ TEST(WallSlip, UnderAConeIsThatOfTheGapAtEveryRadius) {
     experiment.measurements[0].rough_plates = true;
     EXPECT_EQ(first_modulus(experiment, slipping), modulus);
     experiment.instrument.plate_radius = unset;
-    EXPECT_FALSE(find_mechanism("wall-slip")->applies(experiment));
+    EXPECT_FALSE(find_mechanism("wall-slip")->applies(knowledge_of(experiment)));
 }
 
 /// What a pair says of one cause is not lost behind the other.
@@ -248,7 +249,7 @@ std::vector<std::complex<double>> tool_changes(const char* name, double value, c
                      {"storage_modulus", "Pa", std::vector(frequencies.size(), 1.0)},
                      {"loss_modulus", "Pa", std::vector(frequencies.size(), 1.0)}};
     experiment.measurements = {table};
-    EXPECT_TRUE(find_mechanism(name)->applies(experiment));
+    EXPECT_TRUE(find_mechanism(name)->applies(knowledge_of(experiment)));
     const auto rows = observations_of(experiment);
     const Forward forward(experiment, rows, simulator());
     const Eigen::VectorXd with = forward.predict(Model({find_mechanism(name)}, std::array{value}));

@@ -1,6 +1,7 @@
 // Breaking bonds under the strain field of parallel plates: the law of the torque against an integral over many radii, and data
 // from explicit runs at many radii of another structure.
 #include "chain/forward.hpp"
+#include "data/knows.hpp"
 #include "hidden_effects.hpp"
 #include "responses/amplitude_response.hpp"
 #include "responses/linear_modulus.hpp"
@@ -110,9 +111,9 @@ TEST(PlateStrainField, IsNotThereUnderACone) {
         }
     }
     Experiment experiment = sweep(strains, std::vector<Complex>(strains.size(), 1.0), Geometry::plate_plate);
-    EXPECT_TRUE(find_mechanism("plate-strain-field")->applies(experiment));
+    EXPECT_TRUE(find_mechanism("plate-strain-field")->applies(knowledge_of(experiment)));
     experiment.measurements[0].cone_angle = 0.02;
-    EXPECT_FALSE(find_mechanism("plate-strain-field")->applies(experiment));
+    EXPECT_FALSE(find_mechanism("plate-strain-field")->applies(knowledge_of(experiment)));
 }
 
 /// Torque per angle over the modulus is that of the cone, and no gap matters.
@@ -137,10 +138,10 @@ TEST(PlateStrainField, AConeWithoutAnAngleShowsNothingOfTheTool) {
     Experiment experiment = sweep({1e-5, 1e-4}, {1.0, 1.0}, Geometry::cone_plate);
     experiment.instrument.plate_radius = 0.0125;
     experiment.instrument.gap = 5e-5;
-    EXPECT_FALSE(find_mechanism("tool-compliance")->applies(experiment));
+    EXPECT_FALSE(find_mechanism("tool-compliance")->applies(knowledge_of(experiment)));
     experiment.instrument.cone_angle = 0.02;
     experiment.instrument.gap = unset;  // which matters between plates only
-    EXPECT_TRUE(find_mechanism("tool-compliance")->applies(experiment));
+    EXPECT_TRUE(find_mechanism("tool-compliance")->applies(knowledge_of(experiment)));
     const std::vector<Observation> observations = observations_of(experiment);
     const Forward forward(experiment, observations, simulator());
     const Model yielding({find_mechanism("tool-compliance")}, std::array{5e-3});
@@ -148,7 +149,7 @@ TEST(PlateStrainField, AConeWithoutAnAngleShowsNothingOfTheTool) {
     const double torque = 2 * std::numbers::pi * std::pow(0.0125, 3) / (3 * 0.02) * modulus;
     EXPECT_NEAR(forward.predict(yielding)[0] / modulus, 1 / (1 + 5e-3 * torque), 1e-12);
     experiment.instrument.geometry = Geometry::plate_plate;
-    EXPECT_FALSE(find_mechanism("tool-compliance")->applies(experiment));
+    EXPECT_FALSE(find_mechanism("tool-compliance")->applies(knowledge_of(experiment)));
 }
 
 /// The weaker of the two strengths breaks the bonds, and the extended model has that one.

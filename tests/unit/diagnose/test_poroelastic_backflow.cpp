@@ -1,5 +1,6 @@
 // Solvent that leaves a squeezed network: the law against Biot's equations by finite elements, and samples at two gaps.
 #include "credible_set.hpp"
+#include "data/knows.hpp"
 #include "hidden_effects.hpp"
 #include "observables/observations.hpp"
 
@@ -112,21 +113,21 @@ TEST(PoroelasticBackflow, IsNotWhatSetsInOneTimeAtTwoGaps) {
 
 TEST(PoroelasticBackflow, NeedsPlatesAndAGap) {
     Experiment experiment = samples_at({1e-3}, true, 4);
-    EXPECT_TRUE(backflow().applies(experiment));
+    EXPECT_TRUE(backflow().applies(knowledge_of(experiment)));
     Experiment other = experiment;
     other.instrument.geometry = Geometry::cone_plate;
-    EXPECT_FALSE(backflow().applies(other));
+    EXPECT_FALSE(backflow().applies(knowledge_of(other)));
     other = experiment;
     other.material.kind = MaterialKind::newtonian;
-    EXPECT_FALSE(backflow().applies(other));
+    EXPECT_FALSE(backflow().applies(knowledge_of(other)));
     other = experiment;
     other.measurements.front().columns[1].values.back() = 2e-3;  // squeezed anew
-    EXPECT_FALSE(backflow().applies(other));
+    EXPECT_FALSE(backflow().applies(knowledge_of(other)));
     other = experiment;
     other.instrument.gap = unset;
-    EXPECT_TRUE(backflow().applies(other));
+    EXPECT_TRUE(backflow().applies(knowledge_of(other)));
     other.measurements.front().columns.erase(other.measurements.front().columns.begin() + 1);
-    EXPECT_FALSE(backflow().applies(other));
+    EXPECT_FALSE(backflow().applies(knowledge_of(other)));
 }
 
 }  // namespace

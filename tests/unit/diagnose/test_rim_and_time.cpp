@@ -1,5 +1,6 @@
 // What changes with the time since the filling, and what happens at the rim: each against its law, by another way.
 #include "chain/forward.hpp"
+#include "data/knows.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/diagnose/mechanism.hpp>
@@ -135,11 +136,11 @@ TEST(EdgeFracture, DoesNotHealAndComesEarlierAtAWiderGap) {
         EXPECT_NEAR(share(4 + k), up[3], 1e-12);  // nothing comes back
         EXPECT_NEAR(share(8 + k), std::min(1.0, std::pow(0.25 / std::array{0.1, 0.3, 1.0, 3.0}[k], 2)), 1e-12);
     }
-    EXPECT_TRUE(cause("edge-fracture").applies(experiment));
+    EXPECT_TRUE(cause("edge-fracture").applies(knowledge_of(experiment)));
     for (Measurement& table : experiment.measurements) {
         table.columns[0].values = {0.001, 0.002, 0.01, 0.03};
     }
-    EXPECT_FALSE(cause("edge-fracture").applies(experiment));
+    EXPECT_FALSE(cause("edge-fracture").applies(knowledge_of(experiment)));
 }
 
 TEST(Evaporation, TakesTwiceAsMuchFromHalfTheRadiusWhateverTheGap) {

@@ -2,6 +2,7 @@
 #include <coagula/diagnose/mechanism.hpp>
 #include <coagula/diagnose/run_clock.hpp>
 
+#include "data/knows.hpp"
 #include "observables/observations.hpp"
 
 #include "example_sweeps.hpp"
@@ -102,7 +103,7 @@ TEST(RunClock, ShearBeforeARunBeginsItsAge) {
     Experiment always = with({run_at(10, 0), run_at(10, 1)});
     always.sample.sheared_before = true;
     EXPECT_EQ(first_rows(always), (Times{{10, 10}, {70, 10}}));
-    EXPECT_TRUE(find_mechanism("ageing-after-shear")->applies(with({run_at(10, 0), second})));
+    EXPECT_TRUE(find_mechanism("ageing-after-shear")->applies(knowledge_of(with({run_at(10, 0), second}))));
 }
 
 TEST(RunClock, RunsWithoutAnOrderHaveNoAge) {
@@ -112,8 +113,8 @@ TEST(RunClock, RunsWithoutAnOrderHaveNoAge) {
     }
     ASSERT_EQ(notes_on_clocks(experiment).size(), 2u);
     EXPECT_NE(notes_on_clocks(experiment)[0].find("ageing cannot be told from noise"), std::string::npos);
-    EXPECT_FALSE(find_mechanism("ageing")->applies(experiment));
-    EXPECT_TRUE(find_mechanism("ageing")->applies(with({run_at(10, 0), run_at(10, 1)})));
+    EXPECT_FALSE(find_mechanism("ageing")->applies(knowledge_of(experiment)));
+    EXPECT_TRUE(find_mechanism("ageing")->applies(knowledge_of(with({run_at(10, 0), run_at(10, 1)}))));
     Measurement waveforms = run_at(10, 0);
     waveforms.kind = MeasurementKind::harmonics;  // were recorded during the run
     EXPECT_TRUE(notes_on_clocks(with({run_at(10, 0), waveforms})).empty());

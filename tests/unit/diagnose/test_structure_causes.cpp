@@ -1,4 +1,5 @@
 // Structures that have another volume fraction, coordination or heterogeneity than the recipe says.
+#include "data/knows.hpp"
 #include "remade_structures.hpp"
 #include "responses/imaged_centres.hpp"
 #include "responses/linear_modulus.hpp"
@@ -24,7 +25,7 @@ Diagnosis diagnose_stated(const std::vector<Measurement>& tables) {
 }
 
 bool applies(const std::string& cause, const Experiment& experiment) {
-    return find_mechanism(cause)->applies(experiment);
+    return find_mechanism(cause)->applies(knowledge_of(experiment));
 }
 
 TEST(StructureChanges, NoneIsTheStructureAsItIs) {

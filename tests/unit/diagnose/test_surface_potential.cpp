@@ -1,4 +1,5 @@
 // Structures that coagulated at another surface potential: what it does to them, and whether it is found in their pores.
+#include "data/knows.hpp"
 #include "observables/pore_curves.hpp"
 #include "remade_structures.hpp"
 #include "responses/pore_response.hpp"
@@ -98,7 +99,9 @@ TEST(SurfacePotential, PoresFollowThePotential) {
 }
 
 TEST(SurfacePotential, AppliesWhereStructuresCoagulate) {
-    const auto applies = [](const Experiment& experiment) { return find_mechanism("surface-potential")->applies(experiment); };
+    const auto applies = [](const Experiment& experiment) {
+        return find_mechanism("surface-potential")->applies(knowledge_of(experiment));
+    };
     Experiment experiment = experiment_with({pore_table(coagulated(particles, 1, 0))});
     EXPECT_TRUE(applies(experiment));
     experiment.sample.particle_radius = 0.5e-6;

@@ -2,6 +2,7 @@
 // other structures, sheared by another solver.
 #include "chain/forward.hpp"
 #include "credible_set.hpp"
+#include "data/knows.hpp"
 #include "hidden_effects.hpp"
 #include "responses/volume_fraction_gradient.hpp"
 
@@ -189,20 +190,20 @@ TEST(VolumeFractionGradient, NeedsAGapAndStructuresOfTwoVolumeFractions) {
     table.kind = MeasurementKind::gap_series;
     table.columns = {{"gap", "m", {1e-3, 2e-3, 3e-3, 4e-3}}, {"storage_modulus", "Pa", {1, 1, 1, 1}}};
     experiment.measurements = {table};
-    EXPECT_TRUE(mechanism.applies(experiment));
+    EXPECT_TRUE(mechanism.applies(knowledge_of(experiment)));
     Experiment other = experiment;
     other.structure_volume_fractions = {0.4, 0.402, 0.403};
-    EXPECT_FALSE(mechanism.applies(other));
+    EXPECT_FALSE(mechanism.applies(knowledge_of(other)));
     other.structure_volume_fractions.clear();
-    EXPECT_FALSE(mechanism.applies(other));
+    EXPECT_FALSE(mechanism.applies(knowledge_of(other)));
     other = experiment;
     other.instrument.geometry = Geometry::concentric_cylinders;  // layers side by side
-    EXPECT_FALSE(mechanism.applies(other));
+    EXPECT_FALSE(mechanism.applies(knowledge_of(other)));
     other = experiment;
     other.instrument.gap = unset;
-    EXPECT_TRUE(mechanism.applies(other));
+    EXPECT_TRUE(mechanism.applies(knowledge_of(other)));
     other.measurements.front().columns.front() = {"time", "s", {1, 2, 3, 4}};
-    EXPECT_FALSE(mechanism.applies(other));
+    EXPECT_FALSE(mechanism.applies(knowledge_of(other)));
 }
 
 Diagnosis diagnosis_of(double difference, const std::vector<double>& gaps, double error, std::uint64_t seed) {

@@ -16,6 +16,7 @@ namespace coagula::diagnose {
 
 class Simulator;
 class StrainHistory;
+struct Knows;
 struct Observation;
 
 /// A parameter with its physical range, over which the prior is uniform, or uniform in the logarithm.
@@ -80,7 +81,7 @@ struct Mechanism {
     std::vector<MechanismParameter> parameters;
     Effect effect;
     /// Whether an experiment says what the mechanism needs (a gap, a plate radius), so that it can be a cause at all.
-    bool (*applies)(const Experiment& experiment);
+    bool (*applies)(const Knows& knows);
     /// A change of the material that needs no particles: a Newtonian fluid shows it, too.
     bool in_any_fluid = false;
     bool in_contact = false;  ///< `coagula shear --model` can run it
