@@ -1,4 +1,4 @@
-// What an experiment knows and varies, from which follows which causes can show in it.
+// This header tells what an experiment knows and varies; which causes can show in it follows from that.
 #pragma once
 
 #include <coagula/diagnose/measurement.hpp>
@@ -12,7 +12,7 @@
 
 namespace coagula::diagnose {
 
-/// What is known of the sample and the instrument, and what is shown by some table.
+/// A flag is true where the sample or the instrument states the quantity, or where a table shows it.
 struct Knows {
     const Experiment& experiment;
     bool moduli;        ///< moduli or viscosities

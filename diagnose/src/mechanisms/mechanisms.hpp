@@ -1,4 +1,4 @@
-// What the mechanisms, one file each, share.
+// This header holds what the mechanisms share; each mechanism is a file of its own.
 #pragma once
 
 #include <coagula/diagnose/mechanism.hpp>

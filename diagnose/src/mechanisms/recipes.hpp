@@ -22,7 +22,7 @@ inline bool has_usual_coordination(const StructureRecipe& recipe) {
     return std::isnan(recipe.target_coordination) || (recipe.target_coordination >= 4.5 && recipe.target_coordination <= 4.9);
 }
 
-/// As many voids as half of the particles or fewer: where there are more, loose packings do not come to their coordination.
+/// Whether the voids are an eighth to a half of the particles: with more, loose packings do not come to their coordination.
 inline bool has_few_voids(const StructureRecipe& recipe) {
     return recipe.voids == 0 || (8 * recipe.voids >= recipe.particles && 2 * recipe.voids <= recipe.particles);
 }

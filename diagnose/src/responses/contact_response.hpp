@@ -12,7 +12,7 @@ double contact_response(Simulator& simulator, const Settings& settings, double a
 /// The same for the stress over the strain at a momentary strain.
 double contact_secant(Simulator& simulator, const Settings& settings, double strain);
 
-/// What more structures could change in contact_response, over it, by each independent standard error (hertz_scatter.hpp).
+/// Tells how contact_response changes, relative to itself, with one standard error of each independent error (hertz_scatter.hpp).
 Eigen::RowVectorXd contact_errors(Simulator& simulator, const Settings& settings, double amplitude);
 /// Degrees of freedom from which their common scale is known.
 double contact_degrees(Simulator& simulator);

@@ -30,13 +30,16 @@ namespace fs = std::filesystem;
 struct Known {
     std::map<std::string, SetRecord> records;
     std::map<std::string, io::SetStructure> structures;
+    std::optional<io::SetHead> whole_set = {};  ///< of an existing set that holds just what this call is to write
 };
 
 void take_from_set(const Sweep& sweep, const SetRun& run, Known& known) {
     if (!fs::exists(run.output)) {
         return;
     }
-    std::map<std::string, SetRecord> records = records_in(io::read_set(run.output));
+    io::SetHead head = io::read_set(run.output);
+    std::map<std::string, SetRecord> records = records_in(head);
+    const std::size_t recorded = records.size();
     const std::vector<std::string> held = io::structures_in_set(run.output);
     std::set<std::string> wanted;
     for (const SetRow& row : sweep.rows) {
@@ -57,6 +60,15 @@ void take_from_set(const Sweep& sweep, const SetRun& run, Known& known) {
             known.records.emplace(id, std::move(record));
         }
     }
+    if (known.records.size() == recorded && recorded == sweep.rows.size() && known.structures.size() == held.size()) {
+        known.whole_set = std::move(head);
+    }
+}
+
+/// Whether the set would be written again as it is. Its columns follow from the records, which are its own.
+bool is_written(const Known& known, const io::SetHead& head) {
+    return known.whole_set && known.whole_set->sweep == head.sweep && known.whole_set->card == head.card &&
+           known.whole_set->provenance == head.provenance;
 }
 
 void take_from_parts(const Sweep& sweep, const SetRun& run, const SetParts& parts, Known& known) {
@@ -207,8 +219,11 @@ Printed run_sweep(const Sweep& whole, const SetRun& run, const Progress& progres
             structures.push_back(held != known.structures.end() ? held->second : io::SetStructure{row.id, parts.structure(row.id)});
         }
     }
-    progress.update("writing", 1.0);
-    io::write_set(run.output, head_of(sweep, known.records), structures, true);
+    const io::SetHead head = head_of(sweep, known.records);
+    if (!is_written(known, head)) {
+        progress.update("writing", 1.0);
+        io::write_set(run.output, head, structures, true);
+    }
     remove_parts(sweep.rows, parts);
     return printed(sweep.rows, known.records, computed, run.output, clock.seconds());
 }
@@ -235,20 +250,22 @@ SetRun set_run(const Arguments& arguments) {
 }
 
 Verb dataset_run_verb() {
-    return {.name = "dataset run",
-            .summary = "make the structures of a sweep, measure and shear them, and write them as one set",
-            .input = "SWEEP.toml",
-            .options = {required(output("data set to write, SET.h5; what it holds already is not computed again")),
-                        count("jobs", "structures that are computed at the same time; as many as processors when not given", "",
-                              within(1, 1024)),
-                        quantity("memory", "byte", "memory for all of them together; fewer jobs run where it is not enough", "",
-                                 within(1e7, 1e15)),
-                        flag("no-structures", "keep the index only, not the structures"),
-                        flag("retry-failed", "compute structures again that failed before"),
-                        text("chunk", "K/N", "make the K-th of N parts of the sweep only, for dataset join"),
-                        flag("force", "leave structures of an existing set out that the sweep does not name")},
-            .notes = {"A call that was interrupted or killed goes on from SET.h5.parts when it is repeated.",
-                      "The bytes of the set follow from sweep and version alone, whatever the number of jobs."}};
+    return {
+        .name = "dataset run",
+        .summary = "make the structures of a sweep, measure and shear them, and write them as one set",
+        .input = "SWEEP.toml",
+        .options = {required(output("data set to write, SET.h5; what it holds already is not computed again")),
+                    count("jobs", "structures that are computed at the same time; as many as processors when not given", "",
+                          within(1, 1024)),
+                    quantity("memory", "byte", "memory for all of them together; fewer jobs run where it is not enough", "",
+                             within(1e7, 1e15)),
+                    flag("no-structures", "keep the index only, not the structures"),
+                    flag("retry-failed", "compute structures again that failed before"),
+                    text("chunk", "K/N", "make the K-th of N parts of the sweep only, for dataset join"),
+                    flag("force", "leave structures of an existing set out that the sweep does not name")},
+        .notes = {
+            "A call that was interrupted or killed goes on from SET.h5.parts when it is repeated.",
+            "The data sets follow from sweep and version alone; what is made in one call has equal bytes for any number of jobs."}};
 }
 
 }  // namespace coagula::stages

@@ -78,7 +78,7 @@ Printed write_workflow(const Sweep& sweep, const std::string& folder, std::int64
     return {{{"files", names}, {"chunks", chunks}, {"structures", sweep.rows.size()}},
             {{"chunks", std::to_string(chunks) + " of " + std::to_string(sweep.rows.size()) + " structures"},
              {"written to", folder},
-             {"next", "snakemake --directory " + folder + " --snakefile " + (place / "Snakefile").string() + " --cores 2"}}};
+             {"next", "snakemake --directory '" + folder + "' --snakefile '" + (place / "Snakefile").string() + "' --cores 2"}}};
 }
 
 Verb dataset_workflow_verb() {

@@ -23,7 +23,7 @@ namespace coagula::diagnose {
 /// Results by what was computed; a caller may keep it between diagnoses.
 using SimulationCache = std::map<std::string, std::vector<double>>;
 
-/// What was computed, and at which values of its parameters.
+/// The key names what was computed and the values of its parameters.
 struct ResultKey {
     std::string_view what;  ///< a literal
     std::size_t of = 0;     ///< number of the structure, or of the group of structures
@@ -69,11 +69,11 @@ public:
     /// Their mean over the structures.
     std::vector<double> mean_over_structures(std::string_view what, std::size_t count, const std::vector<double>& at,
                                              const Run& run);
-    /// Those of the cache if it has `count` of them, any number of at least three for a count of 0; else null.
+    /// Returns the numbers of the cache if it has `count` of them (for a count of 0: at least three), else null.
     const std::vector<double>* in_cache(const ResultKey& key, std::size_t count) const;
     const std::vector<double>& keep(const ResultKey& key, std::vector<double> values);
 
-    /// What follows from simulated numbers, computed when it is first asked for.
+    /// Returns a value that follows from simulated numbers; it is computed when it is first asked for.
     template <class Compute>
     const auto& remembered(const ResultKey& key, const Compute& compute) {
         using Value = std::decay_t<decltype(compute())>;

@@ -40,7 +40,8 @@ struct SetHead {
     const SetColumn* column(const std::string& name) const;
 };
 
-/// Writes the set beside and renames it; the bytes follow from the arguments alone.
+/// Writes the set beside and renames it. Its data sets follow from the arguments alone; its bytes also from where structures are
+/// copied from.
 void write_set(const std::string& path, const SetHead& head, const std::vector<SetStructure>& structures, bool overwrite);
 
 /// Throws InputError for a file that is no data set.
