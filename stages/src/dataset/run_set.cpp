@@ -67,8 +67,11 @@ void take_from_set(const Sweep& sweep, const SetRun& run, Known& known) {
 
 /// Whether the set would be written again as it is. Its columns follow from the records, which are its own.
 bool is_written(const Known& known, const io::SetHead& head) {
-    return known.whole_set && known.whole_set->sweep == head.sweep && known.whole_set->card == head.card &&
-           known.whole_set->provenance == head.provenance;
+    const auto same = [](const auto& some, const auto& others) {  // a file has an order of its own
+        return std::is_permutation(some.begin(), some.end(), others.begin(), others.end());
+    };
+    return known.whole_set && known.whole_set->sweep == head.sweep && same(known.whole_set->card, head.card) &&
+           same(known.whole_set->provenance, head.provenance);
 }
 
 void take_from_parts(const Sweep& sweep, const SetRun& run, const SetParts& parts, Known& known) {
