@@ -51,7 +51,7 @@ struct SetRun {
 Verb dataset_run_verb();
 SetRun set_run(const Arguments& arguments);
 /// Computes what is missing and writes the set. Its bytes follow from the sweep and the version of the program alone.
-Printed run_sweep(const Sweep& sweep, const SetRun& run, const Progress& progress);
+Printed run_sweep(const Sweep& whole, const SetRun& run, const Progress& progress);
 
 Verb dataset_plan_verb();
 /// How many structures a sweep has, and what they take; one structure of each generator is computed to tell.
