@@ -10,25 +10,30 @@ namespace coagula::characterize {
 
 namespace {
 
-/// Corner and edges of the box that holds all particles that count.
+/// The part of the box that holds all particles that count, in fractions of its edges.
 struct Bounds {
-    Eigen::Array3d lower;
-    Eigen::Array3d lengths;
+    Eigen::Array3d lower = Eigen::Array3d::Zero();
+    Eigen::Array3d span = Eigen::Array3d::Ones();
 };
 
 Bounds find_bounds(const Packing& packing, const std::vector<bool>& counted) {
-    if (packing.cell.is_periodic()) {
-        return {packing.cell.origin(), packing.cell.lengths()};
-    }
     Eigen::Array3d lower = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
     Eigen::Array3d upper = -lower;
     for (Index i = 0; i < packing.size(); ++i) {
         if (counted.empty() || counted[static_cast<std::size_t>(i)]) {
-            lower = lower.min(packing.positions.col(i).array());
-            upper = upper.max(packing.positions.col(i).array());
+            const Eigen::Array3d place = packing.cell.fraction(packing.positions.col(i));
+            lower = lower.min(place);
+            upper = upper.max(place);
         }
     }
-    return {lower, (upper - lower).max(1e-6 * mean_radius(packing))};
+    Bounds bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!packing.cell.is_periodic(axis)) {
+            bounds.lower[axis] = lower[axis];
+            bounds.span[axis] = std::max(upper[axis] - lower[axis], 1e-6 * mean_radius(packing) / packing.cell.widths()[axis]);
+        }
+    }
+    return bounds;
 }
 
 Index wanted_blocks(Index particles) {
@@ -47,14 +52,16 @@ Blocks make_blocks(const Packing& packing, const std::vector<bool>& counted) {
         return blocks;
     }
     const Bounds bounds = find_bounds(packing, counted);
-    const double edge = std::cbrt(bounds.lengths.prod() / static_cast<double>(wanted));
-    const Eigen::Array3i along = (bounds.lengths / edge).round().max(1.0).min(static_cast<double>(wanted)).cast<int>();
+    const Eigen::Array3d lengths = bounds.span * packing.cell.edge_lengths().array();
+    const double edge = std::cbrt(lengths.prod() / static_cast<double>(wanted));
+    const Eigen::Array3i along = (lengths / edge).round().max(1.0).min(static_cast<double>(wanted)).cast<int>();
     std::vector<int> number(static_cast<std::size_t>(along.prod()), -1);  // of the blocks that hold particles
     for (Index i = 0; i < packing.size(); ++i) {
         if (!counted.empty() && !counted[static_cast<std::size_t>(i)]) {
             continue;
         }
-        const Eigen::Array3d place = (packing.cell.wrap(packing.positions.col(i)).array() - bounds.lower) / bounds.lengths;
+        const Eigen::Vector3d inside = packing.cell.wrap(packing.positions.col(i));
+        const Eigen::Array3d place = (packing.cell.fraction(inside).array() - bounds.lower) / bounds.span;
         const Eigen::Array3i box = (place * along.cast<double>()).floor().cast<int>().max(0).min(along - 1);
         const int place_of_box = (box[2] * along[1] + box[1]) * along[0] + box[0];
         int& block = number[static_cast<std::size_t>(place_of_box)];

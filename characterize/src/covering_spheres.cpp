@@ -66,7 +66,7 @@ public:
     Covered at(Index number) const {
         const Eigen::Vector3d uniform =
             random_uniform(options_.seed, RandomPurpose::gelb_gubbins_sample, 0, static_cast<std::uint64_t>(number));
-        const Eigen::Vector3d point = packing_.cell.origin() + packing_.cell.lengths().cwiseProduct(uniform);
+        const Eigen::Vector3d point = packing_.cell.place(uniform);
         const double radius = packing_.radii[0];
         if (window_.depth_at(point) < 2 * largest_ + radius) {
             return {};
@@ -159,7 +159,7 @@ CoveringSpheres measure_covering_spheres(const ReducedDiagram& reduced, const Co
     const Eigen::VectorXd total = sums.rowwise().sum();
     require(total[0] > 0, reduced.packing.cell.is_periodic()
                               ? "none of the " + std::to_string(options.points) + " random points lies in the void"
-                              : "the packing is open, and none of the " + std::to_string(options.points) +
+                              : "the packing has a free surface, and none of the " + std::to_string(options.points) +
                                     " random points lies so far inside that the sphere which covers it is certain");
     const Eigen::VectorXd found = estimates(total);
     const Eigen::VectorXd errors = block_errors(sums, estimates);

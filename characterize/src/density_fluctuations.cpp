@@ -2,6 +2,8 @@
 
 #include <coagula/common/cell_list.hpp>
 
+#include "reduced_diagram.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,10 +13,11 @@ namespace coagula::characterize {
 
 namespace {
 
-/// Values on a grid over the box, x fastest.
+/// Values on a grid along x, y and z, x fastest: over the box, or over the space around a tilted one and the widest window.
 struct Grid {
     Eigen::Array3i count;
     Eigen::Array3d spacing;  ///< [m]
+    Eigen::Vector3d origin;  ///< [m]
     std::vector<double> values;
 
     std::size_t at(int x, int y, int z) const {
@@ -25,14 +28,54 @@ struct Grid {
     Index size() const { return static_cast<Index>(count[0]) * count[1] * count[2]; }
 };
 
+/// The widest windows: half of a periodic box, all of an open one.
+double longest_window(const Cell& cell, double r0) {
+    double longest = (largest_window + 1) * r0;
+    for (int axis = 0; axis < 3; ++axis) {
+        longest = std::min(longest, cell.widths()[axis] * (cell.is_periodic(axis) ? 0.5 : 1.0));
+    }
+    return longest;
+}
+
 Grid make_grid(const Cell& cell, double r0) {
     constexpr double most_points = 1.6e7;
-    const double spacing = std::max(0.5 * r0, std::cbrt(cell.volume() / most_points));
+    Eigen::Array3d lengths = cell.bounds().lengths();
+    lengths += cell.is_rectangular() ? 0.0 : longest_window(cell, r0);
+    const double spacing = std::max(0.5 * r0, std::cbrt(lengths.prod() / most_points));
     Grid grid;
-    grid.count = (cell.lengths().array() / spacing).round().max(1.0).cast<int>();
-    grid.spacing = cell.lengths().array() / grid.count.cast<double>();
+    grid.origin = cell.bounds().origin();
+    grid.count = (lengths / spacing).round().max(1.0).cast<int>();
+    grid.spacing = lengths / grid.count.cast<double>();
     grid.values.assign(static_cast<std::size_t>(grid.size()), 0.0);
     return grid;
+}
+
+/// Calls visit(position) for the images of a particle that may lie on the grid.
+template <class Visit>
+void for_each_image(const Cell& cell, const Grid& grid, const Eigen::Vector3d& position, const Visit& visit) {
+    if (cell.is_rectangular()) {
+        visit(cell.wrap(position));
+        return;
+    }
+    Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array3d high = -low;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Eigen::Array3d side(corner & 1, corner >> 1 & 1, corner >> 2);
+        const Eigen::Vector3d end = grid.origin + (side * grid.count.cast<double>() * grid.spacing).matrix();
+        low = low.min(cell.in_edges(end - position).array());
+        high = high.max(cell.in_edges(end - position).array());
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = cell.is_periodic(axis) ? std::ceil(low[axis]) : 0.0;
+        high[axis] = cell.is_periodic(axis) ? std::floor(high[axis]) : 0.0;
+    }
+    for (double x = low[0]; x <= high[0]; ++x) {
+        for (double y = low[1]; y <= high[1]; ++y) {
+            for (double z = low[2]; z <= high[2]; ++z) {
+                visit(Eigen::Vector3d(position + cell.edges() * Eigen::Vector3d(x, y, z)));
+            }
+        }
+    }
 }
 
 /// Solid volume over the mean of a particle, at the grid cells of the centres.
@@ -40,10 +83,16 @@ Grid solid_grid(const Packing& packing, double r0) {
     Grid grid = make_grid(packing.cell, r0);
     const double mean = solid_volume(packing) / static_cast<double>(packing.size());
     for (Index i = 0; i < packing.size(); ++i) {
-        const Eigen::Array3d place = packing.cell.wrap(packing.positions.col(i)) - packing.cell.origin();
-        const Eigen::Array3i box = (place / grid.spacing).floor().cast<int>().max(0).min(grid.count - 1);
         const double radius = packing.radii[i];
-        grid.values[grid.at(box[0], box[1], box[2])] += 4 * std::numbers::pi / 3 * radius * radius * radius / mean;
+        for_each_image(packing.cell, grid, packing.positions.col(i), [&](const Eigen::Vector3d& image) {
+            Eigen::Array3i box = ((image - grid.origin).array() / grid.spacing).floor().cast<int>();
+            if (packing.cell.is_rectangular()) {
+                box = box.max(0).min(grid.count - 1);
+            }
+            if ((box >= 0).all() && (box < grid.count).all()) {
+                grid.values[grid.at(box[0], box[1], box[2])] += 4 * std::numbers::pi / 3 * radius * radius * radius / mean;
+            }
+        });
     }
     return grid;
 }
@@ -60,7 +109,7 @@ Grid certain_grid(const Packing& packing, const std::vector<bool>& inner, double
                 const Eigen::Array3d place = (Eigen::Array3d(x, y, z) + 0.5) * grid.spacing;
                 double nearest = std::numeric_limits<double>::infinity();
                 bool certain = false;
-                cells.for_each_near(packing.cell.origin() + place.matrix(), [&](int particle, const Eigen::Vector3d& separation) {
+                cells.for_each_near(grid.origin + place.matrix(), [&](int particle, const Eigen::Vector3d& separation) {
                     const double power = separation.squaredNorm() - packing.radii[particle] * packing.radii[particle];
                     if (power < nearest) {
                         nearest = power;
@@ -117,22 +166,37 @@ Grid window_sums(Grid grid, int width) {
     return grid;
 }
 
+/// Which of 8 sub-volumes a window belongs to whose lowest grid cell is `place`; -1 if it is none of the box.
+int sub_volume(const Cell& cell, const Grid& grid, const Eigen::Array3i& place, int width) {
+    const auto number = [](const Eigen::Array3i& half) { return (half[2] * 2 + half[1]) * 2 + half[0]; };
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!cell.is_periodic(axis) && place[axis] + width > grid.count[axis]) {
+            return -1;
+        }
+    }
+    if (cell.is_rectangular()) {
+        return number(place * 2 / grid.count);
+    }
+    const Eigen::Vector3d middle = grid.origin + ((place.cast<double>() + 0.5) * grid.spacing).matrix();
+    const Eigen::Array3d fraction = cell.fraction(middle);
+    const bool is_inside = (fraction >= 0).all() && (fraction < 1).all() && (place + width <= grid.count).all();
+    return is_inside ? number((2 * fraction).cast<int>()) : -1;
+}
+
 /// Number of windows, sum and sum of squares of their contents, by sub-volume (8 columns).
-Eigen::Matrix3Xd sum_windows(const Grid& contents, const Grid* certain, int width) {
-    constexpr int along = 2;
-    constexpr Index sub_volumes = Index{along} * along * along;
+/// @param certain where there is a free surface: windows lie in the part of space that is known.
+Eigen::Matrix3Xd sum_windows(const Cell& cell, const Grid& contents, const Grid* certain, int width) {
+    constexpr Index sub_volumes = 8;
     const double full = width * width * width - 0.5;
     Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, sub_volumes);
     for (int z = 0; z < contents.count[2]; ++z) {
         for (int y = 0; y < contents.count[1]; ++y) {
-            const int row = (z * along / contents.count[2] * along + y * along / contents.count[1]) * along;
             for (int x = 0; x < contents.count[0]; ++x) {
                 const std::size_t place = contents.at(x, y, z);
-                const bool inside = certain == nullptr || (certain->values[place] > full && x + width <= contents.count[0] &&
-                                                           y + width <= contents.count[1] && z + width <= contents.count[2]);
-                if (inside) {
+                const int part = sub_volume(cell, contents, {x, y, z}, width);
+                if (part >= 0 && (certain == nullptr || certain->values[place] > full)) {
                     const double value = contents.values[place];
-                    sums.col(row + x * along / contents.count[0]) += Eigen::Vector3d(1, value, value * value);
+                    sums.col(part) += Eigen::Vector3d(1, value, value * value);
                 }
             }
         }
@@ -174,11 +238,11 @@ Windows sum_all_windows(const Packing& packing, const std::vector<bool>& inner, 
     const bool periodic = packing.cell.is_periodic();
     const Grid solid = solid_grid(packing, r0);
     const Grid certain = periodic ? Grid{} : certain_grid(packing, inner, r0);
-    const double longest = std::min(packing.cell.lengths().minCoeff() * (periodic ? 0.5 : 1.0), (largest_window + 1) * r0);
+    const double longest = longest_window(packing.cell, r0);
     Windows windows;
     for (int width = std::max(1, static_cast<int>(smallest_window * r0 / spacing)); width * spacing <= longest; ++width) {
         const Grid inside = periodic ? Grid{} : window_sums(certain, width);
-        const Eigen::Matrix3Xd sums = sum_windows(window_sums(solid, width), periodic ? nullptr : &inside, width);
+        const Eigen::Matrix3Xd sums = sum_windows(packing.cell, window_sums(solid, width), periodic ? nullptr : &inside, width);
         if (sums.row(0).sum() < fewest_windows || sums.row(1).sum() <= 0) {
             break;
         }
@@ -191,8 +255,9 @@ Windows sum_all_windows(const Packing& packing, const std::vector<bool>& inner, 
 
 }  // namespace
 
-DensityFluctuations measure_density_fluctuations(const Packing& packing, const std::vector<bool>& inner, double largest) {
-    check(packing);
+DensityFluctuations measure_density_fluctuations(const Packing& given, const std::vector<bool>& inner, double largest) {
+    check(given);
+    const Packing packing = in_units_of(1.0, given);
     const double r0 = mean_radius(packing);
     const double spacing = std::cbrt(make_grid(packing.cell, r0).spacing.prod());
     const Windows windows = sum_all_windows(packing, inner, r0, spacing);

@@ -23,7 +23,7 @@ double probe_radius(double power, double radius) {
 
 FreeSpheres free_equal_spheres(const ReducedDiagram& reduced) {
     const double radius = reduced.packing.radii[0];
-    const VoidGraph graph = void_graph(reduced.diagram, reduced.packing.cell.lengths());
+    const VoidGraph graph = void_graph(reduced.diagram, reduced.packing.cell);
     FreeSpheres found;
     const std::array<std::size_t, 3> closing = closing_links(graph);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -87,7 +87,7 @@ double closing_growth(const ReducedDiagram& reduced, GrownDiagrams& diagrams, st
     double growth = 0;
     for (int k = 0; k < most_diagrams; ++k) {
         const PowerDiagram diagram = diagrams.at(growth);
-        const VoidGraph graph = void_graph(diagram, reduced.packing.cell.lengths());
+        const VoidGraph graph = void_graph(diagram, reduced.packing.cell);
         const VoidGraph::Link& link = graph.links[closing_links(graph)[axis]];
         if (growth == 0 && link.power <= 0) {
             return 0;
@@ -121,9 +121,9 @@ bool is_along(const ReducedDiagram& reduced, GrownDiagrams& diagrams, double fre
     constexpr std::size_t most = 200;
     const Packing& packing = reduced.packing;
     const double probe = free * (1 - aside);
-    const VoidGraph last = void_graph(diagrams.at(largest * (1 - aside)), packing.cell.lengths());
+    const VoidGraph last = void_graph(diagrams.at(largest * (1 - aside)), packing.cell);
     const auto place = std::ranges::max_element(last.vertices, {}, &VoidGraph::Vertex::power);
-    const VoidGraph graph = void_graph(diagrams.at(probe), packing.cell.lengths());
+    const VoidGraph graph = void_graph(diagrams.at(probe), packing.cell);
     const std::vector<bool> reached = percolating_vertices(graph, 0);
     std::vector<Eigen::Vector3d> ways;
     for (std::size_t vertex = 0; vertex < reached.size(); ++vertex) {

@@ -9,7 +9,8 @@ std::vector<bool> inner_particles(const Packing& packing) {
     const auto particles = static_cast<std::size_t>(packing.size());
     std::vector<char> inner(particles, 1);
     if (!packing.cell.is_periodic()) {
-        inner = inner_sites(open_diagram(packing, packing.radii, inner));
+        inner = inner_sites(packing, power_diagram(packing, packing.radii));
+        inner.resize(particles);
     }
     return {inner.begin(), inner.end()};
 }

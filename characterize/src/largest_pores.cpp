@@ -35,8 +35,9 @@ std::optional<Pore> pore_between(const PowerDiagram& diagram, const std::array<i
 
 /// One candidate for every well-conditioned vertex of the diagram; each vertex is met several times.
 std::vector<Pore> candidates(const Packing& packing, const PowerDiagram& diagram, const std::vector<bool>& inner) {
-    const bool periodic = packing.cell.is_periodic();
-    const auto certain = [&](int site) { return periodic || inner[static_cast<std::size_t>(site)]; };
+    const auto certain = [&](int site) {
+        return inner[static_cast<std::size_t>(diagram.particle[static_cast<std::size_t>(site)])];
+    };
     std::vector<Pore> found;
     for (const DiagramEdge& edge : diagram.edges) {
         const EdgeGeometry geometry = measure_edge(diagram, edge);
@@ -44,8 +45,7 @@ std::vector<Pore> candidates(const Packing& packing, const PowerDiagram& diagram
             const std::array<int, 4> sites{edge.around[0], edge.around[1], edge.around[2], edge.apex[which]};
             if (geometry.relative_volume[which] > well_conditioned && std::all_of(sites.begin(), sites.end(), certain)) {
                 if (const auto pore = pore_between(diagram, sites)) {
-                    const Eigen::Vector3d centre = pore->centre + packing.cell.origin();
-                    found.push_back({periodic ? packing.cell.wrap(centre) : centre, pore->radius});
+                    found.push_back({packing.cell.wrap(pore->centre + packing.cell.origin()), pore->radius});
                 }
             }
         }
@@ -64,8 +64,7 @@ LargestPores find_largest_pores(const Packing& packing, const LargestPoreOptions
     check(packing);
     require(options.count > 0, "the number of pores is " + std::to_string(options.count) + ", but must be positive");
     const std::vector<bool> inner = inner_particles(packing);
-    const PowerDiagram diagram = packing.cell.is_periodic() ? periodic_diagram(packing, packing.radii)
-                                                            : open_diagram(packing, packing.radii, {inner.begin(), inner.end()});
+    const PowerDiagram diagram = power_diagram(packing, packing.radii, {inner.begin(), inner.end()});
     const bool equal = packing.radii.minCoeff() == packing.radii.maxCoeff();
     const auto enters_particle = [&](const Pore& pore) {
         for (Index i = 0; i < packing.size(); ++i) {

@@ -35,11 +35,11 @@ MeasureResult packing_facts(const MeasureInput& input) {
     const double fraction = inner_only ? 1 - input.pores().void_fraction : volume_fraction(packing);
     const std::string meaning =
         inner_only ? "solid volume over volume in the inner Voronoi cells"
-                   : std::string("solid volume over the volume of the ") + (packing.cell.is_periodic() ? "box" : "enclosing box");
+                   : std::string("solid volume over the volume of the ") + (packing.cell.is_open() ? "enclosing box" : "box");
     MeasureResult facts;
     facts.add_count("particles", packing.size(), "number of particles");
     facts.add("volume_fraction", fraction, "1", meaning);
-    facts.add_vector("box", packing.cell.lengths(), "m", "edge lengths of the box");
+    facts.add_vector("box", packing.cell.edge_lengths(), "m", "edge lengths of the box");
     facts.add("mean_radius", input.r0(), "m", "r0, by which reduced lengths are divided");
     facts.add_line("particles", std::to_string(packing.size()));
     facts.add_line("box", describe(packing.cell));

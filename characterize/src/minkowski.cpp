@@ -145,13 +145,6 @@ std::vector<Sums> measure_diagram(const PowerDiagram& diagram, const Levels& lev
     return total;
 }
 
-/// The same cells, for spheres whose radii have grown by `growth`.
-PowerDiagram grown_diagram(const Packing& packing, const PowerDiagram& original, double growth) {
-    const Eigen::VectorXd radii = packing.radii.array() + growth;
-    return packing.cell.is_periodic() ? periodic_diagram(packing, radii, original.margin)
-                                      : open_diagram(packing, radii, original.counted);
-}
-
 double require_void(double largest_power) {
     require(largest_power > 0, "the spheres cover all space: there is no surface to measure");
     return largest_power;
@@ -165,7 +158,9 @@ double largest_dilation(const Packing& packing, const PowerDiagram& diagram) {
     if (diagram.radii.maxCoeff() == diagram.radii.minCoeff()) {
         return bound;
     }
-    const auto power_at = [&](double growth) { return largest_vertex_power(grown_diagram(packing, diagram, growth)); };
+    const auto power_at = [&](double growth) {
+        return largest_vertex_power(grown_diagram(packing, diagram, growth, diagram.margin));
+    };
     double high = bound;
     double high_power = power_at(high);
     while (high_power > 0) {  // the cells of an open packing move with the growth
@@ -193,7 +188,7 @@ std::vector<Sums> measure_unequal(const Packing& packing, const PowerDiagram& di
     for (Index first = 0; first < dilation.size(); first += batch) {
         const auto measure = [&](std::size_t place) {
             const Index k = first + static_cast<Index>(place);
-            const auto found = measure_diagram(grown_diagram(packing, diagram, dilation[k]), levels, block);
+            const auto found = measure_diagram(grown_diagram(packing, diagram, dilation[k], diagram.margin), levels, block);
             for (std::size_t one = 0; one < sums.size(); ++one) {
                 sums[one].row(k) = found[one].row(0);
             }

@@ -156,13 +156,14 @@ PairHistogram count_pairs(const Packing& packing, const SampleWindow& window, do
 }
 
 double largest_pair_distance(const Packing& packing, const SampleWindow& window) {
+    const double half_period = packing.cell.half_period();
     if (packing.cell.is_periodic()) {
-        return packing.cell.lengths().minCoeff() / 2;
+        return half_period;
     }
     std::vector<double> depth(window.depth.begin(), window.depth.end());
     const auto tenth = depth.begin() + static_cast<std::ptrdiff_t>(depth.size() * 9 / 10);
     std::nth_element(depth.begin(), tenth, depth.end());
-    return *tenth;
+    return std::min(*tenth, half_period);
 }
 
 }  // namespace coagula::characterize

@@ -4,30 +4,37 @@
 
 namespace coagula::characterize {
 
-PairRuns::PairRuns(const Packing& packing, double range)
-    : periodic_(packing.cell.is_periodic()), range_(range), length_(packing.cell.lengths()) {
+PairRuns::PairRuns(const Packing& packing, double range) : cell_(packing.cell), range_(range) {
     constexpr double boxes_per_range = 4;
     const auto particles = static_cast<std::size_t>(packing.size());
-    Eigen::Array3d origin = packing.cell.origin();
-    if (!periodic_) {
-        origin = packing.positions.rowwise().minCoeff();
-        length_ = (packing.positions.rowwise().maxCoeff().array() - origin).max(range);
+    Eigen::Matrix3Xd wrapped(3, packing.size());
+    Eigen::Array3Xd place(3, packing.size());  // in fractions of the edges
+    for (Index i = 0; i < packing.size(); ++i) {
+        wrapped.col(i) = cell_.wrap(packing.positions.col(i));
+        place.col(i) = cell_.fraction(wrapped.col(i));
     }
-    const double smallest = std::cbrt(0.5 * length_.prod() / static_cast<double>(particles));
+    Eigen::Array3d lower = Eigen::Array3d::Zero();
+    Eigen::Array3d span = Eigen::Array3d::Ones();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!cell_.is_periodic(axis)) {
+            lower[axis] = place.row(axis).minCoeff();
+            span[axis] = std::max(place.row(axis).maxCoeff() - lower[axis], range / cell_.widths()[axis]);
+        }
+    }
+    const Eigen::Array3d length = span * cell_.widths().array();
+    const double smallest = std::cbrt(0.5 * length.prod() / static_cast<double>(particles));
     for (int axis = 0; axis < 3; ++axis) {
         const double edge = std::max(range / boxes_per_range, smallest);
-        boxes_[axis] = std::max(1, static_cast<int>(std::min(length_[axis] / edge, 1000.0)));
-        edge_[axis] = length_[axis] / boxes_[axis];
+        boxes_[axis] = std::max(1, static_cast<int>(std::min(length[axis] / edge, 1000.0)));
+        edge_[axis] = length[axis] / boxes_[axis];
         reach_[axis] = std::min(boxes_[axis], static_cast<int>(std::ceil(range / edge_[axis])));
     }
     std::vector<std::size_t> slot(particles);
-    Eigen::Matrix3Xd wrapped(3, packing.size());
     start_.assign(static_cast<std::size_t>(boxes_.prod()) + 1, 0);
     for (std::size_t i = 0; i < particles; ++i) {
         const auto column = static_cast<Index>(i);
-        wrapped.col(column) = packing.cell.wrap(packing.positions.col(column));
-        const Eigen::Array3d inside = wrapped.col(column).array() - origin;
-        const Eigen::Array3i box = (inside / edge_).floor().max(0.0).min(boxes_.cast<double>() - 1).cast<int>();
+        const Eigen::Array3d inside = (place.col(column) - lower) / span * boxes_.cast<double>();
+        const Eigen::Array3i box = inside.floor().max(0.0).min(boxes_.cast<double>() - 1).cast<int>();
         slot[i] = slot_of(box[0], box[1], box[2]);
         ++start_[slot[i] + 1];
     }

@@ -14,7 +14,8 @@ namespace coagula::characterize {
 /// Particles sorted into boxes of about a quarter of the range. An entry is a particle in box order.
 class PairRuns {
 public:
-    /// @param range [m]; in a periodic cell at most half its shortest length, so that no pair is met through two images.
+    /// @param packing in a reduced cell. @param range [m]; at most half the period of its cell, so that no pair is met through two
+    /// images.
     PairRuns(const Packing& packing, double range);
 
     Index rows() const { return static_cast<Index>(boxes_[1]) * boxes_[2]; }
@@ -45,11 +46,13 @@ private:
         }
         const double gap_y = std::max(0, std::abs(dy) - 1) * edge_[1];
         const double gap_z = std::max(0, std::abs(dz) - 1) * edge_[2];
-        const double left = range_ * range_ - gap_y * gap_y - gap_z * gap_z;
+        const double gap = std::max(gap_y, gap_z);  // between planes; only at right angles do the gaps add up
+        const double left = range_ * range_ - (cell_.is_rectangular() ? gap_y * gap_y + gap_z * gap_z : gap * gap);
         if (left <= 0) {
             return;
         }
-        const int reach = std::min(reach_[0], static_cast<int>(std::sqrt(left) / edge_[0]) + 1);
+        const int near = cell_.is_rectangular() ? static_cast<int>(std::sqrt(left) / edge_[0]) + 1 : reach_[0];
+        const int reach = std::min(reach_[0], near);
         const bool own = dy == 0 && dz == 0;
         for (int box = 0; box < boxes_[0]; ++box) {
             const std::size_t slot = slot_of(box, home[1], home[2]);
@@ -64,15 +67,16 @@ private:
 
     /// Boxes first to last along x, of which those outside the cell are images.
     template <class Visitor>
-    void visit_boxes(Index entry, int first, int last, const Eigen::Array3i& row, Eigen::Vector3d shift, Visitor&& visit) const {
+    void visit_boxes(Index entry, int first, int last, const Eigen::Array3i& row, const Eigen::Vector3d& shift,
+                     Visitor&& visit) const {
         const int count = boxes_[0];
         while (first <= last) {
             const int turn = first < 0 ? -1 : (first >= count ? 1 : 0);
             const int end = std::min(last, (turn + 1) * count - 1);
-            if (turn == 0 || periodic_) {
-                shift[0] = turn * length_[0];
+            if (turn == 0 || cell_.is_periodic(0)) {
+                const Eigen::Vector3d moved = shift + turn * cell_.edges().col(0);
                 visit(entry, start_[slot_of(first - turn * count, row[1], row[2])],
-                      start_[slot_of(end - turn * count, row[1], row[2]) + 1], shift);
+                      start_[slot_of(end - turn * count, row[1], row[2]) + 1], moved);
             }
             first = end + 1;
         }
@@ -81,20 +85,19 @@ private:
     bool wrap(Eigen::Array3i& row, Eigen::Vector3d& shift, int axis) const {
         const int turn = row[axis] < 0 ? -1 : (row[axis] >= boxes_[axis] ? 1 : 0);
         row[axis] -= turn * boxes_[axis];
-        shift[axis] = turn * length_[axis];
-        return turn == 0 || periodic_;
+        shift += turn * cell_.edges().col(axis);
+        return turn == 0 || cell_.is_periodic(axis);
     }
 
     std::size_t slot_of(int bx, int by, int bz) const {
         return static_cast<std::size_t>((static_cast<Index>(bz) * boxes_[1] + by) * boxes_[0] + bx);
     }
 
-    bool periodic_;
+    Cell cell_;
     double range_;
-    Eigen::Array3d length_;  ///< of the cell; of the box around the particles, if open
-    Eigen::Array3d edge_;    ///< of a box [m]
-    Eigen::Array3i boxes_;   ///< along each axis
-    Eigen::Array3i reach_;   ///< boxes that the range spans, at most all of them
+    Eigen::Array3d edge_;   ///< width of a box [m]
+    Eigen::Array3i boxes_;  ///< along each axis
+    Eigen::Array3i reach_;  ///< boxes that the range spans, at most all of them
     std::vector<Index> start_;
 };
 

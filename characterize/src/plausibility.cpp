@@ -76,8 +76,8 @@ void warn_of_density(Plausibility& found) {
 
 Eigen::VectorXd nearest_reduced_distances(const Packing& packing) {
     const double largest_radius = packing.radii.maxCoeff();
-    const double extent =
-        (packing.positions.rowwise().maxCoeff() - packing.positions.rowwise().minCoeff()).norm() + packing.cell.lengths().norm();
+    const double extent = (packing.positions.rowwise().maxCoeff() - packing.positions.rowwise().minCoeff()).norm() +
+                          packing.cell.edge_lengths().norm();
     Eigen::VectorXd nearest(packing.size());
     std::vector<Index> pending(static_cast<std::size_t>(packing.size()));
     std::iota(pending.begin(), pending.end(), Index{0});

@@ -7,8 +7,11 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace coagula::characterize {
 
@@ -25,35 +28,29 @@ double conflict_radius(const DiagramVertex& vertex, double largest_radius) {
     return std::sqrt(std::max(0.0, vertex.power + largest_radius * largest_radius));
 }
 
-/// How wide the layer of images must be for all found vertices to be right; infinite if a counted cell is unbounded.
-double required_margin(const PowerDiagram& diagram, const Eigen::Array3d& lengths) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (diagram.vertices.empty() ||
-        std::any_of(diagram.hull.begin(), diagram.hull.end(), [&](const auto& triangle) { return diagram.counts_any(triangle); })) {
-        return infinity;
+/// How far a place, seen from the corner of the box, lies outside it along its periodic edges; negative inside.
+double beyond(const Cell& cell, const Eigen::Vector3d& place) {
+    const Eigen::Vector3d fraction = cell.in_edges(place);
+    double most = -std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double width = cell.widths()[axis];
+        const double below = cell.is_rectangular() ? -place[axis] : -fraction[axis] * width;
+        const double above = cell.is_rectangular() ? place[axis] - width : (fraction[axis] - 1) * width;
+        most = cell.is_periodic(axis) ? std::max({most, below, above}) : most;
     }
-    const double largest_radius = diagram.radii.maxCoeff();
-    double margin = 0;
-#pragma omp parallel for schedule(static) reduction(max : margin)
-    for (const DiagramVertex& vertex : diagram.vertices) {
-        if (vertex.relative_volume > 0) {
-            const Eigen::Array3d place = vertex.place;
-            const double beyond = std::max((-place).maxCoeff(), (place - lengths).maxCoeff());
-            margin = std::max(margin, beyond + conflict_radius(vertex, largest_radius));
-        }
-    }
-    return margin;
+    return most;
 }
 
 /// The particles themselves, in the box that begins at the origin.
-PowerDiagram sites_in_the_box(const Packing& packing, const Eigen::VectorXd& radii) {
+PowerDiagram sites_in_the_box(const Packing& packing, const Eigen::VectorXd& radii, std::vector<char> counted) {
     PowerDiagram diagram;
     diagram.positions.resize(3, packing.size());
     for (Index i = 0; i < packing.size(); ++i) {
         diagram.positions.col(i) = packing.cell.wrap(packing.positions.col(i)) - packing.cell.origin();
     }
     diagram.radii = radii;
-    diagram.counted.assign(static_cast<std::size_t>(packing.size()), 1);
+    diagram.counted = std::move(counted);
+    diagram.counted.resize(static_cast<std::size_t>(packing.size()), 1);
     diagram.particle.resize(diagram.counted.size());
     std::iota(diagram.particle.begin(), diagram.particle.end(), 0);
     return diagram;
@@ -61,23 +58,33 @@ PowerDiagram sites_in_the_box(const Packing& packing, const Eigen::VectorXd& rad
 
 /// Adds the images of the particles that lie within `margin` of the box and are not there yet.
 void widen(const Packing& packing, double margin, PowerDiagram& diagram) {
-    const Eigen::Array3d lengths = packing.cell.lengths();
+    const Cell& cell = packing.cell;
     const Index particles = packing.size();
-    require(static_cast<double>(particles) * (1 + 2 * margin / lengths).prod() < most_sites,
+    Eigen::Array3d layers = margin / cell.widths().array();
+    for (int axis = 0; axis < 3; ++axis) {
+        layers[axis] = cell.is_periodic(axis) ? layers[axis] : 0.0;
+    }
+    require(static_cast<double>(particles) * (1 + 2 * layers).prod() < most_sites,
             "the box is too elongated for its number of particles: their Voronoi cells reach through too many periodic images");
     std::vector<Eigen::Vector3d> images;
     for (Index i = 0; i < particles; ++i) {
-        const Eigen::Array3d place = diagram.positions.col(i);
-        const Eigen::Array3i first = ((-margin - place) / lengths).ceil().cast<int>();
-        const Eigen::Array3i last = ((lengths + margin - place) / lengths).floor().cast<int>();
+        const Eigen::Vector3d place = diagram.positions.col(i);
+        const Eigen::Array3d fraction = cell.in_edges(place);
+        Eigen::Array3i first = (-layers - fraction).ceil().cast<int>();
+        Eigen::Array3i last = (1 + layers - fraction).floor().cast<int>();
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!cell.is_periodic(axis)) {
+                first[axis] = last[axis] = 0;
+            }
+        }
         for (int x = first[0]; x <= last[0]; ++x) {
             for (int y = first[1]; y <= last[1]; ++y) {
                 for (int z = first[2]; z <= last[2]; ++z) {
-                    const Eigen::Array3d image = place + Eigen::Array3d(x, y, z) * lengths;
-                    const double beyond = std::max((-image).maxCoeff(), (image - lengths).maxCoeff());
-                    const bool is_known = diagram.margin > 0 && beyond <= diagram.margin;
-                    if ((x != 0 || y != 0 || z != 0) && beyond <= margin && !is_known) {
-                        images.emplace_back(image);
+                    const Eigen::Vector3d image = place + cell.edges() * Eigen::Vector3d(x, y, z);
+                    const double outside = beyond(cell, image);
+                    const bool is_known = diagram.margin > 0 && outside <= diagram.margin;
+                    if ((x != 0 || y != 0 || z != 0) && outside <= margin && !is_known) {
+                        images.push_back(image);
                         diagram.particle.push_back(static_cast<int>(i));
                     }
                 }
@@ -96,14 +103,21 @@ void widen(const Packing& packing, double margin, PowerDiagram& diagram) {
     diagram.margin = margin;
 }
 
-/// Whether a ball lies in the intersection of half spaces normals^T x <= offsets.
-class ConvexHull {
+/// Whether a ball lies in the space that the particles enclose: the convex hull of the sites; between the outermost planes of a
+/// packing with a single open edge, whose images go on along the others.
+class Enclosure {
 public:
-    explicit ConvexHull(const PowerDiagram& diagram) {
-        const auto facets = static_cast<Index>(diagram.hull.size());
+    Enclosure(const Cell& cell, const PowerDiagram& diagram) {
+        const std::optional<Eigen::Vector3d> normal = normal_of_slab(cell);
+        const auto facets = static_cast<Index>(normal ? 2 : diagram.hull.size());
         normals_.resize(3, facets);
         offsets_.resize(facets);
         for (Index facet = 0; facet < facets; ++facet) {
+            if (normal) {
+                normals_.col(facet) = facet == 0 ? *normal : -*normal;
+                offsets_[facet] = (normals_.col(facet).transpose() * diagram.positions).maxCoeff();
+                continue;
+            }
             const auto& corner = diagram.hull[static_cast<std::size_t>(facet)];
             const Eigen::Vector3d origin = diagram.positions.col(corner[0]);
             const Eigen::Vector3d first = diagram.positions.col(corner[1]) - origin;
@@ -112,7 +126,7 @@ public:
             offsets_[facet] = normals_.col(facet).dot(origin);
         }
         centre_ = diagram.positions.rowwise().mean();
-        inner_radius_ = (offsets_ - normals_.transpose() * centre_).minCoeff();
+        inner_radius_ = facets > 0 ? (offsets_ - normals_.transpose() * centre_).minCoeff() : 0.0;
     }
 
     bool contains_ball(const Eigen::Vector3d& centre, double radius) const {
@@ -126,6 +140,30 @@ private:
     Eigen::Vector3d centre_;
     double inner_radius_ = 0;  ///< of a ball about centre_: spares most points the test against all facets
 };
+
+/// How wide the layer of images must be for all found vertices to be right; infinite if a counted cell of a periodic packing is
+/// unbounded. Where there is a free surface, vertices that a particle beyond it could change do not ask for a layer.
+double required_margin(const Cell& cell, const PowerDiagram& diagram) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto is_counted = [&](const auto& triangle) { return diagram.counts_any(triangle); };
+    if (cell.is_periodic() && (diagram.vertices.empty() || std::any_of(diagram.hull.begin(), diagram.hull.end(), is_counted))) {
+        return infinity;
+    }
+    std::optional<Enclosure> enclosure;
+    if (!cell.is_periodic()) {
+        enclosure.emplace(cell, diagram);
+    }
+    const double largest_radius = diagram.radii.maxCoeff();
+    double margin = 0;
+#pragma omp parallel for schedule(static) reduction(max : margin)
+    for (const DiagramVertex& vertex : diagram.vertices) {
+        const double radius = conflict_radius(vertex, largest_radius);
+        if (vertex.relative_volume > 0 && (!enclosure || enclosure->contains_ball(vertex.place, radius))) {
+            margin = std::max(margin, beyond(cell, vertex.place) + radius);
+        }
+    }
+    return margin;
+}
 
 }  // namespace
 
@@ -238,20 +276,40 @@ double power_of_vertex(const PowerDiagram& diagram, const std::array<int, 4>& si
     return vertex.allFinite() ? vertex.squaredNorm() - radius * radius : std::numeric_limits<double>::quiet_NaN();
 }
 
-PowerDiagram periodic_diagram(const Packing& packing, const Eigen::VectorXd& radii, double margin) {
-    const auto particles = static_cast<double>(packing.size());
-    if (margin <= 0) {
-        // Somewhere along the longest side is a slab of thickness length / particles without a centre: some cells are that large.
-        const double slab = packing.cell.lengths().maxCoeff() / particles;
-        margin = std::max(2.5 * std::cbrt(packing.cell.volume() / particles), 0.5 * slab);
+std::optional<Eigen::Vector3d> normal_of_slab(const Cell& cell) {
+    std::optional<Eigen::Vector3d> normal;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!cell.is_periodic(axis) && cell.is_periodic((axis + 1) % 3) && cell.is_periodic((axis + 2) % 3)) {
+            normal = cell.edges().col((axis + 1) % 3).cross(cell.edges().col((axis + 2) % 3)).normalized();
+        }
     }
-    PowerDiagram diagram = sites_in_the_box(packing, radii);
+    return normal;
+}
+
+namespace {
+
+/// A layer of images to begin with.
+double first_margin(const Packing& packing) {
+    const auto particles = static_cast<double>(packing.size());
+    // Somewhere along the longest side is a slab of thickness length / particles without a centre: some cells are that large.
+    const double slab = packing.cell.edge_lengths().maxCoeff() / particles;
+    return std::max(2.5 * std::cbrt(packing.cell.volume() / particles), 0.5 * slab);
+}
+
+}  // namespace
+
+PowerDiagram power_diagram(const Packing& packing, const Eigen::VectorXd& radii, std::vector<char> counted, double margin) {
+    PowerDiagram diagram = sites_in_the_box(packing, radii, std::move(counted));
     Triangulation triangulation(radii.minCoeff() == radii.maxCoeff());
+    const bool has_images = !packing.cell.is_open();
+    margin = margin > 0 ? margin : first_margin(packing);
     while (true) {
-        widen(packing, margin, diagram);
+        if (has_images) {
+            widen(packing, margin, diagram);
+        }
         triangulation.insert(diagram);
         triangulation.find_vertices(diagram);
-        const double required = required_margin(diagram, packing.cell.lengths());
+        const double required = has_images ? required_margin(packing.cell, diagram) : 0.0;
         if (required <= margin) {
             triangulation.find_edges(diagram);
             return diagram;
@@ -261,34 +319,20 @@ PowerDiagram periodic_diagram(const Packing& packing, const Eigen::VectorXd& rad
     }
 }
 
-PowerDiagram open_diagram(const Packing& packing, const Eigen::VectorXd& radii, std::vector<char> counted) {
-    PowerDiagram diagram;
-    diagram.positions = packing.positions.colwise() - packing.cell.origin();
-    diagram.radii = radii;
-    diagram.counted = std::move(counted);
-    diagram.particle.resize(diagram.counted.size());
-    std::iota(diagram.particle.begin(), diagram.particle.end(), 0);
-    Triangulation triangulation(radii.minCoeff() == radii.maxCoeff());
-    triangulation.insert(diagram);
-    triangulation.find_vertices(diagram);
-    triangulation.find_edges(diagram);
-    return diagram;
-}
-
-std::vector<char> inner_sites(const PowerDiagram& diagram) {
+std::vector<char> inner_sites(const Packing& packing, const PowerDiagram& diagram) {
     const auto sites = static_cast<std::size_t>(diagram.positions.cols());
     std::vector<char> inner(sites, 0);
     if (diagram.edges.empty()) {
         return inner;
     }
-    const ConvexHull hull(diagram);
+    const Enclosure enclosure(packing.cell, diagram);
     const double largest_radius = diagram.radii.maxCoeff();
     std::vector<char> is_certain(diagram.vertices.size());
 #pragma omp parallel for schedule(static)
     for (std::size_t k = 0; k < diagram.vertices.size(); ++k) {
         const DiagramVertex& vertex = diagram.vertices[k];
         const bool is_flat = vertex.relative_volume == 0;
-        is_certain[k] = is_flat || hull.contains_ball(vertex.place, conflict_radius(vertex, largest_radius)) ? 1 : 0;
+        is_certain[k] = is_flat || enclosure.contains_ball(vertex.place, conflict_radius(vertex, largest_radius)) ? 1 : 0;
     }
     for (const DiagramEdge& edge : diagram.edges) {  // swallowed sites have no cell and stay outside the count
         for (const int site : edge.around) {
@@ -307,6 +351,7 @@ std::vector<char> inner_sites(const PowerDiagram& diagram) {
             }
         }
     }
+    std::fill(inner.begin() + packing.size(), inner.end(), char{0});  // an image is no particle of its own
     return inner;
 }
 

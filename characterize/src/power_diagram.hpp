@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace coagula::characterize {
@@ -78,17 +79,19 @@ DiagramVertex largest_vertex(const PowerDiagram& diagram);
 /// larger by `growth`; NaN if the sites lie in a plane.
 double power_of_vertex(const PowerDiagram& diagram, const std::array<int, 4>& sites, double growth);
 
-/// Diagram of the particles in a periodic box; all of them are counted. Images are added in a layer around the box, and the layer
-/// is widened until no particle image beyond it could change a cell.
+/// Diagram of the particles. Images are added in a layer around the box along its periodic edges, and the layer is widened until no
+/// image beyond it could change a counted cell.
 /// @param radii of the particles, in place of those in the packing.
+/// @param counted 1 for the particles whose cells are to be measured; all of them if empty.
 /// @param margin first guess of the width of the layer; <= 0 for a default.
-PowerDiagram periodic_diagram(const Packing& packing, const Eigen::VectorXd& radii, double margin = 0);
+PowerDiagram power_diagram(const Packing& packing, const Eigen::VectorXd& radii, std::vector<char> counted = {}, double margin = 0);
 
-/// Diagram of the particles alone.
-PowerDiagram open_diagram(const Packing& packing, const Eigen::VectorXd& radii, std::vector<char> counted);
+/// 1 for the sites whose cells no sphere beyond the free surface (the convex hull of the sites, or the outermost planes of a
+/// packing that is periodic along two edges) could change, if it is no larger than the largest of the sites; 0 for images. The
+/// diagram must count all particles.
+std::vector<char> inner_sites(const Packing& packing, const PowerDiagram& diagram);
 
-/// 1 for the sites of an open diagram whose cells no sphere outside the convex hull of the sites could change, if it is no larger
-/// than the largest of the sites. The diagram must count all sites.
-std::vector<char> inner_sites(const PowerDiagram& diagram);
+/// The unit normal of the faces of a box with a single open edge.
+std::optional<Eigen::Vector3d> normal_of_slab(const Cell& cell);
 
 }  // namespace coagula::characterize

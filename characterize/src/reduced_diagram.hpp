@@ -5,13 +5,14 @@
 
 namespace coagula::characterize {
 
-/// The packing with its lengths divided by `unit`.
+/// The packing with its lengths divided by `unit`; a tilted box by the shortest vectors of its lattice.
 Packing in_units_of(double unit, const Packing& packing);
 
 struct ReducedDiagram {
-    double unit = 1;       ///< mean radius r0 [m]
-    Packing packing;       ///< lengths over r0
-    PowerDiagram diagram;  ///< all particles are counted, or the inner ones of an open packing; edges around counted ones only
+    double unit = 1;  ///< mean radius r0 [m]
+    Packing packing;  ///< lengths over r0
+    PowerDiagram
+        diagram;  ///< all particles are counted, or the inner ones where there is a free surface; edges around counted ones only
 
     /// N flags.
     std::vector<bool> inner() const { return {diagram.counted.begin(), diagram.counted.begin() + packing.size()}; }

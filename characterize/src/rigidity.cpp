@@ -130,7 +130,7 @@ bool measure_by_self_stress(const RigidityMatrix& matrix, const RigidityOptions&
 void measure_by_motions(const Packing& packing, const ContactNetwork& contacts, const RigidityMatrix& matrix,
                         const RigidityOptions& options, const Progress& progress, Rigidity& result) {
     const NullSpace space = matrix.contacts() > 0
-                                ? find_null_space(matrix, guess_pinned(matrix, !packing.cell.is_periodic()), options, progress)
+                                ? find_null_space(matrix, guess_pinned(matrix, packing.cell.is_open()), options, progress)
                                 : whole_space(matrix.unknowns(), options);
     result.rank = matrix.unknowns() - space.dimension;
     result.largest_zero = space.largest_zero;

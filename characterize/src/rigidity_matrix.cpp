@@ -163,7 +163,7 @@ EliminationOrder LoadMatrix::elimination_order() const {
 }
 
 Eigen::MatrixXd rigid_motions(const Packing& packing, const RigidityMatrix& matrix) {
-    const bool turns = !packing.cell.is_periodic();
+    const bool turns = packing.cell.is_open();
     Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(matrix.unknowns(), turns ? 6 : 3);
     const double r0 = mean_radius(packing);
     const Eigen::Vector3d centre = packing.positions.rowwise().mean();

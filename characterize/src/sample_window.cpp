@@ -1,11 +1,13 @@
 #include "sample_window.hpp"
 
+#include <coagula/characterize/measure.hpp>
 #include <coagula/common/checks.hpp>
 
 #include "power_diagram.hpp"
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -44,7 +46,7 @@ SampleWindow open_window(const Packing& packing) {
     require(particles >= 5, sentence + ", but at least 5 are needed to know what space it fills");
     const Eigen::VectorXd equal = Eigen::VectorXd::Constant(packing.size(), mean_radius(packing));
     const Packing points{packing.cell, packing.positions, equal};
-    const PowerDiagram diagram = open_diagram(points, equal, std::vector<char>(particles, 1));
+    const PowerDiagram diagram = power_diagram(points, equal);
     require(!diagram.hull.empty(), sentence + " in one plane: it fills no space");
     SampleWindow window;
     window.planes = half_spaces(packing, diagram);
@@ -67,6 +69,30 @@ SampleWindow open_window(const Packing& packing) {
     return window;
 }
 
+/// The space between the outermost centres of a packing that is periodic along the two edges across `normal`.
+SampleWindow slab_window(const Packing& packing, const Eigen::Vector3d& normal) {
+    const Eigen::VectorXd height = packing.positions.transpose() * normal;
+    const double lower = height.minCoeff();
+    const double upper = height.maxCoeff();
+    const double thickness = upper - lower;
+    const std::string sentence = "the packing is periodic along two edges and has " + std::to_string(packing.size()) + " particles";
+    require(packing.size() >= 3 && thickness > 0, sentence + " in one plane: it fills no space");
+    double width = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        width = packing.cell.is_periodic(axis) ? width : packing.cell.widths()[axis];
+    }
+    SampleWindow window;
+    window.planes = {{normal, upper}, {-normal, -lower}};
+    const Eigen::Vector3d centre = packing.cell.centre();
+    window.centre = centre + (0.5 * (lower + upper) - centre.dot(normal)) * normal;
+    window.ball_radius = std::min(thickness / 2, packing.cell.half_period());
+    window.volume = packing.cell.volume() / width * thickness;
+    window.depth = (height.array() - lower).min(upper - height.array());
+    window.density = static_cast<double>(packing.size() - 2) / window.volume;
+    window.pair_density = window.density;
+    return window;
+}
+
 }  // namespace
 
 double SampleWindow::depth_at(const Eigen::Vector3d& point) const {
@@ -78,7 +104,11 @@ double SampleWindow::depth_at(const Eigen::Vector3d& point) const {
 }
 
 SampleWindow sample_window(const Packing& packing) {
+    if (const auto normal = normal_of_slab(packing.cell)) {
+        return slab_window(packing, *normal);
+    }
     if (!packing.cell.is_periodic()) {
+        require_applicable(packing.cell.is_open(), "the box is periodic along one edge alone: it has no window for this measure");
         return open_window(packing);
     }
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -88,7 +118,7 @@ SampleWindow sample_window(const Packing& packing) {
             particles / volume,
             (particles - 1) / volume,
             volume,
-            packing.cell.origin() + packing.cell.lengths() / 2,
+            packing.cell.centre(),
             infinity};
 }
 

@@ -9,7 +9,7 @@ namespace coagula::characterize {
 
 SampledPores sample_pores(const Packing& packing, const Eigen::VectorXd& radius, Index points, std::uint64_t seed) {
     check(packing);
-    require(packing.cell.is_periodic(), "pores are sampled in periodic packings only, and this one is open");
+    require(packing.cell.is_periodic(), "pores are sampled in periodic packings only, and this one has a free surface");
     require(points > 0, "the number of sample points is " + std::to_string(points) + ", but must be positive");
     require(radius.size() > 0 && radius.allFinite() && radius[0] >= 0 && std::is_sorted(radius.begin(), radius.end()),
             "the radii at which pores are sampled must be finite, not negative and ascending");
@@ -20,7 +20,7 @@ SampledPores sample_pores(const Packing& packing, const Eigen::VectorXd& radius,
 #pragma omp parallel for schedule(static) reduction(+ : counts[:bins])
     for (Index point = 0; point < points; ++point) {
         const Eigen::Vector3d uniform = random_uniform(seed, RandomPurpose::pore_sample, 0, static_cast<std::uint64_t>(point));
-        const Eigen::Vector3d position = packing.cell.origin() + packing.cell.lengths().cwiseProduct(uniform);
+        const Eigen::Vector3d position = packing.cell.place(uniform);
         const double distance = surface_distance(cells, packing, position);
         if (distance > 0) {
             ++counts[std::lower_bound(radius.begin(), radius.end(), distance) - radius.begin()];

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A wave vector as multiples of 2 pi / length along each axis.
+/// A wave vector as multiples of the three vectors of the reciprocal lattice.
 using Multiples = Eigen::Array3i;
 
 struct Shells {
-    Eigen::Array3d spacing;                       ///< 2 pi / length
+    Eigen::Matrix3d reciprocal;                   ///< its columns: 2 pi over the lengths of a rectangular box
     std::vector<std::vector<Multiples>> vectors;  ///< of shell k: about (k + 1) mean spacings
     Eigen::Array3i most;                          ///< largest multiples
 };
@@ -48,16 +48,20 @@ void thin(std::vector<Multiples>& shell, Index limit) {
 }
 
 /// Half of all wave vectors (q and -q scatter alike) up to `largest`, thinned evenly to `limit` in a shell.
-Shells collect_shells(const Eigen::Array3d& lengths, double largest, Index limit) {
+Shells collect_shells(const Cell& lattice, double largest, Index limit) {
     Shells shells;
-    shells.spacing = 2 * pi / lengths;
-    const double mean_spacing = std::cbrt(shells.spacing.prod());
+    const Eigen::Array3d spacing = 2 * pi / lattice.edge_lengths().array();
+    shells.reciprocal = spacing.matrix().asDiagonal();
+    if (!lattice.is_rectangular()) {
+        shells.reciprocal = 2 * pi * lattice.edges().inverse().transpose();
+    }
+    const double mean_spacing = std::cbrt(std::abs(shells.reciprocal.determinant()));
     const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(largest / mean_spacing)));
     shells.vectors.resize(count);
     std::vector<Index> met(count, 0);
-    shells.most = (largest / shells.spacing).ceil().cast<int>();
+    shells.most = (largest / spacing).ceil().cast<int>();  // of a component along an edge
     for_half_of(shells.most, [&](int x, int y, int z) {
-        const double length = (Eigen::Array3d(x, y, z) * shells.spacing).matrix().norm();
+        const double length = (shells.reciprocal * Eigen::Vector3d(x, y, z)).norm();
         const double place = length / mean_spacing - 0.5;
         if (place >= 0 && place < static_cast<double>(count)) {
             const auto shell = static_cast<std::size_t>(place);
@@ -97,7 +101,7 @@ Taper make_taper(const Packing& packing, const SampleWindow& window) {
     }
     Taper taper{Eigen::VectorXd::Zero(packing.size()), window.density, window.ball_radius};
     for (Index i = 0; i < packing.size(); ++i) {
-        const double r = (packing.positions.col(i) - window.centre).norm();
+        const double r = packing.cell.minimum_image(packing.positions.col(i) - window.centre).norm();
         if (r < taper.radius) {
             taper.weights[i] = r > 0 ? std::sin(pi * r / taper.radius) / r : pi / taper.radius;
         }
@@ -124,10 +128,15 @@ struct Phases {
 /// sum_j w_j exp(i q x_j) of one batch for all vectors, added to the amplitudes.
 void add_batch(const Packing& packing, const Taper& taper, const SampleWindow& window, const Shells& shells, Index begin,
                Index count, std::vector<std::complex<double>>& amplitudes) {
+    Eigen::Matrix3Xd place = packing.positions.middleCols(begin, count).colwise() - window.centre;
+    if (!packing.cell.is_periodic()) {
+        for (auto separation : place.colwise()) {
+            separation = packing.cell.minimum_image(separation);
+        }
+    }
     std::array<Phases, 3> phases;
     for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::ArrayXd place = packing.positions.row(axis).segment(begin, count).transpose().array() - window.centre[axis];
-        phases[static_cast<std::size_t>(axis)].fill(shells.spacing[axis] * place, shells.most[axis]);
+        phases[static_cast<std::size_t>(axis)].fill(place.transpose() * shells.reciprocal.col(axis), shells.most[axis]);
     }
     const Eigen::ArrayXd weights = taper.weights.segment(begin, count);
     Eigen::ArrayXd real(count), imaginary(count);
@@ -194,7 +203,7 @@ void add_direct(const Packing& packing, const SampleWindow& window, const Shells
         const auto n = static_cast<double>(shell.size());
         double wave_number = 0, sum = 0, squares = 0;
         for (const Multiples& multiples : shell) {
-            const double q = (multiples.cast<double>() * shells.spacing).matrix().norm();
+            const double q = (shells.reciprocal * multiples.cast<double>().matrix()).norm();
             const double intensity = std::norm(amplitudes[vector++] - taper.own_amplitude(q)) / norm;
             wave_number += q / n;
             sum += intensity;
@@ -325,16 +334,14 @@ StructureFactor measure_structure_factor(const Packing& packing, const Structure
     const double diameter = 2 * mean_radius(packing);
     const Packing reduced = in_units_of(diameter, packing);
     const SampleWindow window = sample_window(reduced);
-    Eigen::Vector3d lengths = Eigen::Vector3d::Constant(2 * window.ball_radius);
-    if (packing.cell.is_periodic()) {
-        lengths = reduced.cell.lengths();
-    }
+    const Cell lattice =
+        packing.cell.is_periodic() ? reduced.cell : Cell::periodic(Eigen::Vector3d::Constant(2 * window.ball_radius));
     constexpr double most_terms = 2e8;
-    const double shells = std::max(1.0, options.largest * std::cbrt(lengths.prod()) / (2 * pi));
+    const double shells = std::max(1.0, options.largest * std::cbrt(lattice.volume()) / (2 * pi));
     const auto affordable = static_cast<Index>(most_terms / (shells * static_cast<double>(packing.size())));
     const Index limit = std::clamp<Index>(affordable, std::min<Index>(10, options.vectors), options.vectors);
     StructureFactor result;
-    add_direct(reduced, window, collect_shells(lengths, options.largest, limit), result);
+    add_direct(reduced, window, collect_shells(lattice, options.largest, limit), result);
     add_transformed(reduced, window, result);
     extrapolate(options.extrapolation_range, result);
     Index largest = 0;

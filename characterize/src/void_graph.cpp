@@ -24,12 +24,12 @@ struct End {
     VoidGraph::Vertex vertex;
 };
 
-std::vector<Eigen::Vector3i> images_of_sites(const PowerDiagram& diagram, const Eigen::Vector3d& lengths) {
+std::vector<Eigen::Vector3i> images_of_sites(const PowerDiagram& diagram, const Cell& cell) {
     std::vector<Eigen::Vector3i> images;
     for (std::size_t site = 0; site < diagram.particle.size(); ++site) {
         const Eigen::Vector3d shift =
             diagram.positions.col(static_cast<Index>(site)) - diagram.positions.col(diagram.particle[site]);
-        images.emplace_back(shift.cwiseQuotient(lengths).array().round().cast<int>());
+        images.emplace_back(cell.in_edges(shift).array().round().cast<int>());
     }
     return images;
 }
@@ -72,7 +72,7 @@ bool is_chosen(const PowerDiagram& diagram, const DiagramEdge& edge) {
 }
 
 /// The number of each end's vertex; ends of one tetrahedron have the same. Fills the vertices.
-std::vector<std::size_t> number_vertices(std::vector<End>& ends, const Eigen::Vector3d& lengths, VoidGraph& graph) {
+std::vector<std::size_t> number_vertices(std::vector<End>& ends, const Cell& cell, VoidGraph& graph) {
     std::vector<std::size_t> order(ends.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
@@ -83,7 +83,7 @@ std::vector<std::size_t> number_vertices(std::vector<End>& ends, const Eigen::Ve
         const End& end = ends[order[k]];
         if (k == 0 || ends[order[k - 1]].key != end.key) {
             graph.vertices.push_back(end.vertex);
-            graph.vertices.back().position -= end.image.cast<double>().cwiseProduct(lengths);
+            graph.vertices.back().position -= cell.edges() * end.image.cast<double>();
         }
         number[order[k]] = graph.vertices.size() - 1;
     }
@@ -92,8 +92,8 @@ std::vector<std::size_t> number_vertices(std::vector<End>& ends, const Eigen::Ve
 
 }  // namespace
 
-VoidGraph void_graph(const PowerDiagram& diagram, const Eigen::Vector3d& lengths) {
-    const std::vector<Eigen::Vector3i> images = images_of_sites(diagram, lengths);
+VoidGraph void_graph(const PowerDiagram& diagram, const Cell& cell) {
+    const std::vector<Eigen::Vector3i> images = images_of_sites(diagram, cell);
     VoidGraph graph;
     std::vector<End> ends;
     for (const DiagramEdge& edge : diagram.edges) {
@@ -104,7 +104,7 @@ VoidGraph void_graph(const PowerDiagram& diagram, const Eigen::Vector3d& lengths
             graph.links.push_back({0, 0, ends.back().image - ends[ends.size() - 2].image, least_power(geometry), edge.around});
         }
     }
-    const std::vector<std::size_t> number = number_vertices(ends, lengths, graph);
+    const std::vector<std::size_t> number = number_vertices(ends, cell, graph);
     for (std::size_t k = 0; k < graph.links.size(); ++k) {
         graph.links[k].first = number[2 * k];
         graph.links[k].second = number[2 * k + 1];

@@ -29,9 +29,8 @@ struct VoidGraph {
     std::vector<Link> links;  ///< widest first
 };
 
-/// Of a periodic diagram that counts all particles; each vertex and edge of the torus once.
-/// @param lengths of the box.
-VoidGraph void_graph(const PowerDiagram& diagram, const Eigen::Vector3d& lengths);
+/// Of the diagram of a periodic packing in `cell`, which counts all particles; each vertex and edge of the torus once.
+VoidGraph void_graph(const PowerDiagram& diagram, const Cell& cell);
 
 /// For each axis the widest link that, with those wider than it, closes a way that reaches around the box along the axis: its place
 /// in VoidGraph::links.

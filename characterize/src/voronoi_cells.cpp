@@ -91,7 +91,9 @@ bool keeps(const PowerDiagram& diagram, const FacePart& part) {
     if (part.particle != other) {
         return part.particle < other || diagram.counted[static_cast<std::size_t>(other)] == 0;
     }
-    const Eigen::Vector3d step = diagram.positions.col(part.site) - diagram.positions.col(part.particle);
+    Eigen::Vector3d step = diagram.positions.col(part.site) - diagram.positions.col(part.particle);
+    constexpr double rounding = 1e-9;  // that a tilted box leaves of zero
+    step = (step.array().abs() > rounding * step.norm()).select(step, 0.0);
     return step[0] != 0 ? step[0] > 0 : (step[1] != 0 ? step[1] > 0 : step[2] > 0);
 }
 

@@ -13,9 +13,9 @@ CellList::CellList(const Cell& cell, const Eigen::Matrix3Xd& positions, double c
     // Boxes never smaller than half of the volume per particle: an absurdly small cut-off must not exhaust the memory.
     const double smallest = std::cbrt(0.5 * cell.volume() / std::max(1.0, static_cast<double>(particles)));
     for (int axis = 0; axis < 3; ++axis) {
-        const double length = cell.edges()(axis, axis);
-        boxes_[axis] = std::max(1, static_cast<int>(std::min(length / std::max(cutoff, smallest), 1000.0)));
-        reach_[axis] = static_cast<int>(std::ceil(cutoff * boxes_[axis] / length));
+        const double width = cell.widths()[axis];
+        boxes_[axis] = std::max(1, static_cast<int>(std::min(width / std::max(cutoff, smallest), 1000.0)));
+        reach_[axis] = static_cast<int>(std::ceil(cutoff * boxes_[axis] / width));
     }
     start_.assign(static_cast<std::size_t>(boxes_.prod()) + 1, 0);
     std::vector<std::size_t> slot(particles);
@@ -41,11 +41,11 @@ CellList::CellList(const Cell& cell, const Eigen::Matrix3Xd& positions, double c
 }
 
 Eigen::Array3i CellList::box_of(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d fraction = cell_.fraction(point);
     Eigen::Array3i box;
     for (int axis = 0; axis < 3; ++axis) {
-        const double fraction = (point[axis] - cell_.origin()[axis]) / cell_.edges()(axis, axis);
-        box[axis] = static_cast<int>(std::floor(std::clamp(fraction, -1e6, 1e6) * boxes_[axis]));
-        box[axis] = cell_.is_periodic() ? box[axis] : std::clamp(box[axis], 0, boxes_[axis] - 1);
+        box[axis] = static_cast<int>(std::floor(std::clamp(fraction[axis], -1e6, 1e6) * boxes_[axis]));
+        box[axis] = cell_.is_periodic(axis) ? box[axis] : std::clamp(box[axis], 0, boxes_[axis] - 1);
     }
     return box;
 }

@@ -15,9 +15,10 @@ struct Pair {
     Eigen::Vector3d branch;
 };
 
-/// Whether a particle that meets its own image counts this one of the two opposite branches.
-bool points_up(const Eigen::Vector3d& branch) {
-    return branch.z() != 0 ? branch.z() > 0 : (branch.y() != 0 ? branch.y() > 0 : branch.x() > 0);
+/// Whether a particle that meets its own image counts this one of the two opposite branches; false of itself.
+bool points_up(const Cell& cell, const Eigen::Vector3d& branch) {
+    const Eigen::Vector3d periods = cell.in_edges(branch).array().round();  // free of the rounding that a tilted box leaves
+    return periods.z() != 0 ? periods.z() > 0 : (periods.y() != 0 ? periods.y() > 0 : periods.x() > 0);
 }
 
 /// Pairs with centre distance below reach(i, j); `cutoff` is the largest reach.
@@ -34,7 +35,7 @@ ContactNetwork collect_pairs(const Packing& packing, double cutoff, Reach&& reac
             auto& row = rows[static_cast<std::size_t>(i)];
             cells.for_each_near(packing.positions.col(i), [&](int j, const Eigen::Vector3d& branch) {
                 const double limit = reach(i, j);
-                const bool counted = j > i || (j == i && branch.squaredNorm() > 0 && points_up(branch));
+                const bool counted = j > i || (j == i && points_up(packing.cell, branch));
                 if (counted && branch.squaredNorm() < limit * limit) {
                     row.push_back({j, branch});
                 }

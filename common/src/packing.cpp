@@ -17,22 +17,27 @@ std::string particle_name(const std::string& name, Index particle) {
     return name + ": particle " + std::to_string(particle);
 }
 
+/// "its x is 3e-06 m, the box goes from 0 to 2e-06 m", or the same in fractions of the edge of a tilted box.
+std::string place_along(const Cell& cell, int axis, const Eigen::Vector3d& position) {
+    if (cell.is_rectangular()) {
+        const double low = cell.origin()[axis];
+        return std::string("its ") + "xyz"[axis] + " is " + to_text(position[axis]) + " m, the box goes from " + to_text(low) +
+               " to " + to_text(low + cell.edges()(axis, axis)) + " m";
+    }
+    return "it lies at " + to_text(cell.fraction(position)[axis]) + " of edge " + "abc"[axis] + ", the box goes from 0 to 1";
+}
+
 void check_one(const Packing& packing, Index particle, const std::string& name) {
     const Eigen::Vector3d position = packing.positions.col(particle);
     const double radius = packing.radii[particle];
     require(position.allFinite(), particle_name(name, particle) + " has a coordinate that is not a finite number");
     require(std::isfinite(radius) && radius > 0,
             particle_name(name, particle) + " has radius " + to_text(radius) + " m, but a radius must be finite and positive");
-    if (!packing.cell.is_periodic()) {
-        return;
-    }
+    constexpr double slack = 1e-9;
+    const Eigen::Vector3d fraction = packing.cell.fraction(position);
     for (int axis = 0; axis < 3; ++axis) {
-        const double low = packing.cell.origin()[axis];
-        const double high = low + packing.cell.edges()(axis, axis);
-        const double slack = 1e-9 * (high - low);
-        require(position[axis] >= low - slack && position[axis] <= high + slack,
-                particle_name(name, particle) + " lies outside the box: its " + "xyz"[axis] + " is " + to_text(position[axis]) +
-                    " m, the box goes from " + to_text(low) + " to " + to_text(high) + " m");
+        require(!packing.cell.is_periodic(axis) || (fraction[axis] >= -slack && fraction[axis] <= 1 + slack),
+                particle_name(name, particle) + " lies outside the box: " + place_along(packing.cell, axis, position));
     }
 }
 
@@ -42,22 +47,28 @@ struct Touched {
     Index particle;
 };
 
-/// The boxes that the cube of edge `reach` around each centre touches, at most two along each axis; sorted. Cubes of centres that
-/// are nearer to each other than `reach` have a box in common.
+/// The box of a fine grid at a fraction of each edge; through the periodic boundary.
+Eigen::Array3d box_within(const Cell& cell, const Eigen::Array3d& boxes, const Eigen::Array3d& fraction) {
+    Eigen::Array3d box = (fraction * boxes).floor();
+    for (int axis = 0; axis < 3; ++axis) {
+        box[axis] -= cell.is_periodic(axis) ? boxes[axis] * std::floor(box[axis] / boxes[axis]) : 0.0;
+    }
+    return box;
+}
+
+/// The boxes that a small cell of width `reach` around each centre touches, at most two along each axis; sorted. Those of centres
+/// that are nearer to each other than `reach` have a box in common.
 std::vector<Touched> touched_boxes(const Packing& packing, double reach) {
     constexpr double reaches_per_box = 16;
     const Cell& cell = packing.cell;
-    Eigen::Vector3d edge = Eigen::Vector3d::Constant(reaches_per_box * reach);
-    if (cell.is_periodic()) {
-        edge = cell.lengths().array() / (cell.lengths().array() / edge.array()).floor().max(1.0).min(1e15);
-    }
+    const Eigen::Array3d boxes = (cell.widths().array() / (reaches_per_box * reach)).floor().max(1.0).min(1e15);
+    const Eigen::Array3d half = 0.5 * reach / cell.widths().array();
     std::vector<Touched> all;
     all.reserve(static_cast<std::size_t>(packing.size()));
     for (Index particle = 0; particle < packing.size(); ++particle) {
-        const Eigen::Array3d half = Eigen::Array3d::Constant(0.5 * reach);
-        const Eigen::Array3d centre = packing.positions.col(particle);
-        const Eigen::Array3d low = (cell.wrap(centre - half).array() / edge.array()).floor();
-        const Eigen::Array3d high = (cell.wrap(centre + half).array() / edge.array()).floor();
+        const Eigen::Array3d centre = cell.fraction(packing.positions.col(particle));
+        const Eigen::Array3d low = box_within(cell, boxes, centre - half);
+        const Eigen::Array3d high = box_within(cell, boxes, centre + half);
         for (int corner = 0; corner < 8; ++corner) {
             const auto is_upper = [&](int axis) { return (corner >> axis & 1) != 0; };
             const auto is_again = [&](int axis) { return is_upper(axis) && low[axis] == high[axis]; };

@@ -19,11 +19,12 @@ using Image = Eigen::Vector3i;
 
 /// Boxes between the second particle of a bond as the branch vector reaches it and as its coordinates say.
 Image crossed_boxes(const Packing& packing, const ContactNetwork& bonds, Index bond) {
-    if (!packing.cell.is_periodic()) {
-        return Image::Zero();
-    }
     const Eigen::Vector3d direct = packing.positions.col(bonds.ends(1, bond)) - packing.positions.col(bonds.ends(0, bond));
-    return (bonds.branch.col(bond) - direct).cwiseQuotient(packing.cell.lengths()).array().round().cast<int>();
+    Eigen::Vector3d boxes = packing.cell.in_edges(bonds.branch.col(bond) - direct);
+    for (int axis = 0; axis < 3; ++axis) {
+        boxes[axis] = packing.cell.is_periodic(axis) ? std::round(boxes[axis]) : 0.0;
+    }
+    return boxes.cast<int>();
 }
 
 /// Whether `winding` is linearly independent of the (fewer than four, independent) others.

@@ -48,13 +48,24 @@ std::string with_error(double value, double error) {
     return buffer.data();
 }
 
+std::string describe_periodicity(const Cell& cell) {
+    if (cell.is_periodic() || cell.is_open()) {
+        return cell.is_open() ? "open" : "periodic";
+    }
+    const char* const names = cell.is_rectangular() ? "xyz" : "abc";
+    std::string axes;
+    for (int axis = 0; axis < 3; ++axis) {
+        axes += cell.is_periodic(axis) ? (axes.empty() ? "" : " and ") + std::string(1, names[axis]) : "";
+    }
+    return "periodic along " + axes;
+}
+
 std::string describe(const Cell& cell) {
-    const Eigen::Vector3d lengths = cell.lengths();
     std::string text;
-    for (const double length : lengths) {
+    for (const double length : cell.edge_lengths()) {
         text += (text.empty() ? "" : " x ") + with_unit(length, "m");
     }
-    return text + (cell.is_periodic() ? ", periodic" : ", open");
+    return text + (cell.is_rectangular() ? "" : ", tilted") + ", " + describe_periodicity(cell);
 }
 
 }  // namespace coagula

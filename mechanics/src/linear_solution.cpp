@@ -65,9 +65,10 @@ Solution solve_iteratively(const Problem& problem, const Packing& packing, const
     Eigen::Matrix3Xd fraction(3, static_cast<Index>(kept.particle.size()));
     for (Index place = 0; place < fraction.cols(); ++place) {
         const Eigen::Vector3d position = packing.cell.wrap(packing.positions.col(kept.particle[static_cast<std::size_t>(place)]));
-        fraction.col(place) = (position - packing.cell.origin()).cwiseQuotient(packing.cell.lengths());
+        fraction.col(place) = packing.cell.fraction(position);
     }
-    const SchwarzPreconditioner schwarz(problem.upper, problem.full, fraction, packing.cell.lengths(), SchwarzOptions{}, progress);
+    const SchwarzPreconditioner schwarz(problem.upper, problem.full, fraction, packing.cell.edge_lengths(), SchwarzOptions{},
+                                        progress);
     const StopRule rule{
         .residual = options.tolerance, .energy = options.modulus_tolerance, .most_iterations = most_schwarz_iterations};
     Solution solution = conjugate_gradients(

@@ -13,9 +13,9 @@ namespace coagula::mechanics {
 /// The modulus that rounding leaves where there is none, over the affine one.
 inline constexpr double rounding_modulus = 1e-8;
 
-/// Whether the bonds of a periodic cell can resist each of the six unit strains, Voigt order. A stretch along an axis needs a
-/// cluster that reaches around the box along it, a shear one that does so along both of its axes: the particles of any other
-/// cluster follow the strain and a rotation that leave its bonds as they are.
+/// Whether the bonds of a periodic cell can resist each of the six unit strains, Voigt order. It takes a cluster whose ways around
+/// the box change their lengths or angles under the strain: the particles of any other cluster follow the strain and a rotation
+/// that leave its bonds as they are.
 std::array<bool, 6> resisted_strains(const Packing& packing, const ContactNetwork& bonds);
 
 /// Sets the rows and columns of the other strains to zero.

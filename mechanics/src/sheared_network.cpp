@@ -233,10 +233,14 @@ Packing ShearedNetwork::before_shear(double strain) const {
 }
 
 /// Neighbours are looked for in the cell before the shear, whose points and pairs map one to one onto those of the sheared cell:
-/// a strain is the same lattice as one that differs by whole edges. Distances there are at most `stretch` times as large.
+/// in a rectangular box, a strain is the same lattice as one that differs by whole edges. Distances there are at most `stretch`
+/// times as large.
 void ShearedNetwork::find_neighbours() {
-    const double turn = cell_.lengths()[orientation_.direction] / cell_.lengths()[orientation_.normal];
-    const double strain = strain_ - turn * std::nearbyint(strain_ / turn);
+    double strain = strain_;
+    if (cell_.is_rectangular()) {
+        const double turn = cell_.lengths()[orientation_.direction] / cell_.lengths()[orientation_.normal];
+        strain -= turn * std::nearbyint(strain_ / turn);
+    }
     const double stretch = 0.5 * std::abs(strain) + std::sqrt(1 + 0.25 * strain * strain);
     const Packing flat = before_shear(strain);
     const ContactNetwork near = find_pairs(flat, 2 * radii_.maxCoeff() * (1 + list_skin) * stretch);

@@ -62,11 +62,15 @@ std::shared_ptr<Packing> make_packing(const Rows& positions, const py::object& r
     packing->radii = radii_of(lengths_of(radii), packing->positions.cols());
     if (!box.is_none()) {
         const Rows edges = lengths_of(box);
-        if (edges.size() != 1 && edges.size() != 3) {
-            throw InputError("the box must have one edge length, or three");
+        if (edges.size() != 1 && edges.size() != 3 && edges.size() != 9) {
+            throw InputError("the box must have one edge length, three, or three edge vectors");
         }
-        packing->cell = Cell::periodic(edges.size() == 1 ? Eigen::Vector3d::Constant(*edges.data()).eval()
-                                                         : Eigen::Vector3d(Eigen::Vector3d::Map(edges.data())));
+        Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity() * *edges.data();
+        if (edges.size() > 1) {
+            matrix = edges.size() == 3 ? Eigen::Matrix3d(Eigen::Vector3d::Map(edges.data()).asDiagonal())
+                                       : Eigen::Matrix3d(Eigen::Matrix3d::Map(edges.data()));
+        }
+        packing->cell = Cell::of_edges(Eigen::Vector3d::Zero(), matrix, periodic);
     } else {
         const Eigen::Vector3d lower = (packing->positions.rowwise() - packing->radii.transpose()).rowwise().minCoeff();
         const Eigen::Vector3d upper = (packing->positions.rowwise() + packing->radii.transpose()).rowwise().maxCoeff();
@@ -91,11 +95,13 @@ void define_packing(py::module_& module) {
         "Parameters\n----------\n"
         "positions : ArrayLike\n    Centres [m], array (N, 3).\n"
         "radii : ArrayLike | str\n    One radius, or one for each particle [m].\n"
-        "box : ArrayLike | str | None\n    Edge lengths of a periodic box with a corner at the "
-        "origin [m], one or three; None: a sample with a free surface.\n"
+        "box : ArrayLike | str | None\n    Edge lengths of a box with a corner at the origin [m], one or three, or its edge "
+        "vectors as the rows of an array (3, 3); None: a sample with a free surface.\n"
         "wrap : bool\n    Bring particles outside the periodic box back in; otherwise they are "
-        "an error.")
-        .def(py::init(&make_packing), py::arg("positions"), py::arg("radii"), py::arg("box") = py::none(), py::arg("wrap") = false)
+        "an error.\n"
+        "periodic : tuple[bool, bool, bool]\n    Whether the box is periodic along each of its edges.")
+        .def(py::init(&make_packing), py::arg("positions"), py::arg("radii"), py::arg("box") = py::none(), py::arg("wrap") = false,
+             py::arg("periodic") = std::array<bool, 3>{true, true, true})
         .def_property_readonly(
             "positions", [](const py::object& self) { return rows_of(self.cast<const Packing&>().positions, self); },
             "Centres [m], array (N, 3), a read-only view of the packing's own numbers.")
@@ -107,14 +113,20 @@ void define_packing(py::module_& module) {
             },
             "Radii [m], array (N,), a read-only view of the packing's own numbers.")
         .def_property_readonly(
-            "box", [](const Packing& packing) -> Eigen::Vector3d { return packing.cell.lengths(); },
+            "box", [](const Packing& packing) -> Eigen::Vector3d { return packing.cell.edge_lengths(); },
             "Edge lengths of the box [m], array (3,).")
+        .def_property_readonly(
+            "edges", [](const Packing& packing) -> Eigen::Matrix3d { return packing.cell.edges().transpose(); },
+            "Edge vectors of the box [m], array (3, 3), one per row.")
+        .def_property_readonly(
+            "periodic_edges", [](const Packing& packing) { return packing.cell.periodicity(); },
+            "Whether the box is periodic along each of its edges.")
         .def_property_readonly(
             "origin", [](const Packing& packing) -> Eigen::Vector3d { return packing.cell.origin(); },
             "Lowest corner of the box [m], array (3,).")
         .def_property_readonly(
             "periodic", [](const Packing& packing) { return packing.cell.is_periodic(); },
-            "Whether the box is periodic; otherwise the packing has a free surface.")
+            "Whether the box is periodic along all edges; otherwise the packing has a free surface.")
         .def_property_readonly("volume_fraction", &volume_fraction,
                                "Solid volume over the volume of the box [1]; overlaps count twice.")
         .def_property_readonly("mean_radius", &mean_radius, "r0 [m], by which reduced lengths are divided.")
@@ -126,16 +138,14 @@ void define_packing(py::module_& module) {
              })
         .def(py::pickle(
             [](const Packing& packing) {
-                return py::make_tuple(packing.positions, packing.radii, numbers_of(packing.cell.origin()),
-                                      numbers_of(packing.cell.lengths()), packing.cell.is_periodic());
+                const Cell& cell = packing.cell;
+                return py::make_tuple(packing.positions, packing.radii, cell.origin(), cell.edges(), cell.periodicity());
             },
             [](const py::tuple& state) {
-                const auto origin = state[2].cast<std::array<double, 3>>();
-                const auto edges = state[3].cast<std::array<double, 3>>();
-                const auto lengths = Eigen::Vector3d::Map(edges.data());
-                return std::make_shared<Packing>(Packing{
-                    state[4].cast<bool>() ? Cell::periodic(lengths) : Cell::open(Eigen::Vector3d::Map(origin.data()), lengths),
-                    state[0].cast<Eigen::Matrix3Xd>(), state[1].cast<Eigen::VectorXd>()});
+                const Cell cell = Cell::of_edges(state[2].cast<Eigen::Vector3d>(), state[3].cast<Eigen::Matrix3d>(),
+                                                 state[4].cast<std::array<bool, 3>>());
+                return std::make_shared<Packing>(
+                    Packing{cell, state[0].cast<Eigen::Matrix3Xd>(), state[1].cast<Eigen::VectorXd>()});
             }));
 }
 

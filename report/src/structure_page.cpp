@@ -144,7 +144,8 @@ Json whole_json(const Packing& whole, const Packing& shown, double unit) {
     if (whole.size() == shown.size()) {
         return nullptr;
     }
-    return {{"particles", whole.size()}, {"periodic", whole.cell.is_periodic()}, {"lengths", listed(whole.cell.lengths() / unit)}};
+    return {
+        {"particles", whole.size()}, {"periodic", whole.cell.is_periodic()}, {"lengths", listed(whole.cell.edge_lengths() / unit)}};
 }
 
 /// Lengths in units of the mean radius, so that single precision does and every structure is drawn at one scale.
@@ -153,14 +154,17 @@ Json structure_json(const PageStructure& all, Index most, PageArrays& arrays) {
     const Packing& packing = page.structure.packing;
     const Packing& whole = all.structure.packing;
     const double unit = mean_radius(whole);
+    // A tilted box, or one with open edges, is drawn in the rectangular box around it, without images.
+    const Cell& cell = packing.cell;
+    const Cell drawn = cell.is_rectangular() && cell.is_periodic() ? cell : cell.bounds();
     Json json = {{"name", io::printable(page.name)},
                  {"particles", packing.size()},
                  {"whole", whole_json(whole, packing, unit)},
-                 {"periodic", packing.cell.is_periodic()},
+                 {"periodic", drawn.is_periodic()},
                  {"volumeFraction", volume_fraction(whole)},
                  {"lengthUnit", unit},
-                 {"lengths", listed(packing.cell.lengths() / unit)},
-                 {"positions", arrays.reals(listed((packing.positions.colwise() - packing.cell.origin()) / unit))},
+                 {"lengths", listed(drawn.lengths() / unit)},
+                 {"positions", arrays.reals(listed((packing.positions.colwise() - drawn.origin()) / unit))},
                  {"radii", arrays.reals(listed(packing.radii / unit))},
                  {"bondsInFile", page.bonds_in_file},
                  {"bonds", nullptr}};

@@ -12,10 +12,13 @@ namespace coagula::report {
 
 namespace {
 
-/// Distance from the middle of the cell along each axis over its length, the largest of the three: 1/2 at the faces.
+/// Distance from the middle of the cell along each edge over its length, the largest of the three: 1/2 at the faces.
 Eigen::VectorXd distance_from_middle(const Cell& cell, const Eigen::Matrix3Xd& points) {
-    const Eigen::Vector3d middle = cell.origin() + cell.lengths() / 2;
-    return ((points.colwise() - middle).cwiseAbs().array().colwise() / cell.lengths().array()).colwise().maxCoeff().transpose();
+    Eigen::VectorXd distance(points.cols());
+    for (Index point = 0; point < points.cols(); ++point) {
+        distance[point] = cell.in_edges(points.col(point) - cell.centre()).cwiseAbs().maxCoeff();
+    }
+    return distance;
 }
 
 /// The numbers of the `most` smallest values, ascending.
@@ -54,9 +57,9 @@ bool has_rows(const io::Dataset& dataset, Index count) {
 
 Packing part_of_packing(const Packing& packing, const std::vector<Index>& chosen, const Eigen::VectorXd& distance) {
     const double half = distance(chosen).maxCoeff();
-    const Eigen::Vector3d middle = packing.cell.origin() + packing.cell.lengths() / 2;
+    const Cell& cell = packing.cell;
     Packing part;
-    part.cell = Cell::open(middle - half * packing.cell.lengths(), 2 * half * packing.cell.lengths());
+    part.cell = Cell::of_edges(cell.place(Eigen::Vector3d::Constant(0.5 - half)), 2 * half * cell.edges(), {false, false, false});
     part.positions = packing.positions(Eigen::all, chosen);
     part.radii = packing.radii(chosen);
     return part;
@@ -73,8 +76,7 @@ std::pair<ContactNetwork, std::vector<Index>> part_of_bonds(const Packing& packi
     for (Index bond = 0; bond < bonds.size(); ++bond) {
         const auto [first, second] = std::pair(bonds.ends(0, bond), bonds.ends(1, bond));
         const Eigen::Vector3d direct = packing.positions.col(second) - packing.positions.col(first);
-        const bool through_boundary =
-            ((bonds.branch.col(bond) - direct).cwiseAbs().array() > packing.cell.lengths().array() / 2).any();
+        const bool through_boundary = packing.cell.in_edges(bonds.branch.col(bond) - direct).cwiseAbs().maxCoeff() > 0.5;
         if (number[static_cast<std::size_t>(first)] >= 0 && number[static_cast<std::size_t>(second)] >= 0 && !through_boundary) {
             kept.push_back(bond);
         }

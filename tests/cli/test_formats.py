@@ -3,6 +3,7 @@
 import math
 import os
 import struct
+import subprocess
 import unittest
 from pathlib import Path
 
@@ -158,6 +159,19 @@ class Gsd(ProgramTest):
         self.assertAlmostEqual(found["volume_fraction"], math.pi / math.sqrt(18), delta=1e-5)
         self.assertAlmostEqual(found["nearest_distance"]["median"], 1, delta=1e-5)
 
+    def test_tilted_boxes_that_other_programs_wrote(self):
+        data = Path(os.environ["COAGULA_DATASETS"]) / "foreign_structures"
+        tilted = {}
+        for name, particles, volume in (("o_tri.data", 200, 1440), ("o_tri.dump", 200, 1440), ("g_tri.gsd", 120, 720), ("x_tri.xyz", 120, 720)):
+            found = self.succeed_json("import", data / name, "--length-unit", "1um", "--wrap", "-o", name + ".h5")
+            self.assertEqual((found["particles"], found["periodic"], found["radius_mean"]), (particles, True, 0.5e-6), name)
+            self.assertAlmostEqual(numpy.linalg.det(numpy.array(found["edges"]) * 1e6), volume, delta=1e-3)
+            self.assertAlmostEqual(found["volume_fraction"], particles * math.pi / 6 / volume, delta=1e-6)
+            tilted[name] = self.succeed_json("characterize", name + ".h5")
+            sheared = self.succeed_json("shear", name + ".h5", "--bond-tolerance", "0.3")
+            self.assertEqual(sheared["particles"] if "particles" in sheared else particles, particles)
+        self.assertAlmostEqual(tilted["o_tri.dump"]["pore_size"]["mean"] / tilted["o_tri.data"]["pore_size"]["mean"], 1, delta=1e-9)
+
     def write_gsd(self, frames):
         with gsd.hoomd.open(str(self.folder / "hoomd.gsd"), "wb") as file:
             for step, positions in enumerate(frames):
@@ -283,8 +297,8 @@ class H5md(ProgramTest):
             return change
 
         words = ["import", "a.h5md", "--length-unit", "1um", "--radius", "0.1um", "-o", "c.h5"]
-        for change, says in ((other("boundary", ["periodic", "periodic", "none"]), "boundary"), (other("box/edges", [6.0, 7.0, 0.0]), "positive"),
-                             (other("box/edges", [[6.0, 1, 0], [0, 7, 0], [0, 0, 8]]), "sheared"), (other("id", [1, 1, 2]), "occurs twice"),
+        for change, says in ((other("boundary", ["periodic", "periodic", "mirror"]), "boundary"), (other("box/edges", [6.0, 7.0, 0.0]), "positive"),
+                             (other("box/edges", [[6.0, 1, 0], [6.0, 1, 0], [0, 0, 8]]), "one plane"), (other("id", [1, 1, 2]), "occurs twice"),
                              (other("id", [1, 2]), "shape"), (other("id", [1, -1, 2]), "below 0"), (other("box/offset", [0.0, 0.0]), "shape")):
             self.write_h5md(change)
             self.fail_with(2, *words, says=["a.h5md", says])
@@ -382,12 +396,49 @@ class Dump(ProgramTest):
             numpy.testing.assert_allclose(file["particles/trajectory/radius"][:], [500, 1000])
 
     def test_refused(self):
-        for box, atoms, rows, says in (("pp pp ff", "id x y z radius", "1 1 1 1 1\n2 4 4 4 1\n", "some axes"), ("pp pp pp", "id x y", "1 1 1\n2 2 2\n", "x y z"),
+        for box, atoms, rows, says in (("pp pp", "id x y z radius", "1 1 1 1 1\n2 4 4 4 1\n", "each axis"), ("pp pp pp", "id x y", "1 1 1\n2 2 2\n", "x y z"),
                                        ("pp pp pp", "id x y z radius", "1 1 1 1 1\n1 4 4 4 1\n", "occurs twice"),
                                        ("pp pp pp", "id x y z radius", "1 1 1 1 1\n", "ends after 1 of 2"),
-                                       ("abc origin pp pp pp", "id x y z radius", "1 1 1 1 1\n", "triclinic")):
+                                       ("abc origin pp pp pp", "id x y z radius", "1 1 1 1 1\n", "4 numbers")):
             self.write("a.dump", self.HEAD.format(box, atoms) + rows)
             self.fail_with(2, "import", "a.dump", "--length-unit", "1um", "-o", "a.h5", says=["a.dump", says])
+
+
+class LeesEdwards(ProgramTest):
+    """A suspension that LAMMPS shears: its snapshots are those of the sheared box, flipped back or not."""
+
+    SCRIPT = """units si
+atom_style hybrid sphere bond
+boundary p p p
+box tilt large
+read_data s.lmp
+change_box all triclinic
+pair_style zero 1e-6
+pair_coeff * *
+neighbor 1e-7 bin
+timestep 1
+fix 1 all deform 1 xz erate 0.01 remap x flip {flip}
+thermo 70
+run 70
+write_dump all custom {flip}.dump id type x y z radius modify format float %20.16g
+"""
+
+    def test_snapshots_of_a_shear(self):
+        self.succeed(*SUSPENSION, "-o", "run.h5")
+        self.succeed("export", "run.h5", "--format", "lammps", "-o", "s.lmp")
+        found = {}
+        for flip, strain in (("yes", -0.3), ("no", 0.7)):
+            self.write("in.lmp", self.SCRIPT.format(flip=flip))
+            subprocess.run(["lmp", "-in", "in.lmp", "-log", "none", "-screen", "none"], cwd=self.folder, check=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+            imported = self.succeed_json("import", flip + ".dump", "--length-unit", "1m", "--wrap", "-o", flip + ".h5")
+            edges = numpy.array(imported["edges"])
+            self.assertAlmostEqual(edges[2, 0] / edges[2, 2], strain, delta=1e-9)
+            self.assertAlmostEqual(imported["volume_fraction"], 0.2, delta=1e-9)
+            found[flip] = self.succeed_json("characterize", flip + ".h5")
+            self.assertEqual(self.succeed_json("shear", flip + ".h5", "--bond-tolerance", "0.5")["particles"], 60)
+        straight = self.succeed_json("characterize", "run.h5")
+        self.assertNotAlmostEqual(found["yes"]["pore_size"]["mean"] / straight["pore_size"]["mean"], 1, delta=1e-4)
+        self.assertAlmostEqual(found["yes"]["pore_size"]["mean"] / found["no"]["pore_size"]["mean"], 1, delta=1e-9)
 
 
 if __name__ == "__main__":

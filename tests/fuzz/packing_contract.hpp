@@ -12,9 +12,10 @@ namespace coagula::fuzz {
 /// Without options, as an open set with radius and unit, in a given box, and as a trajectory.
 inline std::array<io::ImportOptions, 5> import_options() {
     return {io::ImportOptions{}, io::ImportOptions{.radius = 0.25, .box = {}, .open = true, .length_unit = 1.0},
-            io::ImportOptions{.radius = {}, .box = Eigen::Vector3d(10, 11, 12), .length_unit = 1e-6, .wrap = true},
+            io::ImportOptions{
+                .radius = {}, .box = Eigen::Matrix3d(Eigen::Vector3d(10, 11, 12).asDiagonal()), .length_unit = 1e-6, .wrap = true},
             io::ImportOptions{.radius = 0.25,
-                              .box = Eigen::Vector3d(10, 11, 12),
+                              .box = Eigen::Matrix3d(Eigen::Vector3d(10, 11, 12).asDiagonal()),
                               .length_unit = 1.0,
                               .frame = io::FrameChoice{io::FrameChoice::Kind::all}},
             io::ImportOptions{.radius = {}, .box = {}, .length_unit = 1.0, .atom_style = "hybrid sphere bond", .wrap = true}};

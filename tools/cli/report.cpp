@@ -40,6 +40,19 @@ void flush_output() {
     }
 }
 
+Json box_lengths(const Cell& cell) {
+    const Eigen::Vector3d lengths = cell.edge_lengths();
+    return {lengths.x(), lengths.y(), lengths.z()};
+}
+
+Json box_edges(const Cell& cell) {
+    Json rows = Json::array();
+    for (const auto& edge : cell.edges().colwise()) {
+        rows.push_back({edge.x(), edge.y(), edge.z()});
+    }
+    return rows;
+}
+
 void report(const Arguments& arguments, const Json& json, const Table& table) {
     if (arguments.flag("json")) {
         print(std::cout, json, "");

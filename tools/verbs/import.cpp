@@ -37,14 +37,15 @@ Table plausibility_rows(const characterize::Plausibility& found) {
 
 void report_import(const Arguments& arguments, const io::Structure& structure, const characterize::Plausibility& found) {
     const Packing& packing = structure.packing;
-    const Eigen::Vector3d box = packing.cell.lengths();
     const std::size_t frames = structure.earlier.size() + 1;
     const std::string output = arguments.text("output");
     const Json json = {
         {"particles", packing.size()},
         {"frames", frames},
-        {"box", {box.x(), box.y(), box.z()}},
+        {"box", box_lengths(packing.cell)},
+        {"edges", box_edges(packing.cell)},
         {"periodic", packing.cell.is_periodic()},
+        {"periodic_edges", packing.cell.periodicity()},
         {"volume_fraction", found.volume_fraction},
         {"radius_mean", mean_radius(packing)},
         {"contacts", found.contacts},

@@ -70,11 +70,12 @@ Json provenance_json(const std::string& path, const std::vector<io::Provenance>&
 
 Json structure_json(const io::Structure& structure) {
     const Packing& packing = structure.packing;
-    const Eigen::Vector3d box = packing.cell.lengths();
     Json json = {
         {"particles", packing.size()},
-        {"box", {box.x(), box.y(), box.z()}},
+        {"box", box_lengths(packing.cell)},
+        {"edges", box_edges(packing.cell)},
         {"periodic", packing.cell.is_periodic()},
+        {"periodic_edges", packing.cell.periodicity()},
         {"volume_fraction", volume_fraction(packing)},
         {"radius", {{"mean", mean_radius(packing)}, {"min", packing.radii.minCoeff()}, {"max", packing.radii.maxCoeff()}}}};
     json["bonds"] = structure.bonds ? Json(structure.bonds->size()) : Json(nullptr);
@@ -89,7 +90,7 @@ Table structure_table(const io::Structure& structure) {
     return {{"particles", std::to_string(packing.size())},
             {"box", describe(packing.cell)},
             {"volume fraction", with_unit(volume_fraction(packing), "1") +
-                                    (packing.cell.is_periodic() ? "" : " of the box that encloses the centres and their spheres")},
+                                    (!packing.cell.is_open() ? "" : " of the box that encloses the centres and their spheres")},
             {"radius", with_unit(mean_radius(packing), "m") + spread},
             {"bonds", structure.bonds ? std::to_string(structure.bonds->size()) : "none"}};
 }

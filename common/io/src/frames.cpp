@@ -1,5 +1,6 @@
 // From the raw columns of a file to checked packings.
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "text_reader.hpp"
@@ -7,6 +8,8 @@
 namespace coagula::io {
 
 namespace {
+
+constexpr std::array<bool, 3> everywhere = {true, true, true};
 
 Eigen::VectorXd radii_of(const std::string& path, const RawPacking& raw, const ImportOptions& options) {
     const auto particles = static_cast<Index>(raw.size());
@@ -26,37 +29,51 @@ Eigen::VectorXd radii_of(const std::string& path, const RawPacking& raw, const I
 }
 
 /// The box around the spheres; a given size is centred on them.
-Cell open_cell(const Eigen::Matrix3Xd& positions, const Eigen::VectorXd& radii, const std::optional<Eigen::Vector3d>& size) {
+Cell open_cell(const Eigen::Matrix3Xd& positions, const Eigen::VectorXd& radii, const std::optional<Eigen::Matrix3d>& box) {
     const Eigen::Vector3d lower = (positions.rowwise() - radii.transpose()).rowwise().minCoeff();
     const Eigen::Vector3d upper = (positions.rowwise() + radii.transpose()).rowwise().maxCoeff();
-    return size ? Cell::open(0.5 * (lower + upper - *size), *size) : Cell::open(lower, upper - lower);
+    if (box) {
+        const Eigen::Vector3d size = box->diagonal();
+        return Cell::open(0.5 * (lower + upper - size), size);
+    }
+    return Cell::open(lower, upper - lower);
 }
 
 Cell cell_of(const std::string& path, const RawPacking& raw, const Packing& packing, const ImportOptions& options) {
     if (options.open) {
-        const bool sized_by_file = !options.box && raw.cell && !raw.cell->is_periodic();
+        const bool sized_by_file = !options.box && raw.cell && raw.cell->is_open();
         return sized_by_file ? *raw.cell : open_cell(packing.positions, packing.radii, options.box);
     }
     if (options.box) {
-        return Cell::periodic(*options.box);
+        return Cell::of_edges(Eigen::Vector3d::Zero(), *options.box, options.periodic.value_or(everywhere));
     }
     if (!raw.cell) {
         throw InputError(path + " names no box: give --box for a periodic one or --open for a set with a free surface");
     }
-    return raw.cell->is_periodic() ? Cell::periodic(raw.cell->lengths()) : *raw.cell;
+    const Cell& cell = *raw.cell;
+    return Cell::of_edges(cell.is_open() ? cell.origin() : Eigen::Vector3d::Zero(), cell.edges(),
+                          options.periodic.value_or(cell.periodicity()));
 }
 
-/// Brings positions into the periodic box; more than a rounding outside is an error unless asked for.
+/// "x is 3e-06 m, outside the periodic box from 0 to 2e-06 m".
+std::string sentence_outside(const Cell& cell, int axis, const Eigen::Vector3d& position) {
+    if (cell.is_rectangular()) {
+        return std::string(1, "xyz"[axis]) + " is " + to_text(position[axis]) + " m, outside the periodic box from 0 to " +
+               to_text(cell.edges()(axis, axis)) + " m";
+    }
+    return "it lies at " + to_text(cell.fraction(position)[axis]) + " of edge " + "abc"[axis] +
+           ", outside the periodic box from 0 to 1";
+}
+
+/// Brings positions into the box along its periodic edges; more than a rounding outside is an error unless asked for.
 void wrap_positions(const std::string& path, const RawPacking& raw, Packing& packing, bool wrap) {
-    const Eigen::Vector3d lengths = packing.cell.lengths();
     for (Index particle = 0; particle < packing.size(); ++particle) {
         const Eigen::Vector3d position = packing.positions.col(particle);
+        const Eigen::Vector3d place = packing.cell.fraction(position);
         for (int axis = 0; axis < 3 && !wrap; ++axis) {
-            const double relative = position[axis] / lengths[axis];
-            if (!(relative >= -raw.slack && relative <= 1 + raw.slack)) {
-                throw InputError(raw.place(path, static_cast<std::size_t>(particle)) + "xyz"[axis] + " is " +
-                                 to_text(position[axis]) + " m, outside the periodic box from 0 to " + to_text(lengths[axis]) +
-                                 " m; give --wrap to bring such particles back in");
+            if (packing.cell.is_periodic(axis) && !(place[axis] >= -raw.slack && place[axis] <= 1 + raw.slack)) {
+                throw InputError(raw.place(path, static_cast<std::size_t>(particle)) +
+                                 sentence_outside(packing.cell, axis, position) + "; give --wrap to bring such particles back in");
             }
         }
         packing.positions.col(particle) = packing.cell.wrap(position);
@@ -69,9 +86,12 @@ Packing packing_of(const std::string& path, const RawPacking& raw, const ImportO
     }
     Packing packing;
     packing.positions = Eigen::Matrix3Xd::Map(raw.coordinates.data(), 3, static_cast<Index>(raw.size()));
+    if (raw.cell && !raw.cell->is_open() && !options.open) {
+        packing.positions.colwise() -= raw.cell->origin();  // periodic boxes have a corner at the origin
+    }
     packing.radii = radii_of(path, raw, options);
     packing.cell = cell_of(path, raw, packing, options);
-    if (packing.cell.is_periodic()) {
+    if (!packing.cell.is_open()) {
         wrap_positions(path, raw, packing, options.wrap);
     }
     check(packing, path);
@@ -179,8 +199,8 @@ Structure finish(const std::string& path, const std::vector<RawPacking>& frames,
             throw InputError(frame_sentence(path, k, "another number of particles"));
         }
         Packing packing = packing_of(path, frames[k], options);
-        const bool same_box = packing.cell.is_periodic() == last.cell.is_periodic() &&
-                              (!last.cell.is_periodic() || packing.cell.lengths() == last.cell.lengths());
+        const bool same_box = packing.cell.periodicity() == last.cell.periodicity() &&
+                              (last.cell.is_open() || packing.cell.edges() == last.cell.edges());
         if (!same_box) {
             throw InputError(frame_sentence(path, k, "another box"));
         }

@@ -100,26 +100,25 @@ std::size_t number_of_particles(const File& file, const std::string& position) {
     return shape[rank - 2];
 }
 
-bool read_periodicity(const File& file, const std::string& box) {
+std::array<bool, 3> read_periodicity(const File& file, const std::string& box) {
     const auto boundary = file.texts_attribute(box, "boundary");
     if (boundary.size() != 3) {
         file.fail(box, "must have an attribute 'boundary' of three texts");
     }
     for (const std::string& axis : boundary) {
-        if ((axis != "periodic" && axis != "none") || axis != boundary[0]) {
-            file.fail(
-                box, "has the boundary '" + axis + "': coagula reads boxes that are 'periodic' along all axes or 'none' along all");
+        if (axis != "periodic" && axis != "none") {
+            file.fail(box, "has the boundary '" + axis + "', but each edge of a box is 'periodic' or 'none'");
         }
     }
-    return boundary[0] == "periodic";
+    return {boundary[0] == "periodic", boundary[1] == "periodic", boundary[2] == "periodic"};
 }
 
-std::vector<Eigen::Vector3d> read_edges(const File& file, const std::string& edges, bool all_frames,
+std::vector<Eigen::Matrix3d> read_edges(const File& file, const std::string& edges, bool all_frames,
                                         const std::optional<double>& length_unit) {
     const Element element = find_element(file, edges);
     const bool is_vector = file.shape(element.data).size() == (element.has_frames ? 2U : 1U);
     const auto values = read_lengths(file, edges, is_vector ? Shape{3} : Shape{3, 3}, all_frames, length_unit);
-    std::vector<Eigen::Vector3d> lengths;
+    std::vector<Eigen::Matrix3d> boxes;
     for (std::size_t begin = 0; begin < values.size(); begin += is_vector ? 3 : 9) {
         const double* first = values.data() + begin;
         const Eigen::Matrix3d matrix =
@@ -127,16 +126,18 @@ std::vector<Eigen::Vector3d> read_edges(const File& file, const std::string& edg
         if (!matrix.allFinite()) {
             file.fail(element.data, "has an edge that is not a finite number");
         }
-        if (!matrix.isDiagonal(0)) {
-            file.fail(element.data, "is a sheared box, which coagula does not read");
-        }
-        if ((matrix.diagonal().array() <= 0).any()) {
+        if (matrix.isDiagonal(0) && (matrix.diagonal().array() <= 0).any()) {
             file.fail(edges,
                       "has an edge of " + to_text(matrix.diagonal().minCoeff()) + " m, but edges must be finite and positive");
         }
-        lengths.emplace_back(matrix.diagonal());
+        try {
+            Cell::of_edges(Eigen::Vector3d::Zero(), matrix, {true, true, true});
+        } catch (const std::invalid_argument& error) {
+            file.fail(element.data, std::string("cannot be read: ") + error.what());
+        }
+        boxes.push_back(matrix);
     }
-    return lengths;
+    return boxes;
 }
 
 std::vector<double> read_times(const File& file, const std::string& position, std::size_t frames) {

@@ -2,8 +2,9 @@
 // them.
 #pragma once
 
-#include <Eigen/Core>
+#include <coagula/common/cell.hpp>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,11 +36,11 @@ std::vector<double> read_lengths(const File& file, const std::string& object, co
 std::size_t number_of_particles(const File& file, const std::string& position);
 
 /// From the attribute `boundary` of a box.
-bool read_periodicity(const File& file, const std::string& box);
+std::array<bool, 3> read_periodicity(const File& file, const std::string& box);
 
-/// Edge lengths [m], from vectors or diagonal matrices: of the last frame, or of each; of a box that does not depend on time a
-/// single one.
-std::vector<Eigen::Vector3d> read_edges(const File& file, const std::string& edges, bool all_frames = false,
+/// Columns are the edges [m], from three lengths or from a matrix with an edge in each row: of the last frame, or of each; of a box
+/// that does not depend on time a single one.
+std::vector<Eigen::Matrix3d> read_edges(const File& file, const std::string& edges, bool all_frames = false,
                                         const std::optional<double>& length_unit = {});
 
 /// Times of the frames [s]; their numbers where the file has no times in seconds.

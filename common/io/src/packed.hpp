@@ -3,6 +3,7 @@
 
 #include <coagula/io/structure_file.hpp>
 
+#include <array>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
@@ -48,6 +49,12 @@ private:
         (*this)(matrix.rows(), matrix.cols());
         put_raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(T));
     }
+    template <class T, std::size_t count>
+    void put(const std::array<T, count>& values) {
+        for (const T& value : values) {
+            put(value);
+        }
+    }
     template <class T>
     void put(const std::optional<T>& value) {
         put(value.has_value());
@@ -60,7 +67,7 @@ private:
         put(value.index());
         std::visit([&](const auto& held) { put(held); }, value);
     }
-    void put(const Cell& cell) { (*this)(cell.is_periodic(), cell.origin(), cell.lengths().eval()); }
+    void put(const Cell& cell) { (*this)(cell.origin(), cell.edges(), cell.periodicity()); }
     void put(const ContactNetwork& bonds) { (*this)(bonds.particles, bonds.ends, bonds.branch); }
     void put(const Frame& frame) { (*this)(frame.time, frame.positions); }
     void put(const Structure& found) {
@@ -135,6 +142,12 @@ private:
         matrix.resize(rows, columns);
         get_raw(matrix.data(), size, sizeof(T));
     }
+    template <class T, std::size_t count>
+    void get(std::array<T, count>& values) {
+        for (T& value : values) {
+            get(value);
+        }
+    }
     template <class T>
     void get(std::optional<T>& value) {
         if (take<bool>()) {
@@ -148,10 +161,9 @@ private:
         ((type++ == index ? get(value.template emplace<Types>()) : void()), ...);
     }
     void get(Cell& cell) {
-        const bool periodic = take<bool>();
         const auto origin = take<Eigen::Vector3d>();
-        const auto lengths = take<Eigen::Vector3d>();
-        cell = periodic ? Cell::periodic(lengths) : Cell::open(origin, lengths);
+        const auto edges = take<Eigen::Matrix3d>();
+        cell = Cell::of_edges(origin, edges, take<std::array<bool, 3>>());
     }
     void get(ContactNetwork& bonds) { (*this)(bonds.particles, bonds.ends, bonds.branch); }
     void get(Frame& frame) { (*this)(frame.time, frame.positions); }

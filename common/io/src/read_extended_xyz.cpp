@@ -1,7 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <map>
 
-#include "text_reader.hpp"
+#include "triclinic.hpp"
 
 namespace coagula::io {
 
@@ -125,31 +126,29 @@ std::optional<bool> truth_of(std::string_view flag) {
 }
 
 /// One flag for all axes or one for each.
-bool parse_periodicity(const LineReader& file, std::string text) {
+std::array<bool, 3> parse_periodicity(const LineReader& file, std::string text) {
     const auto flags = entries_of(text);
-    for (const std::string_view flag : flags) {
-        if ((flags.size() != 3 && flags.size() != 1) || !truth_of(flag) || truth_of(flag) != truth_of(flags[0])) {
-            file.fail("pbc must be \"T T T\" or \"F F F\": coagula knows boxes that are periodic along all axes or along none");
+    std::array<bool, 3> periodic = {true, true, true};
+    for (std::size_t axis = 0; axis < 3 && !flags.empty(); ++axis) {
+        const std::optional<bool> truth = truth_of(flags[flags.size() == 1 ? 0 : std::min(axis, flags.size() - 1)]);
+        if ((flags.size() != 3 && flags.size() != 1) || !truth) {
+            file.fail("pbc must be one flag for each edge of the box, such as \"T T F\"");
         }
+        periodic[axis] = *truth;
     }
-    return flags.empty() || *truth_of(flags[0]);
+    return periodic;
 }
 
-/// Edge lengths of the box; the entries of Lattice are its three vectors one after the other.
-Eigen::Vector3d parse_lengths(const LineReader& file, const std::vector<std::string_view>& entries, double divisor) {
+/// The edges of the box, whose entries Lattice has one after the other.
+Eigen::Matrix3d parse_edges(const LineReader& file, const std::vector<std::string_view>& entries, double divisor) {
     if (entries.size() != 9) {
         file.fail("Lattice must have nine numbers");
     }
-    Eigen::Vector3d lengths;
+    Eigen::Matrix3d edges;
     for (int i = 0; i < 9; ++i) {
-        const double entry = file.number_in(entries[static_cast<std::size_t>(i)], "an entry of Lattice") / divisor;
-        if (i % 4 == 0) {
-            lengths[i / 4] = require_positive(entry, "the edge length in Lattice", "m");
-        } else if (entry != 0) {
-            file.fail("Lattice is a sheared box, which coagula does not read");
-        }
+        edges(i % 3, i / 3) = file.number_in(entries[static_cast<std::size_t>(i)], "an entry of Lattice") / divisor;
     }
-    return lengths;
+    return edges;
 }
 
 /// The lower corner of the box.
@@ -166,33 +165,23 @@ Eigen::Vector3d parse_origin(const LineReader& file, std::string text, double di
 }
 
 /// The box as it stands in the file, periodic or not.
-struct Box {
-    std::optional<Cell> cell;
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of a periodic one, from which positions count
-};
-
-Box parse_box(const LineReader& file, const std::map<std::string, std::string>& pairs, double divisor) {
+std::optional<Cell> parse_box(const LineReader& file, const std::map<std::string, std::string>& pairs, double divisor) {
     std::string lattice = value_of(pairs, "lattice");
     const auto entries = entries_of(lattice);
     if (entries.empty()) {
         return {};
     }
-    const Eigen::Vector3d lengths = parse_lengths(file, entries, divisor);
-    const Eigen::Vector3d origin = parse_origin(file, value_of(pairs, "origin"), divisor);
-    if (parse_periodicity(file, value_of(pairs, "pbc"))) {
-        return {Cell::periodic(lengths), origin};
-    }
-    return {Cell::open(origin, lengths), Eigen::Vector3d::Zero()};
+    return box_of_edges(file, parse_origin(file, value_of(pairs, "origin"), divisor), parse_edges(file, entries, divisor),
+                        parse_periodicity(file, value_of(pairs, "pbc")));
 }
 
-void read_particle(const LineReader& file, const Layout& layout, const Eigen::Vector3d& origin, double divisor, RawPacking& raw) {
+void read_particle(const LineReader& file, const Layout& layout, double divisor, RawPacking& raw) {
     const auto words = split_words(file.line());
     if (words.size() < layout.width) {
         file.fail("there are " + std::to_string(words.size()) + " columns, but " + std::to_string(layout.width) + " are expected");
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double coordinate = file.number_in(words[*layout.position + axis], "a coordinate") / divisor;
-        raw.coordinates.push_back(coordinate - origin[static_cast<Index>(axis)]);
+        raw.coordinates.push_back(file.number_in(words[*layout.position + axis], "a coordinate") / divisor);
     }
     if (layout.radius) {
         raw.radii.push_back((layout.is_diameter ? 0.5 : 1.0) * file.number_in(words[*layout.radius], "the radius") / divisor);
@@ -209,8 +198,7 @@ RawPacking read_frame(LineReader& file, const ImportOptions& options) {
     const double divisor = per_metre(file, "the comment line", value_of(pairs, "length_unit"), options);
     const Layout layout = parse_properties(file, value_of(pairs, "properties"));
     RawPacking raw;
-    const Box box = parse_box(file, pairs, divisor);
-    raw.cell = box.cell;
+    raw.cell = parse_box(file, pairs, divisor);
     if (const std::string time = value_of(pairs, "time"); !time.empty()) {
         raw.time = file.number_in(time, "Time");
     }
@@ -218,7 +206,7 @@ RawPacking read_frame(LineReader& file, const ImportOptions& options) {
         if (!file.next()) {
             file.fail("the file ends after " + std::to_string(particle) + " of " + std::to_string(particles) + " particles");
         }
-        read_particle(file, layout, box.origin, divisor, raw);
+        read_particle(file, layout, divisor, raw);
     }
     return raw;
 }

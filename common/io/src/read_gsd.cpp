@@ -5,7 +5,7 @@
 
 #include "gsd_container.hpp"
 #include "gsd_diameters.hpp"
-#include "text_reader.hpp"
+#include "triclinic.hpp"
 
 namespace coagula::io {
 
@@ -37,13 +37,10 @@ void refuse_rigid_bodies(const GsdFile& file, std::uint64_t frame, std::size_t c
     }
 }
 
-Cell cell_of(const GsdFile& file, std::uint64_t frame, double metres, bool periodic) {
+Cell cell_of(const GsdFile& file, std::uint64_t frame, double metres, const std::array<bool, 3>& periodic) {
     const std::vector<double> box = file.values(frame, "configuration/box", 1, 6);
     if (box.empty()) {
         file.fail("frame " + std::to_string(frame) + " has no box of six numbers");
-    }
-    if (box[3] != 0 || box[4] != 0 || box[5] != 0) {
-        file.fail("the box of frame " + std::to_string(frame) + " is sheared, which coagula does not read");
     }
     require_three_dimensions(file, frame, box[2] == 0);
     const Eigen::Vector3d lengths = Eigen::Vector3d(box[0], box[1], box[2]) * metres;
@@ -52,7 +49,17 @@ Cell cell_of(const GsdFile& file, std::uint64_t frame, double metres, bool perio
             file.fail("the box of frame " + std::to_string(frame) + " has an edge that is not positive");
         }
     }
-    return periodic ? Cell::periodic(lengths) : Cell::open(-0.5 * lengths, lengths);
+    // HOOMD's tilt factors are over the length of the edge that is tilted less, and positions count from the middle.
+    const Eigen::Matrix3d edges =
+        triclinic_edges(lengths, Eigen::Vector3d(box[3] * lengths[1], box[4] * lengths[2], box[5] * lengths[2]));
+    return Cell::of_edges(-0.5 * edges.rowwise().sum(), edges, periodic);
+}
+
+/// GSD names none: its boxes are periodic, unless coagula wrote a flag for all axes or for each.
+std::array<bool, 3> periodicity_of(const GsdFile& file, bool open) {
+    std::vector<double> flags = file.numbers(0, "log/coagula/periodic");
+    flags.resize(3, flags.empty() ? 1.0 : flags[0]);
+    return {flags[0] != 0 && !open, flags[1] != 0 && !open, flags[2] != 0 && !open};
 }
 
 std::size_t number_of_particles(const GsdFile& file, std::uint64_t frame) {
@@ -66,7 +73,8 @@ std::size_t number_of_particles(const GsdFile& file, std::uint64_t frame) {
     return static_cast<std::size_t>(number[0]);
 }
 
-RawPacking read_frame(const GsdFile& file, std::uint64_t frame, double metres, bool periodic, bool with_radii) {
+RawPacking read_frame(const GsdFile& file, std::uint64_t frame, double metres, const std::array<bool, 3>& periodic,
+                      bool with_radii) {
     const std::size_t count = number_of_particles(file, frame);
     refuse_rigid_bodies(file, frame, count);
     RawPacking raw;
@@ -76,9 +84,8 @@ RawPacking read_frame(const GsdFile& file, std::uint64_t frame, double metres, b
     if (raw.coordinates.empty()) {
         file.fail("frame " + std::to_string(frame) + " has no 'particles/position'");
     }
-    const Eigen::Vector3d corner = periodic ? Eigen::Vector3d(0.5 * raw.cell->lengths()) : Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < raw.coordinates.size(); ++i) {
-        raw.coordinates[i] = raw.coordinates[i] * metres + corner[static_cast<Index>(i % 3)];
+    for (double& coordinate : raw.coordinates) {
+        coordinate *= metres;
     }
     if (with_radii) {
         raw.radii = gsd_diameters(file, frame, count);
@@ -99,7 +106,7 @@ Structure read_gsd(const std::string& path, const ImportOptions& options) {
     if (std::isnan(metres)) {
         file.fail("GSD names no unit of length: give --length-unit");
     }
-    const bool periodic = number_of_file(file, "log/coagula/periodic", 1) != 0 && !options.open;
+    const std::array<bool, 3> periodic = periodicity_of(file, options.open);
     FrameCollector collector(options);
     try {
         require_positive(metres, "the length unit", "m");

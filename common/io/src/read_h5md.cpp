@@ -22,7 +22,7 @@ struct Elements {
     std::vector<double> coordinates;  ///< [m]
     std::vector<double> radii;        ///< [m]; empty when the file names none
     std::vector<double> edges;        ///< [m]; empty when the file names no box, or another one is given
-    bool periodic = true;
+    std::array<bool, 3> periodic = {true, true, true};
     std::vector<double> corner;         ///< of the box [m]
     std::vector<std::int64_t> numbers;  ///< of the particles; empty when the file names none
     std::vector<double> times;
@@ -60,8 +60,8 @@ void read_box(const File& file, const std::string& box, bool all, const ImportOp
         return;
     }
     found.periodic = h5md::read_periodicity(file, box);
-    for (const Eigen::Vector3d& edges : h5md::read_edges(file, box + "/edges", all, options.length_unit)) {
-        found.edges.insert(found.edges.end(), edges.begin(), edges.end());
+    for (const Eigen::Matrix3d& edges : h5md::read_edges(file, box + "/edges", all, options.length_unit)) {
+        found.edges.insert(found.edges.end(), edges.data(), edges.data() + edges.size());
     }
     for (const char* name : {"/origin", "/offset"}) {  // of coagula, and of H5MD 1.0
         if (found.corner.empty() && file.has(box + name)) {
@@ -106,7 +106,7 @@ Elements read_elements(const File& file, const ImportOptions& options) {
     read_numbers_of_particles(file, group + "/id", all, found);
     const std::size_t frames = found.frames();
     require_frames_of(file, group + "/radius", found.radii.size(), found.particles, frames);
-    require_frames_of(file, group + "/box", found.edges.size(), 3, frames);
+    require_frames_of(file, group + "/box", found.edges.size(), 9, frames);
     require_frames_of(file, group + "/box", found.corner.size(), 3, frames);
     require_frames_of(file, group + "/id", found.numbers.size(), found.particles, frames);
     found.times = all ? h5md::read_times(file, position, frames) : std::vector<double>{};
@@ -119,15 +119,11 @@ RawPacking frame_of(const std::string& path, const Elements& found, std::size_t 
     raw.coordinates = slice_of(found.coordinates, 3 * found.particles, frame);
     raw.radii = slice_of(found.radii, found.particles, frame);
     raw.time = found.times.empty() ? unset : found.times[frame];
-    const std::vector<double> edges = slice_of(found.edges, 3, frame);
+    const std::vector<double> edges = slice_of(found.edges, 9, frame);
     std::vector<double> corner = slice_of(found.corner, 3, frame);
     corner.resize(3, 0.0);
     if (!edges.empty()) {
-        const Eigen::Vector3d lengths = Eigen::Vector3d::Map(edges.data());
-        raw.cell = found.periodic ? Cell::periodic(lengths) : Cell::open(Eigen::Vector3d::Map(corner.data()), lengths);
-    }
-    for (std::size_t i = 0; raw.cell && found.periodic && i < raw.coordinates.size(); ++i) {
-        raw.coordinates[i] -= corner[i % 3];
+        raw.cell = Cell::of_edges(Eigen::Vector3d::Map(corner.data()), Eigen::Matrix3d::Map(edges.data()), found.periodic);
     }
     if (!found.numbers.empty()) {
         const std::vector<std::int64_t> numbers = slice_of(found.numbers, found.particles, frame);

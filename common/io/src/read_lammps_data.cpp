@@ -1,9 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
 #include "atom_styles.hpp"
-#include "text_reader.hpp"
+#include "triclinic.hpp"
 
 namespace coagula::io {
 
@@ -24,6 +25,9 @@ struct Header {
     std::optional<std::size_t> atoms;
     Eigen::Vector3d lower = Eigen::Vector3d::Constant(unset);
     Eigen::Vector3d upper = Eigen::Vector3d::Constant(unset);
+    Eigen::Vector3d tilt = Eigen::Vector3d::Zero();            // xy, xz, yz
+    Eigen::Matrix3d edges = Eigen::Matrix3d::Constant(unset);  // of a general triclinic box
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();          // of it
 };
 
 std::string_view without_comment(std::string_view line) {
@@ -41,15 +45,20 @@ void read_header_line(const LineReader& file, Header& header) {
             header.upper[axis] = file.number_in(words[1], words[3]);
         }
     }
-    if (words.size() == 4 && (words[3] == "avec" || words[3] == "bvec" || words[3] == "cvec")) {
-        file.fail("the box is a general triclinic one, which coagula does not read");
-    }
-    if (words.size() == 6 && words[3] == "xy") {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (file.number_in(words[i], "the tilt") != 0) {
-                file.fail("this is a sheared box, which coagula does not read");
-            }
+    const auto three_numbers = [&](const std::string& object) {
+        return Eigen::Vector3d(file.number_in(words[0], object), file.number_in(words[1], object),
+                               file.number_in(words[2], object));
+    };
+    for (int edge = 0; edge < 3 && words.size() == 4; ++edge) {
+        if (words[3] == std::string(1, "abc"[edge]) + "vec") {
+            header.edges.col(edge) = three_numbers("an edge of the box");
         }
+    }
+    if (words.size() == 5 && words[3] == "abc" && words[4] == "origin") {
+        header.origin = three_numbers("the origin of the box");
+    }
+    if (words.size() == 6 && words[3] == "xy" && words[4] == "xz" && words[5] == "yz") {
+        header.tilt = three_numbers("the tilt");
     }
 }
 
@@ -68,15 +77,27 @@ Header read_header(LineReader& file) {
     file.fail("the file has no section Atoms");
 }
 
+/// The title of files that coagula writes says where the box is periodic; LAMMPS itself does not.
+std::array<bool, 3> periodicity_of(const Header& header) {
+    const std::string boundary = value_in_title(header.title, "boundary");
+    const auto flags = split_words(boundary);
+    std::array<bool, 3> periodic = {true, true, true};
+    for (std::size_t axis = 0; axis < 3 && flags.size() == 3; ++axis) {
+        periodic[axis] = flags[axis] == "p";
+    }
+    return periodic;
+}
+
 std::optional<Cell> cell_of(const LineReader& file, const Header& header, double divisor) {
-    const Eigen::Vector3d lengths = (header.upper - header.lower) / divisor;
+    const std::array<bool, 3> periodic = periodicity_of(header);
+    if (header.edges.allFinite()) {
+        return box_of_edges(file, header.origin / divisor, header.edges / divisor, periodic);
+    }
+    const Eigen::Vector3d lengths = header.upper - header.lower;
     if (!lengths.allFinite()) {
         return std::nullopt;
     }
-    if ((lengths.array() <= 0).any()) {
-        throw InputError(file.path() + ": the box has an edge that is not positive");
-    }
-    return Cell::open(header.lower / divisor, lengths);
+    return box_of_edges(file, header.lower / divisor, triclinic_edges(lengths, header.tilt) / divisor, periodic);
 }
 
 /// The words of the next atom, of `atoms` in all.
@@ -199,13 +220,6 @@ std::vector<RawPacking> read_lammps_data(LineReader& file, const ImportOptions& 
     RawPacking raw;
     raw.cell = cell_of(file, header, divisor);
     read_atoms(file, *header.atoms, style, divisor, raw);
-    const bool periodic = value_in_title(header.title, "boundary") != "f f f";
-    if (raw.cell && periodic && !options.open) {
-        for (std::size_t i = 0; i < raw.coordinates.size(); ++i) {
-            raw.coordinates[i] -= raw.cell->origin()[static_cast<Index>(i % 3)];
-        }
-        raw.cell = Cell::periodic(raw.cell->lengths());
-    }
     return {std::move(raw)};
 }
 

@@ -1,8 +1,9 @@
 // The text dump of LAMMPS (LAMMPS manual, "dump" and "dump_modify"), with one frame or many.
 #include <algorithm>
 #include <array>
+#include <tuple>
 
-#include "text_reader.hpp"
+#include "triclinic.hpp"
 
 namespace coagula::io {
 
@@ -12,9 +13,7 @@ namespace {
 struct FrameHeader {
     std::optional<std::size_t> atoms;
     double time = unset;
-    Eigen::Vector3d lower = Eigen::Vector3d::Constant(unset);  // as the file has it
-    Eigen::Vector3d upper = Eigen::Vector3d::Constant(unset);
-    bool periodic = true;
+    std::optional<Cell> box;  // in the units of the file
 };
 
 /// Which words of an atom's line are what.
@@ -33,37 +32,66 @@ void next_line(LineReader& file, const char* what) {
     }
 }
 
-bool parse_periodicity(const LineReader& file, const std::vector<std::string_view>& flags) {
-    const auto is_periodic = [](std::string_view flag) { return flag == "pp"; };
-    const auto count = std::count_if(flags.begin(), flags.end(), is_periodic);
-    if (count != 0 && count != 3) {
-        file.fail("the box is periodic along some axes only: coagula knows boxes that are periodic along all axes or along none");
+/// One flag for each axis, such as "pp ff fs"; without any the box is periodic.
+std::array<bool, 3> parse_periodicity(const LineReader& file, const std::vector<std::string_view>& flags) {
+    if (flags.empty()) {
+        return {true, true, true};
     }
-    return count == 3 || flags.empty();
+    if (flags.size() != 3) {
+        file.fail("the box needs one boundary for each axis, such as 'pp pp ff'");
+    }
+    return {flags[0] == "pp", flags[1] == "pp", flags[2] == "pp"};
+}
+
+std::vector<double> numbers_of_line(LineReader& file, std::size_t count) {
+    next_line(file, "the bounds of the box");
+    const auto words = split_words(file.line());
+    if (words.size() != count) {
+        file.fail("the bounds of the box must be " + std::to_string(count) + " numbers");
+    }
+    std::vector<double> numbers;
+    for (const std::string_view word : words) {
+        numbers.push_back(file.number_in(word, "a bound of the box"));
+    }
+    return numbers;
+}
+
+/// Three lines: an edge vector and a coordinate of the origin in each.
+Cell general_box(LineReader& file, const std::array<bool, 3>& periodic) {
+    Eigen::Vector3d origin;
+    Eigen::Matrix3d edges;
+    for (int edge = 0; edge < 3; ++edge) {
+        const std::vector<double> numbers = numbers_of_line(file, 4);
+        edges.col(edge) = Eigen::Vector3d::Map(numbers.data());
+        origin[edge] = numbers[3];
+    }
+    return box_of_edges(file, origin, edges, periodic);
+}
+
+/// Three lines: lower and upper bound along an axis, and the tilt xy, xz or yz of a tilted box, whose bounds are those of the
+/// rectangular box around it.
+Cell restricted_box(LineReader& file, bool tilted, const std::array<bool, 3>& periodic) {
+    Eigen::Vector3d lower;
+    Eigen::Vector3d upper;
+    Eigen::Vector3d tilt = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::vector<double> numbers = numbers_of_line(file, tilted ? 3 : 2);
+        lower[axis] = numbers[0];
+        upper[axis] = numbers[1];
+        tilt[axis] = tilted ? numbers[2] : 0.0;
+    }
+    const auto [xy, xz, yz] = std::tuple(tilt[0], tilt[1], tilt[2]);
+    lower -= Eigen::Vector3d(std::min({0.0, xy, xz, xy + xz}), std::min(0.0, yz), 0.0);
+    upper -= Eigen::Vector3d(std::max({0.0, xy, xz, xy + xz}), std::max(0.0, yz), 0.0);
+    return box_of_edges(file, lower, triclinic_edges(upper - lower, tilt), periodic);
 }
 
 void read_bounds(LineReader& file, std::vector<std::string_view> flags, FrameHeader& header) {
-    const bool tilted = flags.size() >= 3 && (flags[0] == "xy" || flags[0] == "abc");
-    if (tilted && flags[0] == "abc") {
-        file.fail("the box is a general triclinic one, which coagula does not read");
-    }
-    flags.erase(flags.begin(), flags.begin() + (tilted ? 3 : 0));
-    header.periodic = parse_periodicity(file, flags);
-    for (int axis = 0; axis < 3; ++axis) {
-        next_line(file, "the bounds of the box");
-        const auto words = split_words(file.line());
-        if (words.size() != (tilted ? 3U : 2U)) {
-            file.fail("the bounds of the box must be two numbers");
-        }
-        if (tilted && file.number_in(words[2], "the tilt") != 0) {
-            file.fail("this is a sheared box, which coagula does not read");
-        }
-        header.lower[axis] = file.number_in(words[0], "a bound of the box");
-        header.upper[axis] = file.number_in(words[1], "a bound of the box");
-        if (!(header.lower[axis] < header.upper[axis])) {
-            file.fail("the box has an edge that is not positive");
-        }
-    }
+    const bool general = flags.size() >= 2 && flags[0] == "abc" && flags[1] == "origin";
+    const bool tilted = flags.size() >= 3 && flags[0] == "xy" && flags[1] == "xz" && flags[2] == "yz";
+    flags.erase(flags.begin(), flags.begin() + (general ? 2 : (tilted ? 3 : 0)));
+    const std::array<bool, 3> periodic = parse_periodicity(file, flags);
+    header.box = general ? general_box(file, periodic) : restricted_box(file, tilted, periodic);
 }
 
 Columns parse_columns(const LineReader& file, const std::vector<std::string_view>& names) {
@@ -92,17 +120,14 @@ Columns parse_columns(const LineReader& file, const std::vector<std::string_view
     file.fail("the atoms have no columns x y z, xu yu zu, xs ys zs or xsu ysu zsu");
 }
 
-/// Positions count from the lower corner of a periodic box.
 RawPacking read_atoms(LineReader& file, const FrameHeader& header, const Columns& columns, double divisor) {
     RawPacking raw;
     raw.time = header.time;
-    const Eigen::Vector3d lengths = header.upper - header.lower;
-    if (lengths.allFinite()) {
-        raw.cell = header.periodic ? Cell::periodic(lengths / divisor) : Cell::open(header.lower / divisor, lengths / divisor);
+    if (header.box) {
+        raw.cell = box_of_edges(file, header.box->origin() / divisor, header.box->edges() / divisor, header.box->periodicity());
     } else if (columns.scaled) {
         file.fail("the positions are scaled by a box that the frame does not have");
     }
-    const Eigen::Vector3d corner = raw.cell && header.periodic ? header.lower : Eigen::Vector3d::Zero();
     std::vector<std::size_t> numbers;
     for (std::size_t atom = 0; atom < header.atoms.value_or(0); ++atom) {
         if (!file.next()) {
@@ -113,11 +138,12 @@ RawPacking read_atoms(LineReader& file, const FrameHeader& header, const Columns
             file.fail("there are " + std::to_string(words.size()) + " columns, but " + std::to_string(columns.width) +
                       " are expected");
         }
+        Eigen::Vector3d position;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto k = static_cast<Index>(axis);
-            const double value = file.number_in(words[columns.position[axis]], "a coordinate");
-            raw.coordinates.push_back(((columns.scaled ? header.lower[k] + value * lengths[k] : value) - corner[k]) / divisor);
+            position[static_cast<Index>(axis)] = file.number_in(words[columns.position[axis]], "a coordinate");
         }
+        position = columns.scaled ? raw.cell->place(position) : (position / divisor).eval();
+        raw.coordinates.insert(raw.coordinates.end(), position.begin(), position.end());
         if (columns.radius) {
             raw.radii.push_back((columns.is_diameter ? 0.5 : 1.0) * file.number_in(words[*columns.radius], "the radius") / divisor);
         }

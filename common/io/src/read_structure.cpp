@@ -26,14 +26,13 @@ Cell read_cell(const File& file, const std::string& box) {
     if (!file.is_group(box)) {
         file.fail(box, "is missing");
     }
-    const bool periodic = h5md::read_periodicity(file, box);
-    const Eigen::Vector3d lengths = h5md::read_edges(file, box + "/edges").back();
-    if (periodic) {
-        return Cell::periodic(lengths);
-    }
+    const std::array<bool, 3> periodic = h5md::read_periodicity(file, box);
+    const Eigen::Matrix3d edges = h5md::read_edges(file, box + "/edges").back();
     const std::string origin = box + "/origin";
     const auto lower = file.has(origin) ? read_lengths(file, origin, {3}) : std::vector<double>(3, 0.0);
-    return Cell::open(Eigen::Vector3d::Map(lower.data()), lengths);
+    const bool is_periodic = periodic[0] && periodic[1] && periodic[2];
+    const Eigen::Vector3d corner = is_periodic ? Eigen::Vector3d::Zero() : Eigen::Vector3d(Eigen::Vector3d::Map(lower.data()));
+    return Cell::of_edges(corner, edges, periodic);
 }
 
 /// Also the names other programs use.

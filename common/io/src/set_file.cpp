@@ -145,8 +145,7 @@ const SetColumn* SetHead::column(const std::string& name) const {
 
 Packing packing_as_stored(const Packing& packing) {
     const auto rounded = [](const auto& lengths) { return ((lengths * layout::nanometres) / layout::nanometres).eval(); };
-    const Cell cell = packing.cell.is_periodic() ? Cell::periodic(rounded(packing.cell.lengths()))
-                                                 : Cell::open(rounded(packing.cell.origin()), rounded(packing.cell.lengths()));
+    const Cell cell = Cell::of_edges(rounded(packing.cell.origin()), rounded(packing.cell.edges()), packing.cell.periodicity());
     return {cell, layout::stored_positions(packing) / layout::nanometres, rounded(packing.radii)};
 }
 

@@ -6,6 +6,7 @@
 
 #include <coagula/io/atomic_file.hpp>
 #include "text_reader.hpp"
+#include "triclinic.hpp"
 
 namespace coagula::io {
 
@@ -43,12 +44,20 @@ std::string csv_text(const Trajectory& run) {
     return out;
 }
 
+/// Whether the box is periodic along each edge, by words with a blank between.
+std::string flags_of(const Cell& cell, const std::string& periodic, const std::string& open) {
+    std::string flags;
+    for (int axis = 0; axis < 3; ++axis) {
+        flags += (axis > 0 ? " " : "") + (cell.is_periodic(axis) ? periodic : open);
+    }
+    return flags;
+}
+
 std::string extended_xyz_text(const Trajectory& run) {
     const Packing& packing = run.packing;
     const Eigen::Matrix3d edges = packing.cell.edges();
     const std::string comment = "Lattice=\"" + triple(edges.col(0)) + ' ' + triple(edges.col(1)) + ' ' + triple(edges.col(2)) +
-                                "\" Origin=\"" + triple(packing.cell.origin()) + "\" pbc=\"" +
-                                (packing.cell.is_periodic() ? "T T T" : "F F F") +
+                                "\" Origin=\"" + triple(packing.cell.origin()) + "\" pbc=\"" + flags_of(packing.cell, "T", "F") +
                                 "\" Properties=species:S:1:pos:R:3:radius:R:1 length_unit=m";
     std::string out;
     for (std::size_t frame = 0; frame < run.frames(); ++frame) {
@@ -64,11 +73,15 @@ std::string extended_xyz_text(const Trajectory& run) {
 /// @param with_units the lines of `dump_modify units yes time yes`, which not all programs that read dumps know.
 std::string dump_text(const Trajectory& run, bool with_units) {
     const Packing& packing = run.packing;
-    const Eigen::Vector3d lower = packing.cell.origin();
-    const Eigen::Vector3d upper = lower + packing.cell.lengths();
-    std::string box = std::string("ITEM: BOX BOUNDS ") + (packing.cell.is_periodic() ? "pp pp pp\n" : "ff ff ff\n");
+    const Cell& cell = packing.cell;
+    const Cell bounds = cell.bounds();
+    const Eigen::Vector3d upper = bounds.origin() + bounds.lengths();
+    const Eigen::Vector3d tilt(cell.edges()(0, 1), cell.edges()(0, 2), cell.edges()(1, 2));
+    std::string box =
+        std::string("ITEM: BOX BOUNDS ") + (cell.is_rectangular() ? "" : "xy xz yz ") + flags_of(cell, "pp", "ff") + '\n';
     for (int axis = 0; axis < 3; ++axis) {
-        box += to_text(lower[axis]) + ' ' + to_text(upper[axis]) + '\n';
+        box += to_text(bounds.origin()[axis]) + ' ' + to_text(upper[axis]);
+        box += cell.is_rectangular() ? "\n" : ' ' + to_text(tilt[axis]) + '\n';
     }
     std::string out;
     for (std::size_t frame = 0; frame < run.frames(); ++frame) {
@@ -90,9 +103,10 @@ constexpr const char* placeholder_density = "1000";
 
 std::string lammps_header(const Packing& packing, const std::optional<ContactNetwork>& bonds) {
     const Eigen::Vector3d lower = packing.cell.origin();
-    const Eigen::Vector3d upper = lower + packing.cell.lengths();
+    const Eigen::Matrix3d& edges = packing.cell.edges();
+    const Eigen::Vector3d upper = lower + edges.diagonal();
     std::string out = "coagula packing, units = si, boundary = ";
-    out += packing.cell.is_periodic() ? "p p p" : "f f f";
+    out += flags_of(packing.cell, "p", "f");
     out += bonds ? ", atom_style = hybrid sphere bond" : ", atom_style = sphere";
     out += ", the density is a placeholder\n\n" + std::to_string(packing.size()) + " atoms\n1 atom types\n";
     if (bonds) {
@@ -102,6 +116,9 @@ std::string lammps_header(const Packing& packing, const std::optional<ContactNet
     for (int axis = 0; axis < 3; ++axis) {
         const std::string name(1, "xyz"[axis]);
         out += to_text(lower[axis]) + ' ' + to_text(upper[axis]) + ' ' + name + "lo " + name + "hi\n";
+    }
+    if (!packing.cell.is_rectangular()) {
+        out += triple({edges(0, 1), edges(0, 2), edges(1, 2)}) + " xy xz yz\n";
     }
     return out;
 }
@@ -173,6 +190,9 @@ void write_text(const std::string& path, TextFormat format, const Packing& packi
                 bool overwrite, const std::vector<Frame>& earlier, double time, bool dump_units) {
     check_output(path, overwrite);
     check(packing);
+    if (format == TextFormat::lammps_data || format == TextFormat::lammps_dump) {
+        require_restricted(path, packing.cell);
+    }
     const Trajectory run{packing, earlier, time};
     switch (format) {
         case TextFormat::csv:

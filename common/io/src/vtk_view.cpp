@@ -51,7 +51,7 @@ void write_size(File& file, const std::string& name, std::size_t size) {
 
 bool lies_inside(const Packing& packing, const ContactNetwork& bonds, Index bond) {
     const Eigen::Vector3d separation = packing.positions.col(bonds.ends(1, bond)) - packing.positions.col(bonds.ends(0, bond));
-    return ((separation - bonds.branch.col(bond)).array().abs() < 0.5 * packing.cell.lengths().array()).all();
+    return (packing.cell.in_edges(separation - bonds.branch.col(bond)).array().abs() < 0.5).all();
 }
 
 void write_view_bonds(File& file, const Packing& packing, const std::optional<ContactNetwork>& bonds) {

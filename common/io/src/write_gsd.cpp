@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "gsd_layout.hpp"
+#include "triclinic.hpp"
 
 namespace coagula::io {
 
@@ -90,16 +91,16 @@ private:
 /// Positions count from the middle of the box, and lie in it after rounding, too.
 std::vector<float> centred(const Packing& packing, const Eigen::Matrix3Xd& positions) {
     const Cell& cell = packing.cell;
-    const Eigen::Vector3d middle = cell.origin() + 0.5 * cell.lengths();
+    const Eigen::Vector3d middle = cell.centre();
     std::vector<float> values;
     values.reserve(static_cast<std::size_t>(positions.size()));
     for (Index particle = 0; particle < positions.cols(); ++particle) {
-        const Eigen::Vector3d place =
-            cell.is_periodic() ? cell.wrap(positions.col(particle)) : Eigen::Vector3d(positions.col(particle));
+        const Eigen::Vector3d place = cell.wrap(positions.col(particle));
         for (int axis = 0; axis < 3; ++axis) {
-            const auto half = static_cast<float>(0.5 * cell.lengths()[axis]);
+            const auto half = static_cast<float>(0.5 * cell.edges()(axis, axis));
             const auto value = static_cast<float>(place[axis] - middle[axis]);
-            values.push_back(cell.is_periodic() && value >= half ? -half : value);
+            const bool beyond = cell.is_rectangular() && cell.is_periodic(axis) && value >= half;
+            values.push_back(beyond ? -half : value);
         }
     }
     return values;
@@ -107,18 +108,26 @@ std::vector<float> centred(const Packing& packing, const Eigen::Matrix3Xd& posit
 
 /// What is the same in all frames stands in the first one only, as the schema has it.
 void add_constants(GsdBytes& file, const Packing& packing) {
-    const Eigen::Vector3f box = packing.cell.lengths().cast<float>();
+    const Eigen::Matrix3d& edges = packing.cell.edges();
+    const Eigen::Vector3f box = edges.diagonal().cast<float>();
+    const Eigen::Vector3f tilt =
+        Eigen::Vector3d(edges(0, 1) / edges(1, 1), edges(0, 2) / edges(2, 2), edges(1, 2) / edges(2, 2)).cast<float>();
     std::vector<float> diameters;
     for (const double radius : packing.radii) {
         diameters.push_back(static_cast<float>(2 * radius));
     }
     file.add<std::uint8_t>(0, "configuration/dimensions", {3});
-    file.add<float>(0, "configuration/box", {box[0], box[1], box[2], 0, 0, 0});
+    file.add<float>(0, "configuration/box", {box[0], box[1], box[2], tilt[0], tilt[1], tilt[2]});
     file.add<std::uint32_t>(0, "particles/N", {static_cast<std::uint32_t>(packing.size())});
     file.add<std::int8_t>(0, "particles/types", {'A', '\0'}, 2);
     file.add(0, "particles/diameter", diameters);
     file.add<double>(0, "log/coagula/length_unit", {1.0});
-    file.add<std::uint8_t>(0, "log/coagula/periodic", {static_cast<std::uint8_t>(packing.cell.is_periodic() ? 1 : 0)});
+    std::vector<std::uint8_t> periodic;
+    for (int axis = 0; axis < 3; ++axis) {
+        periodic.push_back(packing.cell.is_periodic(axis) ? 1 : 0);
+    }
+    const bool alike = packing.cell.is_periodic() || packing.cell.is_open();
+    file.add<std::uint8_t>(0, "log/coagula/periodic", alike ? std::vector<std::uint8_t>{periodic[0]} : periodic);
 }
 
 }  // namespace
@@ -126,6 +135,7 @@ void add_constants(GsdBytes& file, const Packing& packing) {
 void write_gsd(const std::string& path, const Structure& structure, bool overwrite) {
     check_output(path, overwrite);
     check(structure.packing);
+    require_restricted(path, structure.packing.cell);
     GsdBytes file;
     add_constants(file, structure.packing);
     const std::size_t frames = structure.earlier.size() + 1;

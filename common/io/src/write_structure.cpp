@@ -71,9 +71,13 @@ void write_box(File& file, const Cell& cell, std::size_t frames) {
     file.link(in_trajectory("position/time"), box + "/edges/time");
     const Eigen::Vector3d origin = cell.origin() * layout::nanometres;
     file.write(box + "/origin", {3}, origin.data());
-    file.describe(box + "/origin", "nm", "corner of the box with the smallest coordinates");
+    file.describe(box + "/origin", "nm", "corner of the box from which its edges go");
     file.set_attribute(box, "dimension", std::int64_t{3});
-    file.set_attribute(box, "boundary", std::vector<std::string>(3, cell.is_periodic() ? "periodic" : "none"));
+    std::vector<std::string> boundary;
+    for (int axis = 0; axis < 3; ++axis) {
+        boundary.emplace_back(cell.is_periodic(axis) ? "periodic" : "none");
+    }
+    file.set_attribute(box, "boundary", boundary);
 }
 
 void write_particles(File& file, const Structure& structure) {

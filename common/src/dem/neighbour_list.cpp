@@ -30,11 +30,10 @@ void follow_curve(const Eigen::Array3i& corner, int edge, const Eigen::Array3i& 
 
 }  // namespace
 
-NeighbourSearch::NeighbourSearch(const Cell& cell, const std::vector<Quad>& position, double skin)
-    : periodic_(cell.is_periodic()), skin_(skin), lower_(cell.origin()), lengths_(cell.lengths()) {
+NeighbourSearch::NeighbourSearch(const Cell& cell, const std::vector<Quad>& position, double skin) : cell_(cell), skin_(skin) {
     require(std::all_of(position.begin(), position.end(), [](const Quad& sphere) { return sphere.allFinite(); }),
             "a particle is at a place that is not a finite number: the neighbour search cannot find its box");
-    choose_boxes(cell, position, skin);
+    choose_boxes(position);
     list_places(position);
     rank_boxes();
     const std::size_t particles = position.size();
@@ -57,7 +56,7 @@ NeighbourSearch::NeighbourSearch(const Cell& cell, const std::vector<Quad>& posi
     }
 }
 
-void NeighbourSearch::choose_boxes(const Cell& cell, const std::vector<Quad>& position, double skin) {
+void NeighbourSearch::choose_boxes(const std::vector<Quad>& position) {
     // The reach of most particles, so that only a few large ones look beyond the boxes next to theirs; but at most about two boxes
     // per particle.
     std::vector<double> radii;
@@ -67,9 +66,9 @@ void NeighbourSearch::choose_boxes(const Cell& cell, const std::vector<Quad>& po
     }
     const auto most = radii.begin() + static_cast<std::ptrdiff_t>(4 * radii.size() / 5);
     std::nth_element(radii.begin(), most, radii.end());
-    const double edge = std::max(2 * *most + skin, std::cbrt(0.5 * cell.volume() / static_cast<double>(radii.size())));
+    const double edge = std::max(2 * *most + skin_, std::cbrt(0.5 * cell_.volume() / static_cast<double>(radii.size())));
     for (int axis = 0; axis < 3; ++axis) {
-        boxes_[axis] = static_cast<int>(std::clamp(lengths_[axis] / edge, 1.0, 1000.0));
+        boxes_[axis] = static_cast<int>(std::clamp(cell_.widths()[axis] / edge, 1.0, 1000.0));
     }
 }
 
@@ -83,7 +82,7 @@ void NeighbourSearch::rank_boxes() {
 }
 
 Eigen::Array3i NeighbourSearch::box_of(const Quad& position) const {
-    const Eigen::Array3d fraction = (position.head<3>().array() - lower_) / lengths_;
+    const Eigen::Array3d fraction = cell_.fraction(position.head<3>());
     // Rounding may put a wrapped point on the upper face; in an open cell particles may leave the box.
     return (fraction * boxes_.cast<double>()).floor().max(0).min((boxes_ - 1).cast<double>()).cast<int>();
 }
@@ -105,14 +104,14 @@ void NeighbourSearch::list_places(const std::vector<Quad>& position) {
         for (int box = -margin_[axis]; box < count + margin_[axis]; ++box) {
             const int images = box >= 0 ? box / count : -((count - 1 - box) / count);
             places_[static_cast<std::size_t>(axis)].push_back(
-                {box - images * count, images, images * lengths_[axis], images == 0 || periodic_});
+                {box - images * count, images, images * cell_.edges().col(axis), images == 0 || cell_.is_periodic(axis)});
         }
     }
 }
 
 /// Boxes that a particle must look beyond its own.
 Eigen::Array3i NeighbourSearch::reach_of(double radius) const {
-    return ((2 * radius + skin_) * boxes_.cast<double>() / lengths_).ceil().cast<int>();
+    return ((2 * radius + skin_) * boxes_.cast<double>() / cell_.widths().array()).ceil().cast<int>();
 }
 
 const NeighbourSearch::Place& NeighbourSearch::place_along(int axis, int box) const {
@@ -150,7 +149,7 @@ void NeighbourSearch::search_box(std::int32_t first, std::size_t place, int side
     if (smallest_[place] > centre[3] || (side < 0 && smallest_[place] == centre[3])) {
         return;
     }
-    const Eigen::Vector3d origin = centre.head<3>() - Eigen::Vector3d(x.shift, y.shift, z.shift);
+    const Eigen::Vector3d origin = centre.head<3>().matrix() - (x.shift + y.shift + z.shift);
     for (std::int32_t second = start_[place]; second < start_[place + 1]; ++second) {
         const Quad& other = sorted_[static_cast<std::size_t>(second)];
         const double limit = centre[3] + other[3] + skin_;

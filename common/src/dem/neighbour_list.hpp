@@ -36,10 +36,10 @@ private:
     struct Place {
         int box;
         int images;
-        double shift;  ///< the same as a length [m]
-        bool exists;   ///< false outside an open cell
+        Eigen::Vector3d shift;  ///< the same as a length [m]
+        bool exists;            ///< false outside an open cell
     };
-    void choose_boxes(const Cell& cell, const std::vector<Quad>& position, double skin);
+    void choose_boxes(const std::vector<Quad>& position);
     void list_places(const std::vector<Quad>& position);
     Eigen::Array3i reach_of(double radius) const;
     const Place& place_along(int axis, int box) const;
@@ -49,10 +49,8 @@ private:
     void search_box(std::int32_t first, std::size_t place, int side, const Place& x, const Place& y, const Place& z,
                     std::vector<ListedPair>& pairs) const;
 
-    bool periodic_;
+    Cell cell_;
     double skin_;
-    Eigen::Array3d lower_;
-    Eigen::Array3d lengths_;
     Eigen::Array3i boxes_;
     Eigen::Array3i margin_;                     ///< boxes that the largest particle looks beyond the cell
     std::array<std::vector<Place>, 3> places_;  ///< along each axis, of the boxes from -margin on

@@ -31,8 +31,8 @@ void ParticleSystem::add_bonds(const ContactNetwork& pairs,
         bond.first = pairs.ends(0, pair);
         bond.second = pairs.ends(1, pair);
         const Eigen::Vector3d direct = (state.position[at(bond.second)] - state.position[at(bond.first)]).head<3>();
-        if (cell_.is_periodic()) {
-            const Eigen::Array3d periods = shear_.undo(pairs.branch.col(pair) - direct).array() / cell_.lengths().array();
+        if (!cell_.is_open()) {
+            const Eigen::Array3d periods = cell_.in_edges(shear_.undo(pairs.branch.col(pair) - direct));
             bond.images = periods.round().cast<int>();
         }
         bond.memory = make(direct + image_shift(bond.images), radii_[bond.first], radii_[bond.second]);

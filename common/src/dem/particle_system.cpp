@@ -120,6 +120,9 @@ void ParticleSystem::restore(ParticleState state) {
 /// Takes whole periods out of the shear; bonds name the same images by other numbers.
 void ParticleSystem::reduce_shear(ParticleState& state) const {
     CellShear& shear = state.shear;
+    if (!cell_.is_rectangular()) {
+        return;  // its images after a whole period are no others, but they lie along other edges
+    }
     const double period = cell_.lengths()[shear.direction] / cell_.lengths()[shear.normal];
     const double whole = std::nearbyint(shear.strain / period);
     if (whole != 0) {
@@ -136,17 +139,17 @@ void ParticleSystem::wrap(ParticleState& state) const {
     for (std::size_t particle = 0; particle < state.position.size(); ++particle) {
         Quad& position = state.position[particle];
         const Eigen::Vector3d before = state.shear.undo(position.head<3>());
-        const Eigen::Array3d periods = (before - cell_.origin()).array() / cell_.lengths().array();
+        const Eigen::Array3d periods = cell_.fraction(before);
         if (!(periods.abs() < 500).all()) {
             throw std::runtime_error("particle " + std::to_string(particle) +
                                      " has left all bounds: the time step is too large for the stiffness of the contacts");
         }
         const Eigen::Vector3d after = cell_.wrap(before);
-        moved[particle] = ((before - after).array() / cell_.lengths().array()).round().cast<int>();
+        moved[particle] = cell_.in_edges(before - after).array().round().cast<int>();
         if (state.shear.strain == 0) {
             position.head<3>() = after;
         } else if (!moved[particle].isZero()) {
-            position.head<3>() -= state.shear.apply(moved[particle].cast<double>().cwiseProduct(cell_.lengths()));
+            position.head<3>() -= state.shear.apply(cell_.edges() * moved[particle].cast<double>());
         }
     }
     for (Bond& bond : state.bonds) {
@@ -169,15 +172,15 @@ std::vector<ChunkPlan> ParticleSystem::plan(const ParticleState& state, std::vec
     std::vector<Quad> unsheared = state.position;
     for (Quad& position : unsheared) {
         // Inside already, rounding apart.
-        const Eigen::Array3d place = (state.shear.undo(position.head<3>()) - cell_.origin()).array();
-        position.head<3>() = cell_.origin().array() + place.max(0.0).min((1 - 1e-15) * cell_.lengths().array());
+        const Eigen::Array3d place = cell_.fraction(state.shear.undo(position.head<3>()));
+        position.head<3>() = cell_.place(place.max(0.0).min(1 - 1e-15));
         position[3] *= stretch;
     }
     return search(unsheared, skin_ * stretch);
 }
 
 Eigen::Vector3d ParticleSystem::image_shift(const Eigen::Vector3i& images) const {
-    return shear_.apply(images.cast<double>().cwiseProduct(cell_.lengths()));
+    return shear_.apply(cell_.edges() * images.cast<double>());
 }
 
 void ParticleSystem::rebuild(ParticleState state) {
@@ -350,14 +353,12 @@ void ParticleSystem::shear(int direction, int normal, double increment) {
     require(shear_.strain == 0 || (shear_.direction == direction && shear_.normal == normal),
             "the cell is sheared along other axes already");
     shear_ = {direction, normal, shear_.strain + increment};
-    const double period = cell_.lengths()[direction];
     for (const Chunk& chunk : chunks_) {
         for (std::size_t slot = at(chunk.begin); slot < at(chunk.own_end); ++slot) {
             slots_.position[slot][direction] += increment * slots_.position[slot][normal];
         }
         for (std::size_t ghost = at(chunk.own_end); ghost < at(chunk.end); ++ghost) {
-            Quad& shift = slots_.shift[ghost];
-            shift[direction] = slots_.images[ghost][direction] * period + shear_.strain * shift[normal];
+            slots_.shift[ghost].head<3>() = image_shift(slots_.images[ghost]);
         }
     }
     approach_ = std::abs(shear_.strain - list_strain_) * (2 * radii_.maxCoeff() + skin_);

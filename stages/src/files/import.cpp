@@ -6,6 +6,7 @@
 #include <coagula/stages/files.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -96,16 +97,36 @@ double parse_edge(const std::string& text) {
     return parse_quantity(text, "m", physical::length, 1.0);
 }
 
-/// "L" or "LX,LY,LZ", each with its unit.
-Eigen::Vector3d parse_box(const std::string& text) {
+/// "L" or "LX,LY,LZ", or "LX,LY,LZ,XY,XZ,YZ" of a tilted box, each with its unit.
+Eigen::Matrix3d parse_box(const std::string& text) {
     const std::vector<std::string> parts = split(text);
     if (parts.size() == 1) {
-        return Eigen::Vector3d::Constant(parse_edge(parts[0]));
+        return Eigen::Matrix3d::Identity() * parse_edge(parts[0]);
     }
-    if (parts.size() != 3) {
-        throw InputError("'" + text + "' must be one edge length or three, LX,LY,LZ");
+    if (parts.size() != 3 && parts.size() != 6) {
+        throw InputError("'" + text + "' must be one edge length, three, LX,LY,LZ, or these and the tilts, LX,LY,LZ,XY,XZ,YZ");
     }
-    return {parse_edge(parts[0]), parse_edge(parts[1]), parse_edge(parts[2])};
+    Eigen::Matrix3d edges = Eigen::Vector3d(parse_edge(parts[0]), parse_edge(parts[1]), parse_edge(parts[2])).asDiagonal();
+    if (parts.size() == 6) {
+        const auto tilt = [&](std::size_t part) { return parse_quantity(parts[part], "m", within(-1.0, 1.0), 1.0); };
+        edges(0, 1) = tilt(3);
+        edges(0, 2) = tilt(4);
+        edges(1, 2) = tilt(5);
+    }
+    return edges;
+}
+
+/// "x,y": the edges along which the box is periodic.
+std::array<bool, 3> parse_periodic(const std::string& text) {
+    std::array<bool, 3> periodic = {false, false, false};
+    for (const std::string& axis : split(text)) {
+        const std::size_t place = std::string("xyz").find(axis);
+        if (axis.size() != 1 || place == std::string::npos) {
+            throw InputError("'" + axis + "' is none of the axes x, y, z");
+        }
+        periodic[place] = true;
+    }
+    return periodic;
 }
 
 io::ImportOptions import_options(const Arguments& arguments) {
@@ -125,6 +146,12 @@ io::ImportOptions import_options(const Arguments& arguments) {
     options.wrap = arguments.flag("wrap");
     if (arguments.has("box")) {
         options.box = arguments.parsed("box", parse_box);
+    }
+    if (arguments.has("periodic")) {
+        options.periodic = arguments.parsed("periodic", parse_periodic);
+    }
+    if (options.open && options.periodic) {
+        throw InputError(arguments.spelled("open") + " excludes " + arguments.spelled("periodic"));
     }
     if (options.open && (options.box || options.wrap)) {
         throw InputError(arguments.spelled("open") + " excludes " + arguments.spelled("box") + " and " + arguments.spelled("wrap") +
@@ -151,7 +178,10 @@ Verb import_verb() {
                 choice("format", {"csv", "extxyz", "lammps", "dump", "gsd", "h5md"},
                        "format of the file; by its ending when not given", ""),
                 particle_radius("radius of every particle; a column of the file when not given"),
-                text("box", "L|LX,LY,LZ", "edge lengths of the periodic box [unit m; range " + physical::length.text() + "]"),
+                text("box", "L|LX,LY,LZ[,XY,XZ,YZ]",
+                     "edge lengths of the periodic box, and the tilts of one that is not rectangular [unit m; range " +
+                         physical::length.text() + "]"),
+                text("periodic", "AXES", "edges along which the box is periodic, such as x,y; what the file says when not given"),
                 flag("open", "the set has a free surface: no periodic box"),
                 text("length-unit", "U|UX,UY,UZ[,UR]",
                      "length that 1 stands for in columns without a unit or in pixels: one for all, or one for each axis and the "

@@ -81,7 +81,7 @@ void InfoRows::add(const std::string& path, const io::Contents& contents) {
     put("particles", "1", std::to_string(packing.size()));
     put("periodic", "", packing.cell.is_periodic() ? "true" : "false");
     for (int axis = 0; axis < 3; ++axis) {
-        put(std::string("box_") + "xyz"[axis], "m", number_text(packing.cell.lengths()[axis]));
+        put(std::string("box_") + "xyz"[axis], "m", number_text(packing.cell.edge_lengths()[axis]));
     }
     put("volume_fraction", "1", number_text(volume_fraction(packing)));
     put("radius_mean", "m", number_text(mean_radius(packing)));

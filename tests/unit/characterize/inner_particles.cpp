@@ -64,9 +64,9 @@ TEST(InnerParticles, NothingOutsideTheHullChangesTheirCells) {
     const Packing surrounded = open_packing(centres, 0.6);
     std::vector<char> counted(inner.begin(), inner.end());
     const Blocks all{Eigen::VectorXi::Zero(surrounded.size()), 1};
-    const Eigen::Vector2d by_itself = cover_spheres(open_diagram(alone, alone.radii, counted), all);
+    const Eigen::Vector2d by_itself = cover_spheres(power_diagram(alone, alone.radii, counted), all);
     counted.resize(centres.size(), 0);
-    const Eigen::Vector2d among_others = cover_spheres(open_diagram(surrounded, surrounded.radii, counted), all);
+    const Eigen::Vector2d among_others = cover_spheres(power_diagram(surrounded, surrounded.radii, counted), all);
     EXPECT_NEAR(among_others[1] / by_itself[1], 1, 1e-12);
     EXPECT_NEAR(among_others[0] / by_itself[0], 1, 1e-12);
     EXPECT_LT(among_others[0] / among_others[1], 0.99);

@@ -35,6 +35,10 @@ std::vector<Entry> listed(const ParticleSystem& system) {
     return entries;
 }
 
+Eigen::Array<bool, 3, 1> periodic_edges(const Cell& cell) {
+    return {cell.is_periodic(0), cell.is_periodic(1), cell.is_periodic(2)};
+}
+
 /// Every pair of images once, by trying all of them.
 std::vector<Entry> all_pairs(const Packing& packing, double skin, int periods) {
     std::vector<Entry> entries;
@@ -45,11 +49,11 @@ std::vector<Entry> all_pairs(const Packing& packing, double skin, int periods) {
                 const Eigen::Vector3i place(image % width - periods, image / width % width - periods,
                                             image / width / width - periods);
                 const Eigen::Vector3d shift = place.cast<double>();
-                const Eigen::Vector3d branch =
-                    packing.positions.col(j) - packing.positions.col(i) + shift.cwiseProduct(packing.cell.lengths());
+                const bool exists = packing.cell.is_open() || ((shift.array() == 0) || periodic_edges(packing.cell)).all();
+                const Eigen::Vector3d branch = packing.positions.col(j) - packing.positions.col(i) + packing.cell.edges() * shift;
                 // Of a particle's two opposite images of itself one counts.
                 const bool counted = i != j || image > width * width * width / 2;
-                if (counted && branch.norm() < packing.radii[i] + packing.radii[j] + skin) {
+                if (exists && counted && branch.norm() < packing.radii[i] + packing.radii[j] + skin) {
                     entries.push_back({i, j, branch.norm()});
                 }
             }
@@ -78,6 +82,20 @@ TEST(NeighbourList, FindsEveryPeriodicImageInABoxNarrowerThanTheReach) {
     const Packing packing = random_packing(Cell::periodic({3, 2.5, 6}), 7, 0.8, 1.6, 2);
     const ParticleSystem system(packing.cell, packing.positions, packing.radii, 0.4);
     expect_same(listed(system), all_pairs(packing, 0.4, 3));
+}
+
+TEST(NeighbourList, FindsAllPairsInATiltedAndPartlyOpenBox) {
+    const Eigen::Matrix3d edges = (Eigen::Matrix3d() << 20, 9, -4, 0, 14, 5, 0, 0, 9).finished();
+    Packing packing = random_packing(Cell::periodic({1, 1, 1}), 300, 0.3, 1.5, 1);
+    for (const std::array<bool, 3>& periodic : {std::array{true, true, true}, {true, false, true}, {false, false, true}}) {
+        Packing tilted = packing;
+        tilted.cell = Cell::of_edges(Eigen::Vector3d::Zero(), edges, periodic);
+        for (auto position : tilted.positions.colwise()) {
+            position = tilted.cell.place(position);
+        }
+        ParticleSystem system(tilted.cell, tilted.positions, tilted.radii, 0.3);
+        expect_same(listed(system), all_pairs(tilted, 0.3, 2));
+    }
 }
 
 TEST(NeighbourList, FindsPairsOfManySpheresInManyChunks) {

@@ -219,12 +219,20 @@ TEST_F(BadStructure, BadUnitsAndTypes) {
 
 TEST_F(BadStructure, BadBoxes) {
     const std::string edges = "/particles/trajectory/box/edges/value";
-    EXPECT_EQ(after([&](hid_t id) { set_value(id, edges, 1, 5); }),
-              path_ + ": " + edges + " is a sheared box, which coagula does not read");
+    EXPECT_EQ(after([&](hid_t id) {
+                  for (const std::size_t entry : {0U, 1U, 2U}) {
+                      set_value(id, edges, entry, 0);
+                      set_value(id, edges, entry + 3, 5);
+                  }
+              }),
+              path_ + ": " + edges + " cannot be read: the edges of the box lie in one plane: it has no volume");
     EXPECT_EQ(after([&](hid_t id) { set_value(id, edges, 1, unset); }),
               path_ + ": " + edges + " has an edge that is not a finite number");
     EXPECT_EQ(after([&](hid_t id) {
-                  set_value(id, edges, 1, 0);
+                  for (const std::size_t entry : {1U, 2U, 3U, 5U}) {
+                      set_value(id, edges, entry, 0);
+                  }
+                  set_value(id, edges, 0, 3);
                   set_value(id, edges, 4, -2);
               }),
               path_ + ": /particles/trajectory/box/edges has an edge of -2e-09 m, but edges must be finite and positive");

@@ -13,7 +13,7 @@ namespace {
 
 using TextFormats = TemporaryFolder;
 
-const Eigen::Vector3d box = Eigen::Vector3d::Constant(1e-5);
+const Eigen::Matrix3d box = Eigen::Matrix3d::Identity() * 1e-5;
 
 ImportOptions in_box() {
     ImportOptions options;
@@ -43,7 +43,7 @@ TEST_F(TextFormats, RoundTripIsExact) {
             ImportOptions options;
             if (format == TextFormat::csv) {
                 options.open = !periodic;
-                options.box = periodic ? std::optional(packing.cell.lengths()) : std::nullopt;
+                options.box = periodic ? std::optional(packing.cell.edges()) : std::nullopt;
             }
             const Packing found = read_text(file(name), format, options);
             EXPECT_EQ(found.positions, packing.positions) << name;
@@ -151,7 +151,7 @@ TEST_F(TextFormats, OpenSetsGetTheBoxAroundTheirSpheres) {
     EXPECT_FALSE(found.cell.is_periodic());
     EXPECT_EQ(found.cell.origin(), Eigen::Vector3d(-2, -1, 1));
     EXPECT_EQ(found.cell.lengths(), Eigen::Vector3d(5.5, 2, 2));
-    options.box = Eigen::Vector3d(7.5, 4, 4);
+    options.box = Eigen::Matrix3d(Eigen::Vector3d(7.5, 4, 4).asDiagonal());
     EXPECT_EQ(read_text(path, TextFormat::csv, options).cell.origin(), Eigen::Vector3d(-3, -2, 0));
 }
 
@@ -208,12 +208,12 @@ TEST_F(TextFormats, BadFilesNameLineAndRule) {
         {TextFormat::extended_xyz, "1\nlength_unit=um Properties=a:R:18446744073709551615:pos:R:3\nX 1 2 3\n",
          ", line 2: the number of columns of a is 18446744073709551615, but must be at most 1000"},
         {TextFormat::extended_xyz, "1\nlength_unit=um Lattice=\"1 2\"\nX 1 2 3\n", ", line 2: Lattice must have nine numbers"},
-        {TextFormat::extended_xyz, "1\nlength_unit=um Lattice=\"9 1 0 0 9 0 0 0 9\"\nX 1 2 3\n",
-         ", line 2: Lattice is a sheared box, which coagula does not read"},
+        {TextFormat::extended_xyz, "1\nlength_unit=um Lattice=\"9 1 0 9 1 0 0 0 9\"\nX 1 2 3\n",
+         ", line 2: the edges of the box lie in one plane: it has no volume"},
         {TextFormat::extended_xyz, "1\nlength_unit=um Lattice=\"9 0 0 0 -9 0 0 0 9\"\nX 1 2 3\n",
-         ": the edge length in Lattice is -9e-06 m, but must be finite and positive"},
-        {TextFormat::extended_xyz, "1\nlength_unit=um pbc=\"T T F\" Lattice=\"9 0 0 0 9 0 0 0 9\"\nX 1 2 3\n",
-         ", line 2: pbc must be \"T T T\" or \"F F F\": coagula knows boxes that are periodic along all axes or along none"},
+         ", line 2: the edge length of the box is -9e-06 m, but must be finite and positive"},
+        {TextFormat::extended_xyz, "1\nlength_unit=um pbc=\"T T X\" Lattice=\"9 0 0 0 9 0 0 0 9\"\nX 1 2 3\n",
+         ", line 2: pbc must be one flag for each edge of the box, such as \"T T F\""},
         {TextFormat::lammps_data, "", ", line 0: the file has no section Atoms"},
         {TextFormat::lammps_data, "t, units = si\n1 atoms\n", ", line 2: the file has no section Atoms"},
         {TextFormat::lammps_data, "t, units = si\n\nAtoms\n", ": the header names no number of atoms"},
@@ -228,10 +228,10 @@ TEST_F(TextFormats, BadFilesNameLineAndRule) {
          ", line 5: there are 4 columns, but atom style atomic has 5 (and three image flags)"},
         {TextFormat::lammps_data, "t, units = si\n2 atoms\nAtoms # atomic\n\n1 1 1 1 1\n1 1 2 2 2\n",
          ", line 6: atom 1 occurs twice"},
-        {TextFormat::lammps_data, "t, units = si\n1 atoms\n0 1 1 xy xz yz\nAtoms # atomic\n\n1 1 1 1 1\n",
-         ", line 3: this is a sheared box, which coagula does not read"},
+        {TextFormat::lammps_data, "t, units = si\n1 atoms\n0 x 1 xy xz yz\nAtoms # atomic\n\n1 1 1 1 1\n",
+         ", line 3: the tilt is 'x', which is not a number"},
         {TextFormat::lammps_data, "t, units = si\n1 atoms\n1 0 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\nAtoms # atomic\n\n1 1 1 1 1\n",
-         ": the box has an edge that is not positive"},
+         ", line 6: the edge length of the box is -1 m, but must be finite and positive"},
     };
     for (const BadText& bad : files) {
         const std::string path = write("bad", bad.contents);
@@ -252,7 +252,7 @@ TEST_F(TextFormats, BadOptions) {
     options = in_box();
     options.box.reset();
     EXPECT_EQ(reading(options), path + " names no box: give --box for a periodic one or --open for a set with a free surface");
-    options.box = Eigen::Vector3d(1e-5, 0, 1e-5);
+    options.box = Eigen::Matrix3d(Eigen::Vector3d(1e-5, 0, 1e-5).asDiagonal());
     EXPECT_EQ(reading(options), path + ": the edge length of the box is 0 m, but must be finite and positive");
     options = in_box();
     options.radius = 1e-5;
@@ -346,7 +346,7 @@ TEST_F(TextFormats, PackingsOfOtherPrograms) {
         EXPECT_TRUE(found.cell.lengths().isApprox(Eigen::Vector3d::Constant(5e-6))) << name;
         EXPECT_TRUE(found.radii.isApprox(Eigen::Vector2d::Constant(3e-7))) << name;
     }
-    options.box = Eigen::Vector3d(8e-6, 9e-6, 10e-6);
+    options.box = Eigen::Matrix3d(Eigen::Vector3d(8e-6, 9e-6, 10e-6).asDiagonal());
     for (const char* name : {"y_space.csv", "y_yade.csv", "y_yade.txt"}) {
         const Packing found = reading(name, TextFormat::csv);
         EXPECT_TRUE(found.positions.isApprox(reference.positions, 1e-8)) << name;
@@ -371,7 +371,7 @@ TEST_F(TextFormats, MeasuredAndReferencePackings) {
     const std::filesystem::path data = COAGULA_DATASETS;
     ImportOptions options;
     options.radius = 0.25e-6;
-    options.box = Eigen::Vector3d::Constant(1.0939048394478881e-05);
+    options.box = Eigen::Matrix3d(Eigen::Vector3d::Constant(1.0939048394478881e-05).asDiagonal());
     for (const char* name : {"vem_1-8", "vem_1-2", "vem_2-1", "brownian_0mV", "brownian_15mV"}) {
         const Packing packing = read_text((data / "reference_structures" / name).string() + ".csv", TextFormat::csv, options);
         EXPECT_EQ(packing.size(), 8000);

@@ -63,6 +63,54 @@ void expect_cells_of_voropp(const Packing& packing) {
     expect_equal(surfaces_of(packing), expected.surfaces);
 }
 
+/// voro++ has restricted triclinic boxes: the first edge along x, the second in the plane of x and y.
+template <class Container>
+Cells cells_of_tilted_box(const Packing& packing) {
+    const Eigen::Matrix3d& edges = packing.cell.edges();
+    Container container(edges(0, 0), edges(0, 1), edges(1, 1), edges(0, 2), edges(1, 2), edges(2, 2), 5, 5, 5, 8);
+    for (int i = 0; i < packing.size(); ++i) {
+        const Eigen::Vector3d centre = packing.positions.col(i);
+        if constexpr (std::is_same_v<Container, voro::container_periodic_poly>) {
+            container.put(i, centre[0], centre[1], centre[2], packing.radii[i]);
+        } else {
+            container.put(i, centre[0], centre[1], centre[2]);
+        }
+    }
+    Cells cells{Eigen::VectorXd::Zero(packing.size()), Eigen::VectorXd::Zero(packing.size())};
+    voro::c_loop_all_periodic loop(container);
+    voro::voronoicell cell;
+    if (loop.start()) {
+        do {
+            if (container.compute_cell(cell, loop)) {
+                cells.volumes[loop.pid()] = cell.volume();
+                cells.surfaces[loop.pid()] = cell.surface_area();
+            }
+        } while (loop.inc());
+    }
+    return cells;
+}
+
+template <class Container>
+void expect_cells_in_tilted_boxes(double smallest, double largest) {
+    for (const double tilt : {0.3, 0.5, 0.9}) {
+        Packing packing = test::random_spheres(1000, {1, 1, 1}, smallest, largest, 4);
+        const Eigen::Matrix3d edges = (Eigen::Matrix3d() << 10, 10 * tilt, -8 * tilt, 0, 12, 9 * tilt, 0, 0, 8).finished();
+        packing.cell = Cell::of_edges(Eigen::Vector3d::Zero(), edges, {true, true, true});
+        packing.positions = edges * packing.positions;
+        const Cells expected = cells_of_tilted_box<Container>(packing);
+        expect_equal(measure_voronoi_cells(packing).volumes, expected.volumes);
+        expect_equal(surfaces_of(packing), expected.surfaces);
+    }
+}
+
+TEST(VoronoiCells, InTiltedBoxes) {
+    expect_cells_in_tilted_boxes<voro::container_periodic>(0.5, 0.5);
+}
+
+TEST(VoronoiCells, OfUnequalSpheresInTiltedBoxes) {
+    expect_cells_in_tilted_boxes<voro::container_periodic_poly>(0.1, 0.9);
+}
+
 TEST(VoronoiCells, OfRandomPoints) {
     expect_cells_of_voropp<voro::container>(test::random_spheres(2000, {10, 12, 17}, 0.5, 0.5, 4));
 }

@@ -14,7 +14,8 @@ namespace coagula {
 /// that come within the cut-off.
 class CellList {
 public:
-    /// Sorts the columns of `positions` [m] into boxes of edge >= cutoff [m] (at most about two boxes per particle).
+    /// Sorts the columns of `positions` [m] into boxes as the cell is shaped, no narrower than the cut-off [m] (at most about two
+    /// boxes per particle).
     CellList(const Cell& cell, const Eigen::Matrix3Xd& positions, double cutoff);
 
     /// Calls visit(particle, separation) for each particle image in the boxes around `point`; separation = image - point [m].
@@ -50,12 +51,12 @@ private:
             if (box[axis] >= 0 && box[axis] < count) {
                 continue;
             }
-            if (!cell_.is_periodic()) {
+            if (!cell_.is_periodic(axis)) {
                 return;
             }
             const int turns = static_cast<int>(std::floor(static_cast<double>(box[axis]) / count));
             box[axis] -= turns * count;
-            shift[axis] += turns * cell_.edges()(axis, axis);
+            shift += turns * cell_.edges().col(axis);
         }
         const std::size_t slot = slot_of(box);
         for (int entry = start_[slot]; entry < start_[slot + 1]; ++entry) {

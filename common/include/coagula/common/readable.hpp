@@ -19,7 +19,10 @@ std::string with_unit(double value, const std::string& unit);
 /// decimals; one that is not finite is not shown.
 std::string with_error(double value, double error);
 
-/// "10.9 x 10.9 x 10.9 um, periodic".
+/// "periodic", "open" or "periodic along x and y"; a tilted box has the edges a, b, c.
+std::string describe_periodicity(const Cell& cell);
+
+/// "10.9 x 10.9 x 10.9 um, periodic"; "10.9 x 11.3 x 10.9 um, tilted, periodic".
 std::string describe(const Cell& cell);
 
 }  // namespace coagula

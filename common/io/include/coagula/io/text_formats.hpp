@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -29,10 +30,11 @@ struct FrameChoice {
 };
 
 struct ImportOptions {
-    std::optional<double> radius;        ///< of every particle [m]; otherwise a column of the file
-    std::optional<Eigen::Vector3d> box;  ///< edge lengths of the periodic cell [m]; otherwise from the file
-    bool open = false;                   ///< the set has a free surface: no periodicity
-    std::optional<double> length_unit;   ///< metres per unit of columns that name none
+    std::optional<double> radius;                      ///< of every particle [m]; otherwise a column of the file
+    std::optional<Eigen::Matrix3d> box;                ///< columns are the edges of the periodic cell [m]; otherwise from the file
+    std::optional<std::array<bool, 3>> periodic = {};  ///< along each edge, in place of what the file says
+    bool open = false;                                 ///< the set has a free surface: no periodicity
+    std::optional<double> length_unit;                 ///< metres per unit of columns that name none
     /// The same of the coordinates of a CSV file, one per axis, such as anisotropic voxels; `length_unit` then is that of the
     /// radius.
     std::optional<Eigen::Vector3d> axis_units = {};
@@ -46,7 +48,7 @@ struct ImportOptions {
 /// Reads a packing; errors name file, line and rule (InputError).
 ///
 /// CSV: a header with columns x, y, z and optionally radius (or r, rad) or diameter, each with its unit in brackets ("x [um]");
-/// other columns are ignored. Extended XYZ: Lattice (orthorhombic), Properties with pos and optionally radius or diameter. LAMMPS
+/// other columns are ignored. Extended XYZ: Lattice, pbc, Origin, Properties with pos and optionally radius or diameter. LAMMPS
 /// data: Atoms of a style that the file or the options name, or that the columns leave no doubt about. LAMMPS dump: x y z,
 /// unwrapped or scaled, and optionally radius or diameter.
 ///
