@@ -54,9 +54,10 @@ Eigen::VectorXd radii_of(const Rows& radii, Index particles) {
     return Eigen::VectorXd::Map(radii.data(), radii.size());
 }
 
-/// @param box edge lengths of a periodic box with a corner at the origin; otherwise the box around the spheres, without
-/// periodicity.
-std::shared_ptr<Packing> make_packing(const Rows& positions, const py::object& radii, const py::object& box, bool wrap) {
+/// @param box edge lengths, or edge vectors as rows, of a box with a corner at the origin; otherwise the box around the spheres,
+/// without periodicity.
+std::shared_ptr<Packing> make_packing(const Rows& positions, const py::object& radii, const py::object& box, bool wrap,
+                                      const std::array<bool, 3>& periodic) {
     auto packing = std::make_shared<Packing>();
     packing->positions = positions_of(positions);
     packing->radii = radii_of(lengths_of(radii), packing->positions.cols());

@@ -152,8 +152,8 @@ class VeryFewParticles(ProgramTest):
         self.write("few.csv", GOOD_CSV)
         self.succeed("import", "few.csv", "--radius", "0.5um", "--open", "-o", "out.h5")
         self.assertIn("left out: the packing is open", self.succeed("characterize", "out.h5"))
-        self.fail_with(2, "characterize", "out.h5", "--only", "doh", says=["out.h5", "open"])
-        self.fail_with(2, "shear", "out.h5", says="open")
+        self.fail_with(2, "characterize", "out.h5", "--only", "doh", says=["out.h5", "free surface"])
+        self.fail_with(2, "shear", "out.h5", says="free surface")
 
 
 class Generation(ProgramTest):
