@@ -20,7 +20,7 @@ Array = NDArray[Any]
 __version__: str
 '''
 # Types of attributes; those that are not named here are arrays.
-ATTRIBUTES = {"Packing": {"periodic": "bool", "volume_fraction": "float", "mean_radius": "float", "monodisperse": "bool"},
+ATTRIBUTES = {"Packing": {"periodic": "bool", "periodic_edges": "tuple[bool, bool, bool]", "volume_fraction": "float", "mean_radius": "float", "monodisperse": "bool"},
               "Bonds": {"particles": "int", "coordination": "float"},
               "Stage": {"bonds": "Bonds | None", "notes": "list[str]"},
               "Generated": {"packing": "Packing", "frames": "list[tuple[float, Array]]"},

@@ -7,6 +7,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <tuple>
 
 namespace coagula::python {
 
@@ -120,7 +121,11 @@ void define_packing(py::module_& module) {
             "edges", [](const Packing& packing) -> Eigen::Matrix3d { return packing.cell.edges().transpose(); },
             "Edge vectors of the box [m], array (3, 3), one per row.")
         .def_property_readonly(
-            "periodic_edges", [](const Packing& packing) { return packing.cell.periodicity(); },
+            "periodic_edges",
+            [](const Packing& packing) {
+                const auto& of = packing.cell.periodicity();
+                return std::tuple(of[0], of[1], of[2]);
+            },
             "Whether the box is periodic along each of its edges.")
         .def_property_readonly(
             "origin", [](const Packing& packing) -> Eigen::Vector3d { return packing.cell.origin(); },

@@ -91,6 +91,20 @@ class Values(ModuleTest):
         fortran = coagula.Packing(np.asfortranarray(packing.positions), packing.radii, box=packing.box)
         np.testing.assert_array_equal(fortran.positions, packing.positions)
 
+    def test_boxes_of_any_shape(self):
+        edges = np.array([[4.0, 0, 0], [1, 5, 0], [-1, 2, 6]])
+        packing = coagula.Packing([[1.0, 1, 1], [4.5, 1, 1]], 0.5, box=edges, periodic=(True, True, False), wrap=True)
+        np.testing.assert_array_equal(packing.edges, edges)
+        np.testing.assert_allclose(packing.box, np.linalg.norm(edges, axis=1), rtol=1e-15)
+        self.assertEqual((packing.periodic, tuple(packing.periodic_edges)), (False, (True, True, False)))
+        self.assertAlmostEqual(packing.volume_fraction, 2 * np.pi / 6 / 120, delta=1e-15)
+        np.testing.assert_allclose(packing.positions[1], [0.5, 1, 1], atol=1e-15)  # 4.5 is one edge further
+        other = pickle.loads(pickle.dumps(packing))
+        np.testing.assert_array_equal(other.edges, edges)
+        self.assertEqual(other.periodic_edges, packing.periodic_edges)
+        with self.assertRaisesRegex(coagula.InputError, "one plane"):
+            coagula.Packing([[1.0, 1, 1]], 0.5, box=[[1, 0, 0], [0, 1, 0], [1, 1, 0]])
+
     def test_pickle(self):
         packing = self.made().packing
         for one in (packing, coagula.Packing(packing.positions, packing.radii)):
