@@ -23,9 +23,10 @@ Cell box_of_edges(const LineReader& file, const Eigen::Vector3d& origin, const E
 
 void require_restricted(const std::string& path, const Cell& cell) {
     if (!cell.edges().isUpperTriangular(0) || cell.edges().diagonal().minCoeff() <= 0) {
-        throw InputError(path +
-                         ": LAMMPS and HOOMD need the first edge of a box along x and the second in the plane of x and y, and those "
-                         "of this box lie otherwise; extended XYZ takes any");
+        throw InputError(
+            path +
+            ": LAMMPS and HOOMD need the first edge of a box along x and the second in the plane of x and y, and those "
+            "of this box lie otherwise; extended XYZ takes any");
     }
 }
 

@@ -76,8 +76,8 @@ TEST(AnyBox, ScatteringIsThatOfTheLattice) {
 TEST(AnyBox, OneSphereMakesAFaceCentredCrystal) {
     const double side = std::sqrt(2.0);  // half the edge of the cube, for unit spheres
     Packing primitive;
-    primitive.cell = Cell::of_edges(Eigen::Vector3d::Zero(),
-                                    side * (Eigen::Matrix3d() << 0, 1, 1, 1, 0, 1, 1, 1, 0).finished(), {true, true, true});
+    primitive.cell = Cell::of_edges(Eigen::Vector3d::Zero(), side * (Eigen::Matrix3d() << 0, 1, 1, 1, 0, 1, 1, 1, 0).finished(),
+                                    {true, true, true});
     primitive.positions = Eigen::Vector3d(0.1, 0.2, 0.3);
     primitive.radii = Eigen::VectorXd::Ones(1);
     EXPECT_NEAR(volume_fraction(primitive), std::numbers::pi / std::sqrt(18.0), 1e-14);
@@ -123,8 +123,9 @@ TEST(AnyBox, ALayerIsTheSameByOtherEdges) {
     expect_same_measures(with_other_edges(layer, other), layer);
     // The open edge may lean: its images do not exist.
     Packing leaning = layer;
-    leaning.cell = Cell::of_edges(layer.cell.origin(), layer.cell.edges() * (Eigen::Matrix3d() << 1, 0, .4, 0, 1, .3, 0, 0, 1).finished(),
-                                  layer.cell.periodicity());
+    leaning.cell =
+        Cell::of_edges(layer.cell.origin(), layer.cell.edges() * (Eigen::Matrix3d() << 1, 0, .4, 0, 1, .3, 0, 0, 1).finished(),
+                       layer.cell.periodicity());
     for (auto position : leaning.positions.colwise()) {
         position = leaning.cell.wrap(position);
     }

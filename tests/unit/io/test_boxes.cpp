@@ -74,9 +74,10 @@ TEST_F(Boxes, OfAnyOrientationStandInExtendedXyzOnly) {
 
 TEST_F(Boxes, GeneralTriclinicOfLammpsIsReadAsItStands) {
     const Eigen::Matrix3d edges = (Eigen::Matrix3d() << 4, 1, 0, 0, 5, 1, 1, 0, 6).finished();
-    const std::string data = write("a.data",
-                                   "t, units = si\n\n1 atoms\n1 atom types\n4 0 1 avec\n1 5 0 bvec\n0 1 6 cvec\n-1 2 3 abc origin\n\n"
-                                   "Atoms # atomic\n\n1 1 0 3 4\n");
+    const std::string data =
+        write("a.data",
+              "t, units = si\n\n1 atoms\n1 atom types\n4 0 1 avec\n1 5 0 bvec\n0 1 6 cvec\n-1 2 3 abc origin\n\n"
+              "Atoms # atomic\n\n1 1 0 3 4\n");
     const std::string dump = write("a.dump",
                                    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS abc origin pp pp ff\n4 0 1 -1\n"
                                    "1 5 0 2\n0 1 6 3\nITEM: ATOMS id x y z\n1 0 3 4\n");
@@ -99,7 +100,8 @@ TEST_F(Boxes, ParticlesOutsideATiltedOneAreNamed) {
                                                  ", line 4: it lies at -0.25 of edge a, outside the periodic box from 0 to 1; give "
                                                  "--wrap to bring such particles back in");
     }
-    EXPECT_EQ(read_text(path, TextFormat::extended_xyz, {.radius = 0.1, .wrap = true}).positions.col(1), Eigen::Vector3d(4.5, 3, 1));
+    EXPECT_EQ(read_text(path, TextFormat::extended_xyz, {.radius = 0.1, .wrap = true}).positions.col(1),
+              Eigen::Vector3d(4.5, 3, 1));
 }
 
 }  // namespace
