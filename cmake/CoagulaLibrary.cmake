@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What every library of coagula has in common: alias, include folder, warnings, installation of headers and an export set of its own.
 
 set(COAGULA_COMPONENTS "" CACHE INTERNAL "libraries that are installed")

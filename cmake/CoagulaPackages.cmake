@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Debian packages by CPack: coagula (program), libcoagula-dev (libraries) and python3-coagula (Python module). packaging/build-packages
 # makes them from a tree that is configured for /usr.
 set(COAGULA_PACKAGE_CONTACT "coagula developers <coagula@users.noreply.github.com>" CACHE STRING

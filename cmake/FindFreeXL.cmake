@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # FreeXL. Defines FreeXL::FreeXL.
 find_path(FREEXL_INCLUDE_DIR freexl.h)
 find_library(FREEXL_LIBRARY freexl)

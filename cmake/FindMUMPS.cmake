@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Sequential MUMPS in complex double precision (zmumps; Debian's has the dummy MPI inside). Defines MUMPS::ZMUMPS.
 find_path(MUMPS_INCLUDE_DIR zmumps_c.h)
 find_library(MUMPS_ZMUMPS_LIBRARY zmumps_seq)

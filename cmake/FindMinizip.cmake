@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Minizip of zlib. Defines Minizip::Minizip.
 find_path(MINIZIP_INCLUDE_DIR unzip.h PATH_SUFFIXES minizip)
 find_library(MINIZIP_LIBRARY minizip)

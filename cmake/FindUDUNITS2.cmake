@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # UDUNITS-2. Defines UDUNITS2::UDUNITS2.
 find_path(UDUNITS2_INCLUDE_DIR udunits2.h)
 find_library(UDUNITS2_LIBRARY udunits2)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Contacts with a Maxwell element beside their spring: storage and loss modulus over the frequency."""
 
 import coagula

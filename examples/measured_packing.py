@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Coordinates from elsewhere, here a crystal with vacancies: its contacts, its pores and its modulus."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every number of a result file by h5py alone, with its unit."""
 
 import h5py

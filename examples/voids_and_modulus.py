@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Fewer voids make a packing more heterogeneous at the same volume fraction; does it become stiffer? Three seeds for each number of voids."""
 
 import numpy as np

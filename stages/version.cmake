@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Writes version.hpp with the git revision, "unknown" outside a git checkout.
 # cmake -DSOURCE=... -DTEMPLATE=... -DHEADER=... -DCOAGULA_VERSION=... -P version.cmake
 set(COAGULA_REVISION "unknown")

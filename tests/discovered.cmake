@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Run by ctest behind the list of tests of each program.
 include("${CMAKE_CURRENT_LIST_DIR}/tiers.cmake")
 coagula_set_tier(${coagula_discovered})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The tiers of the tests, which are ctest labels: fast, slow (explicit runs, hidden effects, other programs) and rates (counted rates).
 # A test is fast unless its name stands here. ./check runs fast, ./check --slow also slow, ./check --rates also rates.
 # CMake includes this file for tests it adds itself, ctest for the cases that it finds in GoogleTest programs.

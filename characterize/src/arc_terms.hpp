@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Arc terms of the covered volume at many radii, in loops that the compiler turns into vector instructions. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The particles over which a mean is taken, and its standard error from blocks of space (blocks.hpp). Internal.
 #pragma once
 

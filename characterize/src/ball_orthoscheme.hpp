@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Volume of a right tetrahedron inside a ball about its apex: the closed form behind the exact pore-size curve.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Volume of the union of balls about the particles inside the counted cells of a diagram. Internal.
 #pragma once
 

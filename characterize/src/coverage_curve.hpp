@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Covered volume against the growth of the radii. Internal; lengths in units of the mean radius.
 #pragma once
 

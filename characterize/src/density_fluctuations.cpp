@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/density_fluctuations.hpp>
 
 #include <coagula/common/cell_list.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // When the facets of a power diagram, the polygons between two cells, are reached by growing spheres. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/free_spheres.hpp>
 
 #include "coverage_curve.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shortest paths through the pore space on a grid of voxels. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The largest sphere through a point.
 #include <coagula/characterize/covering_spheres.hpp>
 

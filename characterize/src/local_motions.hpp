@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Floppy motions of few particles, found without a factor of the whole network.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/local_structure.hpp>
 
 #include <coagula/common/contact_network.hpp>

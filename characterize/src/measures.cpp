@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of measures. A measure is one file in measures/ and one line in each of the two lists here.
 #include <coagula/characterize/measure.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The nearest neighbours of every particle. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rank of a sparse matrix and random members of its null space.
 #pragma once
 

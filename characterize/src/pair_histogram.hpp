@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of pairs by distance in fine bins, and what an ideal gas would have. Internal.
 #pragma once
 

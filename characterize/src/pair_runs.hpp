@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // All pairs of a packing that are nearer than a range, met in contiguous runs of coordinates that a compiler can vectorise.
 // Internal. For ranges of many particles, where a list of the pairs would not fit into memory.
 #pragma once

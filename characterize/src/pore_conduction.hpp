@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conduction through faces of voxels: conjugate gradients with a multigrid preconditioner. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/position_noise.hpp>
 
 #include <coagula/common/random.hpp>

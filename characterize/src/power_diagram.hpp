@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The power diagram of spheres (the Voronoi diagram, if the radii are equal) as a list of its edges, from CGAL's triangulations.
 // Internal; lengths are in any one unit.
 #pragma once

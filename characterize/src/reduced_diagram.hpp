@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The power diagram of a packing in units of its mean radius: what several measures start from. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid clusters of particles from random floppy motions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rigidity matrix of a contact network: relative displacements at the contacts as a linear map of the motion of the particles.
 #pragma once
 

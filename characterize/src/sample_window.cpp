@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sample_window.hpp"
 
 #include <coagula/characterize/measure.hpp>

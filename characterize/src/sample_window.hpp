@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part of space that a packing samples: all of a periodic cell, or the convex hull of the centres of an open packing. Internal.
 #pragma once
 

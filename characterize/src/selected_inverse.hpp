@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Entries of the inverse of a sparse matrix where its Cholesky factor has entries.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "self_stress.hpp"
 
 #include "null_space.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // States of self-stress of a network that has few of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measurements that start from a diagram which is there already. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sphere_in_orthoscheme.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part of a sphere inside a right tetrahedron at its centre. Internal.
 #pragma once
 

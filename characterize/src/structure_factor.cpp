@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/structure_factor.hpp>
 
 #include "pair_histogram.hpp"

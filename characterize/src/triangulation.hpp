@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The triangulation behind a power diagram, from CGAL. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The void space as a graph: the vertices of the power diagram are pores, its edges the ways between them. Internal.
 //
 // What is outside all spheres of a diagram can be drawn back, away from the centre of each cell, onto the edges of positive power:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/voronoi_cells.hpp>
 
 #include "shared_measurements.hpp"

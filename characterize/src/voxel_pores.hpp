@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pore space of a periodic packing on a grid of voxels. Internal.
 #pragma once
 

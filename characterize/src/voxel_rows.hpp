@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Arithmetic on rows of voxels, in loops that the compiler turns into vector instructions. Internal.
 #pragma once
 

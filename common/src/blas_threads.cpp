@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/common/blas_threads.hpp>
 
 #include <coagula/common/parallel.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The parameters of the contact model by direction: normal and shear.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Normal numbers in bulk. The loops run over blocks of particles and hold no calls and no branches, so that the compiler turns them
 // into vector instructions; without fused multiply-add every variant gives the same bits.
 #include <coagula/common/random.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Makes a packing and prints its shear modulus.
 #include <coagula/generators/void_expansion.hpp>
 #include <coagula/mechanics/linear.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/experiment/experiment_structures.hpp>
 
 #include "structure_recipe.hpp"

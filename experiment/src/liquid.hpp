@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether a sample is a liquid, whatever stands for it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/experiment/measured_tables.hpp>
 
 #include <coagula/common/checks.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/experiment/new_experiment.hpp>
 
 #include <coagula/common/checks.hpp>

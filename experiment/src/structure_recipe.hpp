@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structures by the recipe of an experiment file: what `coagula generate` makes with the same words.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Selection of rows and columns of a measured table, and its clock.
 #pragma once
 

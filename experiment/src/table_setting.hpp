@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Statements of a [[measurement]] about the run: sample, order and times, plates, what is between them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A TOML table whose keys are taken one by one; a key that nobody takes is an error.
 #pragma once
 

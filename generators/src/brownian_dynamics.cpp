@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/generators/brownian_dynamics.hpp>
 
 #include <coagula/common/dem/minimise.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Eight lanes where the processor has AVX-512; else four, in a register with AVX2 and in two halves without. Compiled without fused
 // multiply-add, so all give the same bits.
 #include "brownian_kernels.hpp"

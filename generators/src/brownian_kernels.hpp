@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The loops over Brownian particles and their neighbours, eight neighbours at a time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "brownian_system.hpp"
 
 #include <coagula/common/cell_list.hpp>

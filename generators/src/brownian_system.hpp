@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Many Brownian particles with their neighbour lists: the state behind a run. Reduced units: mean radius, kB T and the diffusion
 // coefficient of a particle of mean radius are 1.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a Brownian system does with contacts that resist sliding and rolling.
 #include "brownian_system.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What contacts oppose to sliding and rolling: springs with a memory and a slip limit, in the slots of a Brownian system. Reduced
 // units: mean radius, kB T and R^2/D of a particle of mean radius are 1.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A force by the distance as a table of cubics: what the pair loop evaluates instead of the laws.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Four or eight numbers at a time, with the vector types of GCC and clang.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sum of pair forces over rows of neighbours, for four or eight lanes: both give the same bits as long as products and sums are
 // not fused. Whoever calls these loops inlines all of them, for its own instructions, which what std::array calls does not ask for.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The units of the inner loops: mean radius, kB T and the diffusion time of a particle of mean radius.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One step of Brownian motion: Euler-Maruyama, or a stabilised Chebyshev scheme.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The time step of Brownian dynamics from the potential: stability from the stiffest mode, accuracy from the barrier.
 #include <coagula/generators/brownian_dynamics.hpp>
 

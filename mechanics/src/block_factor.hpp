@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stiffness matrix of a network as the sparse solver of common takes it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness of the bonds of a network as found, and its derivatives by the parameters of the model.
 #pragma once
 

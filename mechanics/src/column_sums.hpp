@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Operations on six columns at once that both gradient solvers need; the same bits for any number of threads.
 #pragma once
 

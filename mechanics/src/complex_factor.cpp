@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "complex_factor.hpp"
 
 #include <zmumps_c.h>

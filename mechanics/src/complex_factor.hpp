@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // L D L^T factor of a complex symmetric matrix (MUMPS, zmumps), wrapped once; status and input are checked here.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conjugate orthogonal gradients for complex symmetric systems, six loads at once, each with its own coefficients and its own end.
 #pragma once
 

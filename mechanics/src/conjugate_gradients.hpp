@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Preconditioned conjugate gradients for six loads at once, each with its own coefficients and its own end.
 #pragma once
 

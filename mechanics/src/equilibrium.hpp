@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Finds the motion after which every particle of a sheared network is in balance.
 #pragma once
 

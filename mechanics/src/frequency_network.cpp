@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "frequency_network.hpp"
 
 #include <coagula/common/contact_model.hpp>

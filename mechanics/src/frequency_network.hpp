@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The complex stiffness matrix of a bonded network with losses and drag, its loads, and the sums that give the moduli. Reduced
 // units as in stiffness.hpp, but stiffness in a complex reference k*.
 #pragma once

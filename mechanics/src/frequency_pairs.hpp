@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pairs of particles that act on each other at a frequency: bonds, and neighbours that squeeze a film of solvent.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/mechanics/hertz_curve.hpp>
 
 #include <coagula/common/general_contact.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "linear_solution.hpp"
 
 #include "block_factor.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solves K u = f of a bonded network, directly or by iteration.
 #pragma once
 

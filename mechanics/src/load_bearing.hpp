@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which particles and bonds of a network can carry load.
 #pragma once
 

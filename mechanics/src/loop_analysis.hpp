@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Harmonics of a stress that is known at the points of a strain cycle.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What one oscillation of the stress says: moduli, phase, harmonics.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sample in the rheometer: between plates made of its own periodic repetition, or on its own.
 #pragma once
 

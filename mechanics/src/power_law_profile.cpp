@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "power_law_profile.hpp"
 
 #include <boost/math/tools/minima.hpp>

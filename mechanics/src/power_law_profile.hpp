@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sum of squares of the power law with c and beta eliminated, as a function of a0 alone.
 #pragma once
 

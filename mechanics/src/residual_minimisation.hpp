@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Generalised minimal residuals for one right-hand side.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Strains that cost a network nothing, whose moduli are zero and not what rounding leaves of them.
 #pragma once
 

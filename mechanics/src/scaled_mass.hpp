@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Masses that make an explicit run stable at a given time step.
 #pragma once
 

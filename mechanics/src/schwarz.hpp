@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two-level additive Schwarz preconditioner for networks too large for one factor: overlapping boxes of particles, each with
 // a Cholesky factor of its own, and a coarse continuous motion on a regular grid.
 #pragma once

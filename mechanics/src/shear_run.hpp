@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One orientation of the rheometer: rest, oscillate, compare with rest. A template over the interactions, so that simple bonds run
 // at full speed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sheared_network.hpp"
 
 #include <coagula/common/percolation.hpp>

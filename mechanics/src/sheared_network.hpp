@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts of a packing in a periodic cell under simple shear, with their memories: forces, stress and energy for a trial motion.
 // Motions are in reduced units: six numbers per particle, displacement beyond the affine one in mean radii, then rotation.
 #pragma once

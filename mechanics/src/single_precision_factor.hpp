@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A Cholesky factor kept in single precision, for preconditioners: half of the memory, and solves without BLAS calls, which
 // would contend for OpenBLAS's buffers when many small factors are used by several threads at once.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness matrix of a bonded network and its loads, in reduced units: lengths in the mean radius, stiffness in the normal
 // contact stiffness, rotations as arc length on the mean radius. Six unknowns per particle: displacement, then rotation.
 #pragma once

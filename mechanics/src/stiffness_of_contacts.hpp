@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The tangent of a sheared network: products with it contact by contact, and its symmetric part as a block matrix.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A path of equilibria under growing and falling strain, with the bonds that break on it and the balance of energy.
 #pragma once
 

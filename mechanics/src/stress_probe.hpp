@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stress of the particles in the rheometer: whole volume, plate and measurement spheres.
 #pragma once
 

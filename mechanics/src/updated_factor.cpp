@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "updated_factor.hpp"
 
 #include "block_factor.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factor of the tangent of a sheared network that follows the contacts which open, close, slip or break.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Random sphere packings and coagulated particle gels: generate, characterize, shear, diagnose.
 
 All quantities are numbers in SI units, or texts with a unit: 2.5e-7 or "0.25um". Options have the names that they have in the program,

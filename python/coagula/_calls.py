@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The stages. Options, units, ranges and sentences are those of the program."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Data sets of many structures: what `coagula dataset run` writes."""
 
 import errno

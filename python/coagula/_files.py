@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files: HDF5 files of coagula, and the text formats."""
 
 import errno

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Keyword arguments of Python as values of options; signatures and documentation from the table of options."""
 
 import difflib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is made of result files: figures, pages and tables."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a stage finds: values as attributes, each with its unit and its meaning."""
 
 import functools

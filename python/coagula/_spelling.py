@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Names and sentences of the program as Python spells them."""
 
 import keyword

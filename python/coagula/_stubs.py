@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the type stubs of the package: python3 -m coagula._stubs FILE.
 
 Signatures come from the functions themselves, the attributes of results from small calls of the stages.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The extension module below the Python package `coagula`, which is what people import.
 #include "running.hpp"
 #include "values.hpp"

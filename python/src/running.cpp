@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "running.hpp"
 
 #include <coagula/common/parallel.hpp>

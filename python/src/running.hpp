@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Long work without the lock of the interpreter: progress, interruption, number of threads.
 #pragma once
 

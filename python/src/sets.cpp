@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data sets as Python sees them: columns of the index as arrays.
 #include "values.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stages: each takes the values of its options, read by the same table as those of the program.
 #include "values.hpp"
 

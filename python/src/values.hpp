@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Packings, bonds and findings as Python sees them: arrays are views of the values, which they keep alive.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scripts and the style of the pages, made from web/ by scripts/bundle-web; empty in a program built without them.
 #pragma once
 

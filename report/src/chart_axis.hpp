@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One axis of a chart in gnuplot's words: range, ticks and label in a unit that suits the values.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where the legend of a chart stands: in a corner where no data are.
 #pragma once
 

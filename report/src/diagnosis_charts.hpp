@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The figures of the page of a diagnosis, as the script of the page draws them (web/src/plots/chart.ts, ChartSpec).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "diagnosis_data_page.hpp"
 
 #include "diagnosis_charts.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The section of a diagnosis report about the data themselves, as HTML.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts of a diagnosis report about a table, beside its figures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of a page: text in HTML, tables, the style that all pages share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Long arrays inside a page: all in one block of bytes, deflated, in base64.
 #pragma once
 

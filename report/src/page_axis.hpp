@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Axes of the figures of a page: what they show, in which unit, linear or logarithmic.
 #pragma once
 

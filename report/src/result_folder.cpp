@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/report/result_folder.hpp>
 
 #include <coagula/common/failures.hpp>

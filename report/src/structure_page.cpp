@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/report/structure_page.hpp>
 
 #include <coagula/io/printable.hpp>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Includes run one way: down the libraries, and inside a library down its rooms."""
 
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a contact in a triangle is worth to the modulus, and what one outside.
 
     tests/benchmark/contacts_in_triangles.py FOLDER [COORDINATION]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Processor seconds and peak memory of each method against the number of particles, one process and one thread each.
 
     tests/benchmark/costs.py [--program build/bin/coagula] [--particles 1000 8000] [--only shear]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Time of one diagnosis of a frequency and an amplitude sweep over two structures of 2000 particles, nothing simulated before.
 
     tests/benchmark/diagnosis_time.py build/bin/coagula FOLDER

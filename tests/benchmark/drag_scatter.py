@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How far structures differ in what a solvent's drag loses: the figures behind diagnose/src/responses/drag_scatter.cpp.
 
 Structures by void expansion are sheared at reduced drags (drag on a particle times angular frequency over its stiffness) from 1e-7 to 100. Printed are,

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How far structures differ in how Hertz contacts stiffen with strain: the figures behind diagnose/src/responses/hertz_scatter.cpp.
 
 Networks of Hertz contacts in structures by void expansion are sheared in small steps by Newton's method (diagnosis_campaign/hertz.py), in three planes and

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What explains the modulus of simulated structures: heterogeneity, coordination, weakly bonded particles?
 
     tests/benchmark/heterogeneity_and_coordination.py build/bin/coagula FOLDER

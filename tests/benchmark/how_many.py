@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How structures of one recipe scatter from seed to seed: heterogeneity, coordination and modulus against the number of particles.
 
     tests/benchmark/how_many.py [--program build/bin/coagula] [--particles 250 1000 4000] [--seeds 8] [--voids 0.5]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The measures of coagula characterize beside other programs, ratios in one run.
 
     tests/benchmark/measures.py [--program build/bin/coagula] [--datasets build/datasets]

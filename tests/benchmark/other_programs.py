@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The paper's shear test by other programs, beside coagula: six orientations x ten oscillations x 3000 explicit steps.
 
     tests/benchmark/other_programs.py [--program build/bin/coagula] [--particles 8000] [--steps 3000]

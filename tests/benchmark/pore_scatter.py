@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How pore curves scatter from structure to structure, and what the longest waves of the pore space say of it: the rule by which `coagula diagnose`
 states the error of few structures, by code that it does not share. Run: tests/benchmark/pore_scatter.py COAGULA FOLDER [--structures 24]
 

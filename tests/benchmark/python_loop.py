@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Processor time of a loop in Python over that of the same loop in C++: generate, characterize and shear structures, rows into a CSV.
 
     cmake --build build --target bench_python_loop coagula_python_package

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which coordination the void expansion can reach: lowest and highest against volume fraction and voids per particle.
 
     tests/benchmark/reachable_coordination.py [--program build/bin/coagula] [--particles 500] [--picture FILE.png]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """All eleven moduli of table 2 of Schenker et al. (2012) by the published test: plates of three layers, explicit steps, six orientations.
 
     tests/benchmark/reproduce_dem.py [--out published] [--rows 1/8,0mV,15mV:2000] [--particles 8000] [--oscillations 2] [--steps 20000]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The void-expansion half of table 2 of Schenker et al. (2012): six numbers of voids, several seeds, beside the published values.
 
     tests/benchmark/reproduce_vem.py [--particles 8000] [--seeds 3] [--program build/bin/coagula]

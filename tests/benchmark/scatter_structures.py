@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Structures by void expansion, and the command line, of the scripts that measure how far structures differ."""
 
 import argparse

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Times the verbs of the program as whole processes: wall seconds, processor seconds, peak memory.
 
     tests/benchmark/speed.py [--program build/bin/coagula] [--large 64000 512000] [--runs 3]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Samples whose volume fraction, coordination or number of voids is another than the recipe of the experiment says: what `coagula diagnose`
 says of their pores and of their coordinates. Run: tests/benchmark/structure_causes.py [--runs 8] [--hidden nothing] [--seen coordinates] [--particles 700]
 [--coagula build/bin/coagula]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes a large packing of a small one: copies of a periodic cube side by side, with some particles removed at random.
 
     tests/benchmark/tile.py points.csv EDGE COPIES REMOVED > tiled.csv

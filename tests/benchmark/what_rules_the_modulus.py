@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What rules the modulus of a network at equal volume fraction: heterogeneity, coordination, or what else?
 
     tests/benchmark/what_rules_the_modulus.py build/bin/coagula FOLDER [SHEAR_STIFFNESS]

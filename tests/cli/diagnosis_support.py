@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What tests of a whole diagnosis share: structures, tables and the experiment around them."""
 
 import json

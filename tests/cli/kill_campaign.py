@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Kills the program at every write, fsync and rename of its files and looks at what is left.
 
 Whatever the moment, a file is whole: the old one or the new one. The next run removes what a killed one left, and a run that goes on

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The cases of test modules, one module.Class.method a line, without importing them: list_cases.py MODULE.py..."""
 
 import ast

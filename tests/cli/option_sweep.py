@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every numeric option of every verb, as --help lists them, at values that nobody means: 0, negative, tiny, huge, not a number, and the
 ends of its range. The program may refuse with a sentence, work, or run long and stop on Ctrl-C. A crash, a hang, a number that is
 missing from the results of a call that succeeds, or a file that a refused call leaves behind is a defect. A value that is out of the

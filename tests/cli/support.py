@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the tests of the program share: running it in a folder of its own and judging how it failed."""
 
 import hashlib

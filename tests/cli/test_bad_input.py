@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every bad input is refused with one sentence that names it, exit code 2 or 1, and nothing changed on disk."""
 
 import os

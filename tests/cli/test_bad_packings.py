@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Packings that measures cannot be made of: each is refused with one sentence that names the file, or measured without a number missing."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """HDF5 files with single wrong bytes: every verb ends with one sentence, in time, and changes nothing."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula generate brownian from outside: options, files, restart, refusals."""
 
 import os

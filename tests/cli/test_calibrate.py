@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Stiffness series and calibration: proportionality, agreement with `coagula shear`, ratios, what is refused."""
 
 import csv

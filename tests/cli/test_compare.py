@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which of two structures is more heterogeneous, by three measures."""
 
 from support import VEM, ProgramTest, checksum

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Completion in a real bash and a real zsh, and manual pages that troff reads without a warning: all from the tables of options."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula dataset: sweeps, runs that are killed and go on, sets that are used."""
 
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The same command with the same seed gives the same bytes in every data set, /provenance aside, for any number of threads."""
 
 import os

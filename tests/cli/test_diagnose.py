@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose --check: what an experiment file says, what the data checks find, and every bad input refused by one sentence."""
 
 import math

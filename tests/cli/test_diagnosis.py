@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose: a hidden loss of the contacts is named, the extended model runs, what cannot be diagnosed is refused."""
 
 import hashlib

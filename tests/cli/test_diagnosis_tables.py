@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose on structure series, coordinates, rough plates, a Newtonian oil and a cone: what stands in diagnosis.json, and bad values refused."""
 
 import math

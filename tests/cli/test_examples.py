@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The programs in examples/ run, and say what they promise. The C++ one is built in test_install."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Coordinates from and for other programs: trajectories, GSD against python3-gsd, VTK against VTK's own reader, columns, pixels."""
 
 import math

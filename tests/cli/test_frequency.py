@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Frequency response: keys, arrays, the limit without losses, models and frequencies that are refused."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Names and texts that mean harm: no interpreter carries them out, no reader hangs, and one sentence says what is wrong."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The installed package is found by find_package(coagula COMPONENTS ...), and somebody else's program builds on it."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Exports of real instruments, from coagula diagnose --new to --check: what is taken over, chosen, left out and said."""
 
 import os

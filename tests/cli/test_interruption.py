@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ctrl-C: a sentence, exit code 1, nothing left behind; a second one ends at once."""
 
 import fcntl

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A short form of kill_campaign.py."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What `coagula shear` says about what carries the load."""
 
 import math

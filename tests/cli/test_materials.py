@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose on materials without particles: an oil of known or unknown viscosity, and samples that nobody has a model of."""
 
 import cmath

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Packings that somebody measured or computed elsewhere, from import to modulus."""
 
 import json

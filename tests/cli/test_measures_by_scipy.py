@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measures against numpy and scipy: neighbours and pores by a k-d tree, q4 and q6 by a Voronoi diagram and spherical harmonics, S(q),
 angles, common neighbours and windows by brute force, and the rank of the rigidity matrix."""
 

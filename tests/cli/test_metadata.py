@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files that describe the project to others name the version that CMake gives it."""
 
 import json

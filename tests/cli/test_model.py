@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The contact model in the linear and the frequency response: terms that act, that do not act, and that cannot be."""
 
 import unittest

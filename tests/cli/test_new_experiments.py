@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose --new proposes what --check accepts: derived moduli, units, stepped sweeps, clocks, tables side by side, shifted columns."""
 
 import math

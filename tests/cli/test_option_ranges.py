@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Values far outside physics are refused before anything is computed, and results say where they miss what was asked for."""
 
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Outputs are checked before the work, written whole or not at all, and never replaced unasked."""
 
 import csv

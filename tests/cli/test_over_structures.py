@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Several structures in one call: each gets its results, and the mean has the error of their scatter."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The pages of the repository: every relative link of them leads to a file, and to a heading of it where it names one."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Figures: what they show is what the file holds, and what they cannot show they say."""
 
 import csv

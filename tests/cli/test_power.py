@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose --power: what a planned experiment could find, without any measured value."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The fit of a power law to a table: values, units, weights, profile, what is refused."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a test may take is measured in turns of a loop: more is reported, and fails behind a gate only."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Quasi-static shear: keys, agreement with the linear response, options and models that are refused."""
 
 import math

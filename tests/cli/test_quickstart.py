@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What ./quickstart --build-only leaves in a clone: the program, and a Python module that can be imported and installed.
 
 Compiled objects are taken from the build under test, by a compiler launcher, where it has one of the same name: everything else is done

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose on torque, deflection and raw phase: the same as on their moduli, and bad values refused."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose with structures by a recipe: causes that change the structures, coordinates, pore curves, what cannot be made."""
 
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The page and the HDF5 file of a diagnosis: they say what diagnosis.json says, need no other file, and appear whole or not at all."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The explicit rheometer: keys, agreement with the linear method, checkpoints of killed runs, what is refused."""
 
 import math

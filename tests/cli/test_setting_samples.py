@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose where a part of the rows lies far from the others: the evidence of the base model and of a remainder."""
 
 import cmath

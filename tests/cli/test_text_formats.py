@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Import and export: a packing that goes out and comes back gives the same results; a sample with a free surface is handled."""
 
 import random

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Facts that the program told of recorded experiments and structures, and whether it still tells them.
 
     tests/facts/facts.py --program build/bin/coagula --datasets build/datasets                compares, and prints what differs

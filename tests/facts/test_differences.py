@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What facts.py takes for a fact, and for a difference."""
 
 import math

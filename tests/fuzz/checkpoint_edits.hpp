@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints whose contents are wrong and whose checksum is right: what a run in error, or somebody with an editor, writes.
 #pragma once
 

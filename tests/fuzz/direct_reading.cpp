@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stands in for the child process in which the program reads HDF5: the work is done here, where sanitizers and coverage see it.
 #include "child_process.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An experiment file and, after a line "=== table", the file "table" beside it that its measurements may name.
 #include "reader_contract.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // H5MD of another program through import; see hdf5_edits.hpp for what the input is.
 #include <coagula/io/h5md_file.hpp>
 

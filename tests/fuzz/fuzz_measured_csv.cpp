@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CSV with or without titles, headings and units.
 #include "measured_contract.hpp"
 

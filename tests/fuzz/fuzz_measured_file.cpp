@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every format of measured tables: which it is, the content says.
 #include "measured_contract.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The checkpoint of a quasi-static run; see checkpoint_edits.hpp and hdf5_edits.hpp for what the input is.
 #include "checkpoint_edits.hpp"
 #include "quasistatic_checkpoint.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The options of a stage in the provenance of a file, which coagula info prints as JSON.
 #include <coagula/stages/recorded_options.hpp>
 

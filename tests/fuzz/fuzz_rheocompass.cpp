@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Anton Paar RheoCompass.
 #include "measured_contract.hpp"
 

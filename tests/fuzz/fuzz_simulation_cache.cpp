@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "reader_contract.hpp"
 
 #include <coagula/experiment/simulation_cache.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structure, results and history of an HDF5 file; see hdf5_edits.hpp for what the input is.
 #include <coagula/io/structure_file.hpp>
 

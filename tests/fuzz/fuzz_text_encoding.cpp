@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whatever the bytes are, they become UTF-8.
 #include <coagula/io/printable.hpp>
 #include "text_encoding.hpp"

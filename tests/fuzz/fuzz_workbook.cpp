@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Old Excel workbooks, read by FreeXL in a child process as in the program: what FreeXL does with damaged files does not count, but
 // that the child ends in time and the program goes on with a table or a sentence.
 #include "measured_contract.hpp"

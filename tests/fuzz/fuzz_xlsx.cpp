@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Workbooks of XML in this process, without the child in which the program reads them.
 #include "measured_contract.hpp"
 #include "workbook_text.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files whose HDF5 is sound and whose contents are not: a file of ours, with objects and attributes changed as the input says.
 //
 // libhdf5 itself crashes on damaged structures, for which the program reads in a child process. Here everything runs in one process

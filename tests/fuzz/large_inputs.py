@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes inputs of a megabyte for a fuzz target: large_inputs.py TARGET FOLDER [COUNT].
 
 Each is an input of the corpus with one part repeated: a line, or characters that mean something to a reader. A reader whose time or

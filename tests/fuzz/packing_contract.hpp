@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the fuzz targets of all text formats with coordinates ask of a packing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What every fuzz target asks of its reader: a value, or an InputError whose sentence names the file.
 #pragma once
 

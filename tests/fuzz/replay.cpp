@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stands in for libFuzzer where the targets are tests of their corpus: each input once, without sanitizers. A finding aborts.
 #include <cstdint>
 #include <cstdio>

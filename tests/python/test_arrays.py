@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Arrays are views of the numbers that C++ holds, shaped as Python expects, and keep their owner alive."""
 
 import gc

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Errors are Python exceptions with the sentence of the program."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The worked examples from Python: every number is that of the program, bit for bit, and so is every data set of the files.
 
 Files hold positions in nm, so a packing that was read differs from that in memory by one rounding: both sides start from the file."""

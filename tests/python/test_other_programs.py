@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Packings go to other programs of Python and come back."""
 
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Figures, pages and tables of result files are those of the program."""
 
 import csv

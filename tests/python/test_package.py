@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The package itself: type stubs that agree with the module, installation as a component."""
 
 import ast

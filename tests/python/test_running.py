@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Long calls: they tell how far they have come, can be stopped, leave the interpreter to other threads, and files stay readable."""
 
 import multiprocessing

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A bonded packing for other programs to shear, in units in which they are at ease.
 
 Lengths in particle radii, stiffnesses in the normal stiffness of a contact; so moduli in that stiffness over a radius.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pairs of Brownian particles far from each other, and what one pair does exactly. Units in the names: mean radius, kB T, R^2/D.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Shear moduli of a network of central springs by LAMMPS: shear the cell by a little, minimise the energy, read the stress."""
 
 import os

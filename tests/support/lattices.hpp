@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Crystals of equal spheres that touch, for tests against closed forms.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs a test and says how much processor time it took, its children's included: processor_time COMMAND...
 // COAGULA_PROCESSOR_LIMIT is what the tier of the test allows, in turns of a fixed loop that is timed beside it: a machine that is
 // slow at one is slow at the other. A test that takes more is reported; with COAGULA_PROCESSOR_GATE set it fails.

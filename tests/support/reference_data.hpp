@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measured and reference data: what the build unpacked from datasets/.
 #pragma once
 

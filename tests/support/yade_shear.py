@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A bonded network sheared by Yade; a script for that program: yade -nx yade_shear.py, in a folder with a request.json.
 
 Request: "edge", "positions", "tolerance" of the bonds (radii 1), "shear_stiffness" of a contact (normal stiffness 1), and either

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A headless Chromium with a page of coagula, and what the tests of pages share."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where spheres are on a screen, from the camera of a view alone: an independent way to what the page draws and picks."""
 
 import h5py

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Size, first paint and frames per second of pages of `coagula report` in headless Chromium: measure.py PAGE.html...
 
 Graphics run in software here (SwiftShader), as on a machine without a graphics card: a lower bound. One view of 1280 x 720 pixels. While it

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A picture of a page as it opens, for the documentation: screenshot.py PAGE.html PICTURE.png [WIDTH HEIGHT]"""
 
 import base64

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The page of a diagnosis in a real browser: figures in their places, causes switched over the data, numbers as CSV."""
 
 import csv

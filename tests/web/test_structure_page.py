@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """coagula report in a real browser: nothing on the console, spheres where geometry says, numbers that the file holds."""
 
 import csv

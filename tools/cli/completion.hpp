@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Completion of the command line in bash and zsh, from the tables of options.
 #pragma once
 

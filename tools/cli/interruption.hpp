@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ctrl-C: the first one asks the work to stop at the next progress report and ends the program where that does not come within a
 // second; the second one ends the program at once.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula: generate, characterize and shear random sphere packings. Chooses the verb and turns exceptions into exit codes.
 #include "command_line.hpp"
 #include "help_text.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Manual pages in the language of man(7), from the tables of options.
 #pragma once
 

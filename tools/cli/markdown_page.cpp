@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "markdown_page.hpp"
 
 #include "manual_page.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pages of the verbs in Markdown, from the tables of options: the reference of the manual.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A progress bar on the terminal, and the way an interruption reaches the work.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.hpp"
 
 #include <coagula/io/printable.hpp>

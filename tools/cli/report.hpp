@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Output of a verb: one JSON object, or a short table. Both are made from the data sets that go into the file.
 #pragma once
 

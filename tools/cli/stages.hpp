@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names of the library of stages that every source of the program uses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula characterize: what the table of measures offers for a packing.
 #include "cli/progress_bar.hpp"
 #include "cli/report.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula completion: the script that completes the command line in a shell.
 #include "cli/completion.hpp"
 #include "cli/report.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula dataset: many structures as one sweep file says.
 #include "cli/progress_bar.hpp"
 #include "cli/report.hpp"

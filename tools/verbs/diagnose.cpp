@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula diagnose: an experiment file is checked, planned or diagnosed.
 #include "cli/progress_bar.hpp"
 #include "cli/report.hpp"

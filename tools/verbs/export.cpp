@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula export: coordinates (and bonds) for other programs.
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula fit power-law: G' = c (a - a0)^beta through a table of moduli, and what the table says about a0.
 #include "cli/progress_bar.hpp"
 #include "cli/report.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula generate brownian: coagulation of a stabilised suspension by Brownian dynamics.
 #include "cli/progress_bar.hpp"
 #include "cli/report.hpp"

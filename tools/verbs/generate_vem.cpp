@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula generate vem: a packing of chosen heterogeneity by the void expansion method.
 #include "cli/progress_bar.hpp"
 #include "cli/report.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula import: coordinates that somebody measured or made with another program.
 #include "cli/progress_bar.hpp"
 #include "cli/report.hpp"

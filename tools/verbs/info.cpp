@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula info: what is in a file.
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula man: the manual pages, and the same for the manual in Markdown.
 #include "cli/manual_page.hpp"
 #include "cli/markdown_page.hpp"

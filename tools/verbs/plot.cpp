@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula plot: a figure of one or more result files, or the figures of the paper.
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"

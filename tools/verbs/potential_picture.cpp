@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "potential_picture.hpp"
 
 #include <coagula/io/atomic_file.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula report: one page with a view of the structures and all results of their files.
 #include "cli/report.hpp"
 #include "cli/verbs.hpp"

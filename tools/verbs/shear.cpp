@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coagula shear: elastic response of the bonded packing, or its response to harmonic strain.
 #include "cli/progress_bar.hpp"
 #include "cli/report.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Colours of values: maps by anchors, the range that they cover, and colours for what has no order.
 
 import { colour, isDark } from "./theme";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the program puts into the page: an element of JSON and a block of long arrays.
 
 export type Numbers = Float32Array | Uint32Array | Uint8Array;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of coagula diagnose: its texts and tables are there; the figures are drawn in their places.
 
 import { pageJson } from "./data";

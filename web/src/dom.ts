@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elements of the page and numbers as people read them.
 
 type Child = Node | string | null | undefined | false;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of coagula report.
 
 import { numberAt, readPage, textAt, type PageData, type Structure } from "./data";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers as tables: every result, what differs between structures, and how the files came to be.
 
 import type { Result, Structure } from "./data";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Light and dark: what the system prefers, until the reader chooses.
 
 import { el } from "./dom";

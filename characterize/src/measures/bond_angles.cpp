@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: angles between the contacts of a particle.
 #include <coagula/characterize/local_structure.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: bond-orientational order.
 #include <coagula/characterize/bond_order.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: chord lengths.
 #include <coagula/characterize/chord_lengths.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: common-neighbour analysis.
 #include <coagula/characterize/local_structure.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: spheres between four neighbours and the throats between them.
 #include "../shared_measurements.hpp"
 #include "inner_sums.hpp"

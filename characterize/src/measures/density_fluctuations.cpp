@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: density fluctuations over sub-volumes.
 #include <coagula/characterize/density_fluctuations.hpp>
 

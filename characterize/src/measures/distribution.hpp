@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Distributions of one number per particle, for files and figures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: the degree of heterogeneity, from the pore-size curve.
 #include <coagula/characterize/heterogeneity.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: fabric tensor of the contacts.
 #include "measure_options.hpp"
 

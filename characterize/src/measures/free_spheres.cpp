@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: the largest sphere that fits into the void, and the largest that can move through it.
 #include "../shared_measurements.hpp"
 #include "measure_options.hpp"

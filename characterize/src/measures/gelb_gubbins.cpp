@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: pore sizes after Gelb and Gubbins.
 #include "../shared_measurements.hpp"
 #include "measure_options.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: Minkowski functionals of growing spheres.
 #include <coagula/characterize/minkowski.hpp>
 

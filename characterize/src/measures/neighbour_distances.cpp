@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: distances to the nearest particles.
 #include <coagula/characterize/local_structure.hpp>
 

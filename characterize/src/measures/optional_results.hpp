@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results that a packing may not have, and calculations that a packing may be too small for.
 #pragma once
 

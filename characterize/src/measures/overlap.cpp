@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: overlaps of the spheres.
 #include "inner_sums.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: the pair correlation function.
 #include <coagula/characterize/pair_correlation.hpp>
 

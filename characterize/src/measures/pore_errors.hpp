@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Standard errors of what follows from the pore-size curve.
 #pragma once
 

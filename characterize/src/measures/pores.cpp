@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: the pore-size curve and its moments.
 #include "measure_options.hpp"
 #include "optional_results.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measures: local rigidity of the network, with normal-and-shear bonds and with central forces only.
 #include "distribution.hpp"
 #include "inner_sums.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: shortest-path rings of the contact network.
 #include "inner_sums.hpp"
 #include "measure_options.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: the exact pore-size curve held against random points.
 #include "measure_options.hpp"
 #include "optional_results.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: the structure factor.
 #include <coagula/characterize/structure_factor.hpp>
 

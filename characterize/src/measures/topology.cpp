@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: spread of the contact numbers, triangles, loops, clusters, percolation.
 #include "inner_sums.hpp"
 #include "measure_options.hpp"

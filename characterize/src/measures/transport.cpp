@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: transport through the pores.
 #include <coagula/characterize/transport.hpp>
 

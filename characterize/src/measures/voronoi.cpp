@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: the distribution of the Voronoi volumes.
 #include <coagula/characterize/measure.hpp>
 #include <coagula/common/special_functions.hpp>

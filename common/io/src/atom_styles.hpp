@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Atom styles of LAMMPS: what stands in which column of the section Atoms of a data file (LAMMPS manual, "read_data").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reading of files that may be damaged, in a child process: HDF5 1.10 and FreeXL crash on some of them or never come back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A table in a text file: its columns by name, its lines as fields. Columns are separated by commas, semicolons, tabs or blanks.
 #pragma once
 

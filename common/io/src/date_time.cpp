@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/io/date_time.hpp>
 
 #include <algorithm>

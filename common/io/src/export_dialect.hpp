@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text exports of rheometer programs. They differ in words and in where units stand; one reader reads them all by a table of that.
 #pragma once
 

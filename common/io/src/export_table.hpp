@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One table of a text export: where its headings and units stand, and its rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From the raw columns of a file to checked packings.
 #include <algorithm>
 #include <array>

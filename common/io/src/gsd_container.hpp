@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A GSD file in memory: its chunks by frame and name, whatever the schema says they mean.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gsd_diameters.hpp"
 
 #include <coagula/common/checks.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Diameters of the particles of a GSD file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What stands where in a GSD file of version 1 or 2 (https://gsd.readthedocs.io, "File layer"). Numbers are little-endian.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elements of an H5MD file (https://nongnu.org/h5md, "H5MD elements"), as coagula's own files and those of other programs have
 // them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A thin layer over the HDF5 C API: handles that close themselves, typed arrays, attributes, sentences instead of error stacks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What hdf5::File refuses before anything is read.
 #include <algorithm>
 #include <set>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The half of hdf5::File that writes.
 #include <cstdlib>
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where things lie in a structure file, and the lengths as they are stored there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/io/input_file.hpp>
 #include <coagula/io/measured_file.hpp>
 

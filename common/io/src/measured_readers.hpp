@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One reader per format; measured_file.cpp lists them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the readers of measured tables share: lines in UTF-8, fields, tables that grow row by row.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values as bytes, to bring them from one process to another of the same program.
 #pragma once
 

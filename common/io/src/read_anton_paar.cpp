@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exports of Anton Paar. RheoCompass, per interval:
 //     Test:  <name>
 //     Result:  <name>

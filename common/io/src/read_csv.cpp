@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/common/spelling.hpp>
 #include <coagula/io/units.hpp>
 

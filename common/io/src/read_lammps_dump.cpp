@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The text dump of LAMMPS (LAMMPS manual, "dump" and "dump_modify"), with one frame or many.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CSV as spreadsheets and people write it: comma, semicolon or tab; lines that begin with # are comments. Blank lines part tables.
 // A table is
 //     <title, or lines "key, value">           may be missing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text exports of Thermo HAAKE RheoWin:
 //     C:\...\name.rwd
 //     Date / Time / Version: ...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "read_structure.hpp"
 
 #include <coagula/io/trajectory_file.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reading of an H5MD file that is already open.
 #pragma once
 

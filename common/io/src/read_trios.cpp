@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text exports of TA Instruments TRIOS, separated by tabs or commas. Lines "key, value", sections in brackets, and then, per step,
 //     [step]                                [step]
 //     <name of the step>                    Step name  <name>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // JSON exports of TA Instruments TRIOS (schema software.tainstruments.com/schemas/TRIOSJSONExportSchema): Results hold, per
 // processing, ColumnHeaders (key -> name and unit), Rows (key -> value) and the ResultsSteps that the rows belong to.
 #include "measured_readers.hpp"

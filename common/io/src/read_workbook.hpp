@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Excel workbooks, as instruments export them and spreadsheets save them: old ones (.xls, BIFF) and those of XML (.xlsx).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results and history as datasets of a structure file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the headings and units of measured tables mean.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "side_by_side.hpp"
 
 #include "cell_number.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables that stand side by side in one sheet: the same headings again for each temperature or sample.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/io/standard_descriptors.hpp>
 
 #include <fcntl.h>

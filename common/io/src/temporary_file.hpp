@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A hidden file that becomes another one when it is complete.
 #pragma once
 

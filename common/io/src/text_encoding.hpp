@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text in any of the encodings that instruments and spreadsheets write.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/io/text_formats.hpp>
 
 #include <coagula/io/structure_file.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "text_reader.hpp"
 
 #include <coagula/io/input_file.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the readers of the text formats share: lines, numbers, and the way from raw columns to a checked packing.
 #pragma once
 

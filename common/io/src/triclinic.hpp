@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Boxes of any shape, as the formats of others write them. Internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The group /VTKHDF that lets ParaView open a structure file: particles as vertices, bonds as lines.
 #pragma once
 

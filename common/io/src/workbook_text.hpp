@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sheets of a workbook as one text, which a child process that reads the workbook can send.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Workbooks of Office Open XML (ECMA-376): a ZIP archive of XML files. Only what cells hold is read: no styles, so that dates stay
 // the numbers that they are.
 #include "workbook_text.hpp"

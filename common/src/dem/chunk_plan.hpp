@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Division of the particles into chunks: which pairs, bonds and ghosts each gets.
 #pragma once
 

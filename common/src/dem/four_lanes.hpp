@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Four or eight bonds in the lanes of a vector register (GCC and clang on x86-64). To be included by a translation unit that is
 // compiled for the instructions: the lanes have internal linkage, so that none of its functions serves another processor.
 #pragma once

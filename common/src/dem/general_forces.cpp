@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/common/dem/general_forces.hpp>
 
 #include <coagula/common/contact_model.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Neighbour search for the moving spheres: sorts them in space and finds the pairs of each chunk.
 #pragma once
 

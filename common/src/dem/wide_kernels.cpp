@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compiled with -mavx2: nothing in here may have external linkage but the table of functions.
 #include "wide_kernels.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What breaking bonds do to the moduli of every row: where, in which order and under which plates they were measured.
 #include "forward.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From a model to the numbers that an instrument would show, for every observation of an experiment: structures and contacts ->
 // modulus of the material -> geometry -> tool.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Means over a pair of parallel plates of what depends on the local strain.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the instrument shows, with how it changes with the errors of the prediction.
 #include "forward.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of what images and pore curves show of the structures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A material without a model: any smooth G* of frequency and strain, and of its age.
 #pragma once
 

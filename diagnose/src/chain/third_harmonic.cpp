@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Third harmonic of the stress: from what makes the stiffness depend on the momentary strain.
 #include "forward.hpp"
 

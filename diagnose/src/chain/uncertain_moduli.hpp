@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Moduli of a material of which something is open.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/check_data.hpp>
 #include <coagula/diagnose/waveform.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // This header tells what an experiment knows and varies; which causes can show in it follows from that.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Check of the base model of the sample against the rest of the experiment.
 #pragma once
 

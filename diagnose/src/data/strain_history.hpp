@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shear history of each sample: how fast and when.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/tool_constants.hpp>
 
 #include "table_cells.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of harmonics in the place of waveforms.
 #include <coagula/diagnose/waveform.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which cause explains the data: the base model, every cause and pairs, each alone and with a remainder on top.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stiffness that a model needs.
 #include "hypothesis.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "candidate_measurements.hpp"
 
 #include <coagula/common/logarithmic_steps.hpp>

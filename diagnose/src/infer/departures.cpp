@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "departures.hpp"
 
 #include <coagula/common/dense.hpp>

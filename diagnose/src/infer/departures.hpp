@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // All by which data depart from a fitted model, and how the fitted quantities move it.
 #pragma once
 

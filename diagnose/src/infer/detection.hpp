@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Does a fitted model fail the data, and where?
 #pragma once
 

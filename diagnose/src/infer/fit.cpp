@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values and draws of a fitted hypothesis.
 #include "hypothesis.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The base model with a smooth correction, as a prediction of what it has not seen.
 #pragma once
 

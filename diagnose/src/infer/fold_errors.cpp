@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "fold_errors.hpp"
 
 #include <coagula/diagnose/stated_errors.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gain of a diagnosis on data held out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A hypothesis, the base model with some mechanisms, and its evidence.
 #pragma once
 

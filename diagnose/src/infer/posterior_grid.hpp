@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes where a posterior is evaluated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Search for the measurement that would separate tied causes.
 #pragma once
 

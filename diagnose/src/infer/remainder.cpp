@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "remainder.hpp"
 
 #include "noise/low_rank.hpp"

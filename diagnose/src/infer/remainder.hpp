@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Remainder of a model: a smooth deviation on top of it (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The search for the posterior of a hypothesis.
 #include "departures.hpp"
 #include "hypothesis.hpp"

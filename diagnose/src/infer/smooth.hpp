@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Smooth departures from a prediction: Gaussian processes of one or both moduli along one coordinate, the sum of two of these, or
 // one along all coordinates together, in proportion to |G*|; a correlation length is a part of the range of a coordinate, which is
 // taken as a rank.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // This header holds what the mechanisms share; each mechanism is a file of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recipes whose structures can be made again with something changed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanisms.hpp"
 
 #include "responses/volume_fraction_gradient.hpp"

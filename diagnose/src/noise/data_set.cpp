@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "data_set.hpp"
 
 #include "observables/pore_curves.hpp"

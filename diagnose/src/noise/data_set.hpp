@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Observations with their noise: y = m (1 + b) + e with the prediction m, an effect b of each sample and an error e of each row.
 #pragma once
 

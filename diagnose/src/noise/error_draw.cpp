@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors as the noise model draws them.
 #include "error_model.hpp"
 

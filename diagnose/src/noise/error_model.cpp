@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "error_model.hpp"
 
 #include <coagula/common/log_probability.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The errors of measured numbers and of their predictions: the one place where noise lives. Test, evidence, gain and power ask it.
 //
 //     y = m(b) + M e + s n,   whitened

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "minimum.hpp"
 
 #include "quiet_log.hpp"

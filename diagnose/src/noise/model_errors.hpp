@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of a prediction that comes from a sample of its own, such as some structures.
 #pragma once
 

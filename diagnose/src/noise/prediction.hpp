@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prediction of a model for every measured number.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ceres reports numerical trouble, which its callers see in what it returns, on standard error too.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/noise.hpp>
 
 #include "data/table_cells.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Restricted likelihood of replicated values with a floor, a relative part and a random effect per sample.
 #pragma once
 

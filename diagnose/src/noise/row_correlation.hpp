@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Correlation of neighbouring errors, from the rows themselves and from prior knowledge.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mean number of neighbours of a particle in shells of distance: what coordinates say about contacts.
 #pragma once
 

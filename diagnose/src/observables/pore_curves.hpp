@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pore curves: what a table of them says, with its errors.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What several images of the same particles, taken one after the other, show of the errors of localisation, whatever the structure.
 #pragma once
 

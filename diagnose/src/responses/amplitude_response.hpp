@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Amplitude sweeps with bonds that break, by the explicit rheometer.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Time-dependent elements beside the springs of every contact.
 #pragma once
 

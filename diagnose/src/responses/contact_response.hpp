@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Amplitude response of Hertz contacts that are loaded at rest, between the nodes of a grid of strains.
 #pragma once
 

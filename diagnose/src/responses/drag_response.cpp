@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "drag_response.hpp"
 
 #include <coagula/common/contact_network.hpp>

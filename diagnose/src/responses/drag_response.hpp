@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Response of a network whose particles the solvent drags on: the frequency solver at the nodes of a grid of reduced frequencies.
 #pragma once
 

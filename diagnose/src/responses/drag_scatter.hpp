@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Difference between the solvent drag in a large sample and in a few structures.
 #pragma once
 

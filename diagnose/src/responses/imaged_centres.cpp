@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "imaged_centres.hpp"
 
 #include "interpolation.hpp"

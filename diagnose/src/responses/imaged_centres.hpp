@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What errors of localisation do to the neighbours of a particle and to images of the same particles: structures with errors at the
 // nodes of a grid.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Particles as an image shows them, for what is measured of all centres together.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cubic interpolation between nodes that are equally spaced, most in the logarithm.
 #pragma once
 

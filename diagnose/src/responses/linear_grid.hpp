@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The grid of contacts and bonding distances at whose nodes the linear solver runs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "linear_modulus.hpp"
 
 #include "linear_grid.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear modulus of the structures: the linear solver at the nodes of a grid of contacts, and between them.
 #pragma once
 

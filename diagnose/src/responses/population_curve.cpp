@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "population_curve.hpp"
 
 #include <coagula/common/dense.hpp>

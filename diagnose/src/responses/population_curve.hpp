@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Yield curve of a large sample, from a few simulated structures.
 #pragma once
 

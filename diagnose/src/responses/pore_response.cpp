@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "pore_response.hpp"
 
 #include "imaged_pores.hpp"

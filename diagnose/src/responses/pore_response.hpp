@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pore curves of the structures, as they are and as measured coordinates would show them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scatter of whole pore curves from structure to structure, estimated from one structure.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear modulus under a tension in all contacts: the linear solver with the geometric stiffness, at the nodes of a grid.
 #pragma once
 

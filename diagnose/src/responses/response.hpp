@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What acts in the network besides its springs: one declaration for each, which the chain reads.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/settings.hpp>
 
 #include <coagula/common/contact_law.hpp>

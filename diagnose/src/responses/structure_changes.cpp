@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Causes that change the structures themselves: the same simulation with structures made again.
 #include "structure_changes.hpp"
 

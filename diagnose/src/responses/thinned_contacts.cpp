@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "thinned_contacts.hpp"
 
 #include <coagula/common/random.hpp>

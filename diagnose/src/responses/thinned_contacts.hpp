@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact networks from which contacts are removed at random, and their moduli.
 #pragma once
 

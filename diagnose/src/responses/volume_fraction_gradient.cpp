@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How the simulated modulus depends on the volume fraction, and what layers of different volume fraction in series make of it.
 #include "volume_fraction_gradient.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Layers in series between the plates: a suspension that has settled a little.
 #pragma once
 

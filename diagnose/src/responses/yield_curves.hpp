@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How a network whose bonds break yields under growing strain, between the loads at which it was run.
 #pragma once
 

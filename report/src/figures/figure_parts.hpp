@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the figures share, and their functions for the table.
 //
 // Results are read before a chart or series is put into braces: where an initialiser inside braces throws, GCC 12 destroys the

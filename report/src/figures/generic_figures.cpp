@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figures that need no code of their own: a curve of two data sets, a histogram of one.
 #include "figure_parts.hpp"
 

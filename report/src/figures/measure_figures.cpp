@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figures of the measures of a packing, one entry each.
 #include "figure_parts.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One place per structure: its modulus, heterogeneity, coordination or volume fraction.
 #include "figure_parts.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The modulus against the stiffness of the particles, from the table of coagula calibrate.
 #include "figure_parts.hpp"
 

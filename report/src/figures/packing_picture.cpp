@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The packing as a distant eye sees it, and its place between the plates of the shear test.
 #include "figure_parts.hpp"
 

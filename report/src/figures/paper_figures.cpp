@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figures 1 to 6 of Schenker, Filser, Hütter, Gauckler, Granular Matter 14 (2012) 333, from what is computed.
 #include "figure_parts.hpp"
 

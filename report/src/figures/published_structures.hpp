@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table 2 of Schenker, Filser, Hütter, Gauckler, Granular Matter 14 (2012) 333, as datasets/schenker2012 has it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Answers to oscillation and to a ramp: moduli over frequency or amplitude, stress over strain or time.
 #include "figure_parts.hpp"
 

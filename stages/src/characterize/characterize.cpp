@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // characterize: what the table of measures offers for a packing.
 #include "compare_structures.hpp"
 

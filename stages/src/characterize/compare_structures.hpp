@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The output of `coagula characterize a.h5 b.h5 --compare`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Designs of a sweep: points of the unit cube at which the options take their values.
 #pragma once
 

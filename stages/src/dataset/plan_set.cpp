@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // dataset plan: how many structures, and what they take.
 #include "set_cost.hpp"
 #include "set_work.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Work in child processes: what one of them does wrong, or what ends it, touches no other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // dataset run: what is missing is computed, and the set put together.
 #include "process_pool.hpp"
 #include "set_cost.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "set_record.hpp"
 
 #include <coagula/characterize/measure.hpp>

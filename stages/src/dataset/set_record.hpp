@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the index of a set says about one structure, and the columns that many of them make.
 #pragma once
 

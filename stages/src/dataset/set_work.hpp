@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The work on structures of a set, in a process of their own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sweep file as structures.
 #include "sweep_section.hpp"
 

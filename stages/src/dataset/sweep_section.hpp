@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The tables of a sweep file, and the combinations of the values in them.
 #pragma once
 

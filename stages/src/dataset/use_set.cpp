@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // dataset table, verify and join: what is done with sets that are there.
 #include "set_work.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // dataset workflow: a sweep in chunks for Snakemake, on one machine or a cluster.
 #include <coagula/common/checks.hpp>
 #include <coagula/io/atomic_file.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // diagnose check: the data of an experiment and their noise.
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/waveform.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // diagnose: structures, noise, diagnosis, files.
 #include "diagnosis_options.hpp"
 

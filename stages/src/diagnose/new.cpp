@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // diagnose new: an experiment file from the exports of instruments.
 #include <coagula/common/checks.hpp>
 #include <coagula/experiment/measured_tables.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // diagnose plan: what a planned experiment could find.
 #include "diagnosis_options.hpp"
 

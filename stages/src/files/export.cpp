@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // export: coordinates (and bonds) for other programs.
 #include <coagula/io/gsd_file.hpp>
 #include <coagula/io/structure_file.hpp>

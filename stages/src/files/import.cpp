@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // import: coordinates that somebody measured or made with another program.
 #include <coagula/common/spelling.hpp>
 #include <coagula/io/gsd_file.hpp>

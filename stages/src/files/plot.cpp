@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // plot: a figure of one or more result files, or the figures of the paper.
 #include "plot_set.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The options of plot.
 #include <coagula/report/figures.hpp>
 #include <coagula/stages/files.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // report: one page with a view of the structures and all results of their files.
 
 #include <coagula/characterize/largest_pores.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // generate brownian: coagulation of a stabilised suspension by Brownian dynamics.
 #include "brownian_checkpoint.hpp"
 #include "brownian_results.hpp"

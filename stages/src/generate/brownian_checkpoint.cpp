@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "brownian_checkpoint.hpp"
 
 #include <coagula/io/checkpoint_file.hpp>

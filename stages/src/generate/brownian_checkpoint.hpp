@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The file from which a Brownian run goes on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "brownian_results.hpp"
 
 #include <coagula/characterize/heterogeneity.hpp>

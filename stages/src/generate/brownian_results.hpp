@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results of a Brownian run, for the file and for the table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The option --size-distribution: "monodisperse", "normal:0.1", "lognormal:0.2" or the name of a table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // generate vem: a packing of chosen heterogeneity by the void expansion method.
 #include "size_distribution_text.hpp"
 

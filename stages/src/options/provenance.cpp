@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "version.hpp"
 
 #include <coagula/stages/provenance.hpp>

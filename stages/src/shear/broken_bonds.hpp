@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Causes of breakage, for the methods that break bonds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // calibrate: shear modulus against the stiffness of the particles, and the stiffness that matches measured moduli.
 #include "rheometer_run.hpp"
 

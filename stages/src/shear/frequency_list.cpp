@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "frequency_list.hpp"
 
 #include "logarithmic_sweep.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The frequencies of --frequency and --frequency-sweep.
 #pragma once
 

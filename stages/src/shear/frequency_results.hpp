@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results of `coagula shear --frequency` as data sets and a table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The load-bearing structure, as data sets, particle fields and lines of the table of `coagula shear`.
 #pragma once
 

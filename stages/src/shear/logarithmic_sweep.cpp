@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "logarithmic_sweep.hpp"
 
 #include <coagula/stages/arguments.hpp>

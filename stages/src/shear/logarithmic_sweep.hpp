@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ranges in logarithmic steps on the command line.
 #pragma once
 

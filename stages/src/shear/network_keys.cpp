@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "network_keys.hpp"
 
 #include <coagula/mechanics/load_structure.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data sets about the bonded network itself, which every method of `coagula shear` writes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The orientations of a shear test: plate normal and direction, "xy" and so on.
 #pragma once
 

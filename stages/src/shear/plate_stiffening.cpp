@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "plate_stiffening.hpp"
 
 #include <coagula/mechanics/plate_stiffening.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effect of the plates of the rheometer on its moduli.
 #pragma once
 

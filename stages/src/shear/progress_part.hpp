@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The progress of one part of a job as progress of the whole job.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The finished orientations of `coagula shear --method quasistatic`, from which a killed run goes on.
 #pragma once
 

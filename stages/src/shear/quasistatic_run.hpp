@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // shear --method quasistatic: moduli at small strain, ramps and amplitude sweeps through equilibria.
 #pragma once
 

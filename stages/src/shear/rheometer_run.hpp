@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // shear --method dem: the explicit rheometer.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // shear: elastic response of the bonded packing, or its response to harmonic strain.
 #include "frequency_list.hpp"
 #include "frequency_results.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The conditions under which shear results were found, as they stand beside them in the file.
 #pragma once
 

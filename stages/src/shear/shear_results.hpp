@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results of `coagula shear --method linear` as data sets, particle fields and a table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Steps of a coagulating suspension with DLVO forces: million particle-steps per second, and million force evaluations of a
 // particle per second (a step has several stages), of wall time and of processor time. Usage: bench_brownian [N [surface potential
 // in mV [steps [threads]]]]

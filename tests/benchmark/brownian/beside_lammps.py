@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Brownian dynamics with the same DLVO potential by LAMMPS and by coagula: processor time for the same physical time, on one core.
 
     tests/benchmark/brownian/beside_lammps.py [--program build/bin/coagula] [--particles 8000]

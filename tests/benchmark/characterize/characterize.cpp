@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Time and memory of the characterization: every measure, the exact pore curve, Voronoi volumes beside voro++.
 //
 //     bench_characterize 8000                       random non-overlapping spheres (sequential addition, volume fraction 0.3)

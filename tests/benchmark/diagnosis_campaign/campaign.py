@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Hides effects in data and counts what `coagula diagnose` finds.
 
     python3 tests/benchmark/diagnosis_campaign/campaign.py --program build/bin/coagula --folder campaign --runs 200 --jobs 2

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is hidden: one function per row of the table, drawing a session from a random generator."""
 
 from dataclasses import replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Days at the rheometer: which sweeps are set, on which sample, in which order."""
 
 from dataclasses import dataclass, replace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """An oil in steady flow between plates, from its torque: the experiment file and the tables."""
 
 from dataclasses import dataclass, field

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Effects that the catalogue never had, by formulas of textbooks and papers on rheometry. Nothing here comes from the diagnosis: its program, its mechanisms
 and the other effects of this campaign are not used. Written before any threshold of the verdict was set.
 

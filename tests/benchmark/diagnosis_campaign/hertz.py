@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A network of Hertz contacts that is sheared in small steps, in equilibrium after each by Newton's method: nothing of the program is in it."""
 
 import numpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Particles as a microscope finds them, and the pores between them, of samples that the diagnosis does not know; counted by numpy and scipy."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Moduli of structures that the diagnosis does not know, by other methods than its own: explicit time stepping and the frequency solver."""
 
 import json

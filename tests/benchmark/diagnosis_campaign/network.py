@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Shear modulus of a bonded network by a sparse solver of scipy, with bonds that are missing at random: nothing of the program is in it."""
 
 import numpy

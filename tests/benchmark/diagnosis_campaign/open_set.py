@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the catalogue does not have: effects that never had a cause in it (foreign.py), and causes that are struck from it (`struck`). A name is wrong there,
 whatever it is; right is what a verdict says of the link of the chain and of the axis that it follows.
 

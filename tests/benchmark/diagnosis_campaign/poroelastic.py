@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Consolidation of a layer between plates that it sticks to: Biot's equations by finite elements in radius and height.
 
     python3 tests/benchmark/diagnosis_campaign/poroelastic.py

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A network of Hertz contacts that plates press together, and its shear modulus then: what the normal force of a rheometer does to a gel.
 
     python3 tests/benchmark/diagnosis_campaign/pressed.py PROGRAM FOLDER

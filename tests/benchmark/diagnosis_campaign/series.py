@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Moduli of structures of several coordinations, on materials with a hidden contact, as an experiment file with a structure series."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A day at the rheometer: what torque and angle the instrument would read on a material with hidden effects, written as an experiment file and
 tables. Formulas are those of a plate-plate or cone-plate rheometer, from torque and angle, not those of the diagnosis."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A network that settles under its own weight between plates: what a gap of layers shows, by finite volumes in height and time."""
 
 import numpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Causes that show in coordinates, pores, steady flow, repeated sweeps and after a shear: rows of the table beside those of cases.py, each at two
 strengths."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The table of a campaign: counts, 95 % binomial intervals (Wilson 1927), targets.
 
     python3 tests/benchmark/diagnosis_campaign/table.py campaign/results.jsonl"""

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What an amplitude sweep with breaking bonds loses, however it is run: every strain once; once and again while bonds hold, what
 // that loses taken off; twice, what the second loses taken off.
 // Usage: bench_breaking_loss [N [structures [steps per oscillation]]]

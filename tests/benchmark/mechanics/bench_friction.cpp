@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What friction between particles whose bond has broken does to an amplitude sweep up and down: explicit runs of the same
 // structures with several coefficients of friction. More steps show what the rate of the runs costs.
 // Usage: bench_friction [N [structures [steps per oscillation [friction ...]]]]

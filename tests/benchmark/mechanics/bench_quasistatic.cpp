@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quasi-static amplitude sweep with breaking bonds: time and effort, amplitude by amplitude.
 // Usage: bench_quasistatic [N [N_V [seed [strength N [from [to [amplitudes]]]]]]]
 #include <coagula/common/logarithmic_steps.hpp>

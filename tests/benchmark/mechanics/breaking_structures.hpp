@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structures whose bonds break, for explicit sweeps.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The loop of python_loop.py in C++: generates, characterizes and shears structures by the same calls; rows of a CSV on standard
 // output, processor time on standard error.
 #include <coagula/common/checks.hpp>

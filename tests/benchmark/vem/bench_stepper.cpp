@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Explicit steps of a bonded network with shear springs, rotations and local damping: million particle-steps per second on one core
 // and on two, the best of several rounds.
 // With OMP_NUM_THREADS=1, on one core only.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Void expansion: time, steps and the structure that comes out. Usage: bench_vem [N [N_V [seed [target C [volume fraction]]]]]
 #include <coagula/characterize/heterogeneity.hpp>
 #include <coagula/characterize/pore_sizes.hpp>

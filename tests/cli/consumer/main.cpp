@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A program of somebody else: coordination number of a simple cubic lattice.
 #include <coagula/characterize/coordination.hpp>
 #include <coagula/characterize/pore_sizes.hpp>

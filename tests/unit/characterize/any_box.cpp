@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measures in boxes of other shapes: the same packing by other edge vectors, and packings that are periodic along some edges only.
 #include "support/boxes.hpp"
 #include "test_packings.hpp"

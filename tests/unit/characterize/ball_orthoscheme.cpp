@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The closed form for a ball and a right tetrahedron against numerical integration.
 #include "ball_orthoscheme.hpp"
 

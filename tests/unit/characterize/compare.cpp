@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two structures compared by three measures of heterogeneity.
 #include <coagula/characterize/compare.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/coordination.hpp>
 
 #include "test_packings.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The largest pores: lattices with known holes; empty, touching and disjoint in random packings.
 #include <coagula/characterize/largest_pores.hpp>
 #include <coagula/characterize/pore_sizes.hpp>

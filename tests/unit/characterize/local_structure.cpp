@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Angles, common neighbours, distances and bond order of lattices and of the ideal gas.
 #include <coagula/characterize/bond_order.hpp>
 #include <coagula/characterize/local_structure.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of measures and the standard errors from blocks.
 #include <coagula/characterize/measure.hpp>
 #include <coagula/common/random.hpp>

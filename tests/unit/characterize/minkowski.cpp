@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Minkowski functionals against closed forms, the pore curve and each other.
 #include <coagula/characterize/minkowski.hpp>
 #include <coagula/characterize/pore_sizes.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // g(r) and S(q) against brute force, lattices and the ideal gas.
 #include <coagula/characterize/pair_correlation.hpp>
 #include <coagula/characterize/structure_factor.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pore sizes by other definitions than Torquato's: free spheres, Delaunay pores, covering spheres.
 #include <coagula/characterize/covering_spheres.hpp>
 #include <coagula/characterize/delaunay_pores.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Noise of the coordinates: what it does to a lattice, and the noise that overlaps imply.
 #include <coagula/characterize/position_noise.hpp>
 

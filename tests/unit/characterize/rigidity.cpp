@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Floppy modes, self-stress and local redundancy: closed forms, and a dense singular value decomposition.
 #include <coagula/characterize/rigidity.hpp>
 

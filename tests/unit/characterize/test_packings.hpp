@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Packings that the tests of coagula::characterize share: lattices, random sets and measured structures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Topology of contact networks: rings and loops of crystals and of random graphs.
 #include <coagula/characterize/rings.hpp>
 #include <coagula/characterize/topology.hpp>

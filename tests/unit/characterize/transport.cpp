@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Chords against the Boolean model; conduction and paths around a lattice of spheres against closed forms.
 #include <coagula/characterize/chord_lengths.hpp>
 #include <coagula/characterize/minkowski.hpp>

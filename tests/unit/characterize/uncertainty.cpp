@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every scalar has a standard error, and the errors are as large as the scatter of equal structures.
 #include <coagula/characterize/measure.hpp>
 #include <coagula/common/random.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Boxes of any shape, periodic along any edges, against sums over all images.
 #include <coagula/common/cell.hpp>
 #include <coagula/common/cell_list.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/common/cell_list.hpp>
 #include <coagula/common/dem/particle_system.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sentence about an exception that nobody expected.
 #include <coagula/common/failures.hpp>
 #include <coagula/common/progress.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs of the general contact law against closed forms.
 #include "contact_pairs.hpp"
 

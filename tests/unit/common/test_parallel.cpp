@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Independent pieces of work on several threads.
 #include <coagula/common/parallel.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Normal numbers in bulk: the words of Random123, the formula of Box and Muller with the library's functions, moments.
 #include <coagula/common/random.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small systems for the tests of common/dem.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shear of the cell and the general contact law in the explicit stepper.
 #include "example_systems.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Amplitude sweeps of breaking bonds by the explicit rheometer: data that the diagnosis does not make itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structures, tables and noise for tests that hide an effect: what the diagnosis is given and what it is not.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structures of a recipe, and those that the diagnosis makes again, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the tests of this build have simulated, kept for the tests after them. Linking the test program anew forgets all of it, so
 // that no test sees what older code had computed.
 #pragma once

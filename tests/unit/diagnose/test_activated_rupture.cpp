@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bonds that heat helps to break: the law against the rate equation behind it, and sweeps of other structures at two frequencies.
 #include "chain/forward.hpp"
 #include "data/knows.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A structure that builds up after shear: its law, and whether it is told from what changes with strain.
 #include "data/knows.hpp"
 #include "hidden_effects.hpp"

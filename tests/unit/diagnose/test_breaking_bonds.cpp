@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sweeps over bonds that break: what is lost belongs to the energy between two strains, not to a strain, and is lost once.
 #include "chain/forward.hpp"
 #include "hidden_effects.hpp"

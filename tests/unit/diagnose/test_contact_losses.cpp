@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dashpots and Maxwell elements in the contacts: their law, and sweeps of another structure by the frequency solver.
 #include "chain/forward.hpp"
 #include "credible_set.hpp"

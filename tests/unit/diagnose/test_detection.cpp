@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Along which rows a departure is looked for.
 #include "infer/detection.hpp"
 #include "infer/localise.hpp"

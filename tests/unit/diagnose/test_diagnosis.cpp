@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hidden effects: data from another way of computing, other structures and other noise than the diagnosis uses; it must say what
 // was hidden.
 #include <coagula/diagnose/model.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "noise/error_model.hpp"
 
 #include <coagula/common/random.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The evidence of causes, which is integrated over their parameters and the stiffness.
 #include "infer/hypothesis.hpp"
 

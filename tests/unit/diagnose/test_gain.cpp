@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "hidden_effects.hpp"
 #include "infer/fold_errors.hpp"
 #include "infer/gain.hpp"

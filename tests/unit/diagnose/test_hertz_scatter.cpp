@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What few structures leave open in how Hertz contacts stiffen.
 #include "responses/contact_response.hpp"
 #include "responses/hertz_scatter.hpp"

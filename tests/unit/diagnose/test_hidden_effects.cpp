@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects hidden in the instrument, the sample's age, the contacts and the microscope: raw torque and angle, positions and steps of
 // time by formulas and solvers that the diagnosis does not use, for other structures; the diagnosis sees the table only.
 #include "chain/forward.hpp"

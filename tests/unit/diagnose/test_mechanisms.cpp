@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Each mechanism, switched on in the simulation, shows the signature that the catalogue claims.
 #include "chain/forward.hpp"
 #include "data/knows.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts that are missing at random: the modulus that is left against effective-medium theory, and series of other structures.
 #include "chain/forward.hpp"
 #include "credible_set.hpp"

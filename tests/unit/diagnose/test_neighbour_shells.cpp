@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of the neighbours that an image shows, where particles lie closer in some places than in others: single particles and
 // triangles of touching ones, at random on a lattice. Each triangle has one side near the plane and two near z, whatever axis z is.
 #include "observables/neighbour_shells.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the plates' pressure does to a sample: the law against a network of Hertz contacts that is pressed, and whole diagnoses.
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Breaking bonds under the strain field of parallel plates: the law of the torque against an integral over many radii, and data
 // from explicit runs at many radii of another structure.
 #include "chain/forward.hpp"

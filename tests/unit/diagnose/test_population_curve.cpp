@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The curve of a large sample from a few structures that yield in steps, drawn from a curve that is known.
 #include "responses/population_curve.hpp"
 

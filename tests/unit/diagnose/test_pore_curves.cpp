@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pore curves as data: what is predicted, how structures scatter, and a hidden change of the structure.
 #include "remade_structures.hpp"
 #include "responses/pore_response.hpp"

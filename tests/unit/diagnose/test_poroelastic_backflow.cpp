@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solvent that leaves a squeezed network: the law against Biot's equations by finite elements, and samples at two gaps.
 #include "credible_set.hpp"
 #include "data/knows.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "infer/posterior_grid.hpp"
 
 #include <Eigen/Cholesky>

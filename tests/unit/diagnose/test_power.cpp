@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a planned experiment is said to find is held against diagnoses of data that another code path makes.
 #include <coagula/diagnose/power.hpp>
 #include <coagula/mechanics/frequency.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts that pull at rest: what they do to the modulus, the extended model, and whether the pull is told from stiffer contacts.
 #include "chain/forward.hpp"
 #include "hidden_effects.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Causes that change the structures themselves: particles of several sizes.
 #include "remade_structures.hpp"
 #include "responses/imaged_centres.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a named cause leaves over, departures of the level alone, and values at an end of their range.
 #include <coagula/diagnose/diagnosis.hpp>
 

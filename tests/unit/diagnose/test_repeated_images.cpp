@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What images of the same particles show of errors of localisation: drawn anew against what the simulator expects, and measured.
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/simulator.hpp>

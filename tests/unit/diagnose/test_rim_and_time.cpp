@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What changes with the time since the filling, and what happens at the rim: each against its law, by another way.
 #include "chain/forward.hpp"
 #include "data/knows.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "noise/row_correlation.hpp"
 
 #include <coagula/common/random.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // When runs took place: clocks, pauses and shear between them, and what is said where nobody says it.
 #include <coagula/diagnose/mechanism.hpp>
 #include <coagula/diagnose/run_clock.hpp>

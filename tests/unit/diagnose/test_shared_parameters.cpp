@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One instrument behind several tables, one sample behind several runs: a cause has one value for all of them.
 #include "hidden_effects.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Drag of the solvent: its limits, the extended model, and a sweep of another structure in which it is hidden.
 #include "chain/forward.hpp"
 #include "hidden_effects.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results that come from a file may have lost numbers; then they are simulated again.
 #include "hidden_effects.hpp"
 #include "responses/contact_response.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structures that have another volume fraction, coordination or heterogeneity than the recipe says.
 #include "data/knows.hpp"
 #include "remade_structures.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects hidden in a structure series: moduli of structures of several coordinations, by the quasi-static solver, for other
 // structures with other seeds than those that the diagnosis knows.
 #include "credible_set.hpp"

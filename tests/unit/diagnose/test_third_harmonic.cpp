@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Third harmonics of the stress: what the terms of the simulation make of them, against closed form and explicit steps, and what
 // waveforms tell that moduli do not.
 #include "chain/forward.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bonds that shear breaks and rest re-forms: the kinetic law, the history of the strain, and bonds that are drawn one by one.
 #include "chain/forward.hpp"
 #include "credible_set.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torque, deflection and raw phase as moduli.
 #include <coagula/diagnose/check_data.hpp>
 #include <coagula/diagnose/stated_errors.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Moduli with errors: what the drag of a solvent adds is known up to factors.
 #include "chain/uncertain_moduli.hpp"
 

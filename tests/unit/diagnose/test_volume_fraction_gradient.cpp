@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A sample that has settled between the plates: layers in series against sums over many of them, and gap series whose layers are
 // other structures, sheared by another solver.
 #include "chain/forward.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Moduli and third harmonic of waveforms that are known.
 #include <coagula/diagnose/waveform.hpp>
 

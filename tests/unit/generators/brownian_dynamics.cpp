@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Brownian dynamics: bits, restart, bookkeeping and refusals. What the physics must give is in tests/validation/generators.
 #include <coagula/common/failures.hpp>
 #include <coagula/generators/brownian_dynamics.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The loops over neighbours: tables against the force they stand for, sums against pairs one by one, lanes against lanes.
 #include <coagula/common/random.hpp>
 

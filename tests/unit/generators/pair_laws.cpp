@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pair laws: force is the slope of the energy, and the closed forms of limiting cases; the DLVO potential of Schenker et al. 2012.
 #include <coagula/generators/pair_potential.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stabilised step: what its paper proves about linear modes.
 #include "step_scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/generators/void_expansion.hpp>
 
 #include <coagula/generators/size_distribution.hpp>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Opens a structure file with h5py, MDAnalysis and VTK and compares what they see: check_readers.py WRITE_EXAMPLE FOLDER.
 Debian: python3-h5py, python3-mdanalysis, python3-vtk9.
 """

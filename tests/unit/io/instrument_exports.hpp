@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What tests of exports of instruments ask of a file.
 #pragma once
 

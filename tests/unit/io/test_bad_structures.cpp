@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files that are no structure files, or broken ones: each gives a sentence that names the file and the object.
 #include <coagula/io/structure_file.hpp>
 

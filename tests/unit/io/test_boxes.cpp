@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tilted and partly periodic boxes through every format.
 #include <coagula/io/gsd_file.hpp>
 #include <coagula/io/h5md_file.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // HDF5 files that were damaged or made to mislead: each gives one sentence, and HDF5 prints nothing.
 #include <coagula/io/structure_file.hpp>
 

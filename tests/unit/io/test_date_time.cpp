@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dates as instruments write them.
 #include <coagula/io/date_time.hpp>
 

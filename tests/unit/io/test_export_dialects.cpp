@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dialects of exports that no public file shows, as texts.
 #include "instrument_exports.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exports as they come: shifted, with blank lines, in French, side by side, with a clock, in workbooks.
 #include "instrument_exports.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exports of real instruments as their programs wrote them (datasets/).
 #include "instrument_exports.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which columns of the section Atoms are what (LAMMPS manual, read_data). The lines of hybrid styles are those that LAMMPS itself
 // writes.
 #include <coagula/io/text_formats.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files that several processes write, or whose writers were killed.
 #include <coagula/io/atomic_file.hpp>
 #include <coagula/io/structure_file.hpp>

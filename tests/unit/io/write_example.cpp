@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes a small structure file for check_readers.py: write_example FILE.h5 FILE.json (the numbers that readers must find).
 #include <coagula/io/structure_file.hpp>
 

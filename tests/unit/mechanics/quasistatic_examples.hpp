@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small networks for tests of quasi-static shear.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The same network by other edge vectors of the box: mechanics knows images and the volume only.
 #include <coagula/mechanics/linear.hpp>
 

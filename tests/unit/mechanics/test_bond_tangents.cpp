@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bonds that resist moments, contacts by Hertz and JKR, and prestress in the linear solver, against closed forms.
 #include <coagula/mechanics/linear.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>
 

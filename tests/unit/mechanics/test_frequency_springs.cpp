@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bending, twisting, Hertz, JKR, prestress and lubrication in the frequency solver.
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The floppy modes that the linear solver counts are those of the rigidity matrix.
 #include <coagula/characterize/rigidity.hpp>
 #include <coagula/generators/void_expansion.hpp>

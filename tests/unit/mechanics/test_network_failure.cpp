@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quasi-static shear of networks that snap, become floppy or part.
 #include <coagula/mechanics/quasistatic.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What plates do to the linear modulus: a beam, a crystal that becomes taller, and the explicit rheometer.
 #include <coagula/common/random.hpp>
 #include <coagula/mechanics/plate_stiffening.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The power law with a critical value: exact data, other ways to the same minimum, coverage of the interval, data that decide
 // nothing.
 #include <coagula/common/random.hpp>

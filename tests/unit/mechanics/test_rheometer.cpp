@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The explicit rheometer against the linear and the frequency solver, and what it promises.
 #include <coagula/common/random.hpp>
 #include <coagula/generators/void_expansion.hpp>

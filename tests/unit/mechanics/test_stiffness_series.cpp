@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Straight lines in closed form, the modulus in proportion to the stiffness, the stiffness that matches measured moduli.
 #include <coagula/mechanics/stiffness_series.hpp>
 

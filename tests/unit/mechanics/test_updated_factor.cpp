@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "updated_factor.hpp"
 
 #include "quasistatic_examples.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Folders of results that are replaced as a whole.
 #include <coagula/report/result_folder.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Options from command lines, sweep files and Python: one converter, and names as the caller spells them.
 #include <coagula/stages/arguments.hpp>
 #include <coagula/stages/generate.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Space-filling designs have one point in each layer of each axis.
 #include "design.hpp"
 

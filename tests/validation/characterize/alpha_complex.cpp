@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Euler characteristic of a union of balls against the simplices of CGAL's alpha shape.
 #include "unit/characterize/test_packings.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A hard-sphere fluid at volume fraction 0.4, equilibrated by Monte Carlo: contact value of Carnahan and Starling, structure factor
 // of Percus and Yevick, and the order of a fluid.
 #include "hard_sphere_fluid.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A hard-sphere fluid at volume fraction 0.4, equilibrated by Metropolis Monte Carlo, and means over its configurations.
 #pragma once
 

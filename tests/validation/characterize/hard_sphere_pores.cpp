@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pores of a hard-sphere fluid at volume fraction 0.4: exclusion probability and nearest distances of Torquato, Lu and
 // Rubinstein, Phys. Rev. A 41 (1990) 2059, and mean chords.
 #include "hard_sphere_fluid.hpp"

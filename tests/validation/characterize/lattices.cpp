@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pore curves of crystals against closed forms and against integration over directions.
 #include "unit/characterize/test_packings.hpp"
 

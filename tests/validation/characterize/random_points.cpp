@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spheres at random, which may overlap: every measure that has a closed form there, by the name under which it is written.
 #include "unit/characterize/named_results.hpp"
 #include "unit/characterize/test_packings.hpp"

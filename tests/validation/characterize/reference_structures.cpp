@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Packings of 8000 spheres with independently computed values (two million random points, another program), and Finney's measured
 // random close packing.
 #include "unit/characterize/test_packings.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The exact pore curve against random points, within the binomial error of these.
 #include "unit/characterize/test_packings.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Volumes and surfaces of all cells against voro++, a different algorithm (cells cut plane by plane).
 #include "unit/characterize/test_packings.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bonds under Brownian motion have their Boltzmann variance, however stiff they are and however many stages the steps have. Units
 // in the names: mean radius, kB T, R^2/D.
 #include <coagula/generators/brownian_dynamics.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts that resist sliding and rolling, and weight, against closed forms. Units in the names: mean radius, kB T, R^2/D.
 #include <coagula/generators/brownian_dynamics.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Brownian dynamics against closed forms: free diffusion, Boltzmann distributions, the rate over the barrier.
 #include <coagula/characterize/heterogeneity.hpp>
 #include <coagula/characterize/pore_sizes.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small twin of the benchmark tests/benchmark/vem: void expansion gives the published coordination and degree of heterogeneity
 // (Schenker et al. 2012, table 2: N = 8000, N_V = 1000 .. 16 000), here with N = 1000 at the same N_V/N.
 #include <coagula/characterize/heterogeneity.hpp>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the comparisons with other programs share: a network, its moduli by coagula, and the comparison."""
 
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Adhesive and prestressed contacts: one modulus by the tangent of the linear solver, by equilibria and by explicit steps.
 #include <coagula/generators/void_expansion.hpp>
 #include <coagula/mechanics/linear.hpp>

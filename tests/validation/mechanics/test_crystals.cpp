@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Crystals: every particle is a centre of inversion and the fabric is isotropic, so the deformation is affine and
 // C_ijkl = (d^2 / V) sum over bonds of [(k_n - k_s) n_i n_j n_k n_l + k_s (delta_ik n_j n_l + ...) / 4] in closed form.
 #include <coagula/mechanics/linear.hpp>

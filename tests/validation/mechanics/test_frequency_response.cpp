@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frequency response against causality and, on a packing of 8000 spheres, against the elastic solver.
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>

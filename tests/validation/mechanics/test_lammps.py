@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The shear moduli of networks of central springs by LAMMPS (harmonic bonds, minimised energy) and by coagula."""
 
 import unittest

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The power law through the eleven published moduli (Schenker et al. 2012, table 2, sec. 3.2: a0 = 0.373 +- 0.001, beta = 0.187 +-
 // 0.032), and what they say about its critical value.
 #include <coagula/mechanics/power_law.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shear moduli of five packings against values computed independently (conjugate gradients to 1e-8 by another program).
 #include <coagula/mechanics/linear.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One modulus by three methods that share nothing but the contact law: explicit steps, quasi-static equilibria, linear solver.
 #include <coagula/generators/void_expansion.hpp>
 #include <coagula/mechanics/linear.hpp>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The shear moduli of bonds with normal and shear springs by Yade (explicit steps, local damping, rotations) and by coagula."""
 
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A figure: curves, points or bars that one can zoom, read, switch and take away as CSV.
 
 import uPlot from "uplot";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a figure shows, and the same as a table and in words.
 
 import { printed } from "../dom";

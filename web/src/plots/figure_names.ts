@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figures of the measures as one writes them in a paper: title, axes, curves and a sentence. What is not named here takes the words of its
 // data sets.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A figure for every list of numbers that has an axis and is not drawn elsewhere.
 
 import { numberAt, type Result, type Structure } from "../data";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figures from the data sets of a file that are known by name; further.ts draws the others.
 
 import { listAt, numberAt, type Structure } from "../data";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The moduli in every direction as surfaces: the distance from the middle is the modulus.
 
 import {

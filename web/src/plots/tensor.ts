@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Young's and shear modulus in every direction from a 6 x 6 stiffness (Voigt order xx yy zz yz xz xy, engineering shear strains).
 // Nye, Physical Properties of Crystals (1957), chapter VIII; bounds and anisotropy: Hill (1952), Ranganathan and Ostoja-Starzewski (2008).
 

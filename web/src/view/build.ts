@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From a structure and settings to the instances that are drawn. Lengths in units of the mean radius, from the centre of the box.
 
 import type { Vector3 } from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The two cameras of a view. Controls move the one with perspective; the parallel one follows it and shows the same at its target.
 
 import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";

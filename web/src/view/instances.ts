@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Many spheres or sticks in one call of the graphics card. Each is a quad of four vertices with the same attributes: instances in the
 // sense of WebGL take some 20 microseconds each where graphics run in software, ten times as long.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Colour bars, whose range and map the reader can change.
 
 import { gradient, mapNames, type MapName } from "../colours";

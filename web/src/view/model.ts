@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A structure as the views need it: fields by name and plane, clusters, backbone, neighbours, periodic images.
 
 import type { Field, Numbers, Structure } from "../data";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Instances from front to back: what lies behind needs no fragments then.
 
 import type { Vector3 } from "three";

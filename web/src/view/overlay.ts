@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What lies over a view: a tripod of the axes and a scale bar.
 
 import type { Camera } from "three";

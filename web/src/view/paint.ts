@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Colours of particles and bonds from their fields, one range for all views so that colours can be compared.
 
 import { bulkOf, categoryColour, isSkewed, painterOf, type ColourRange, type Rgb } from "../colours";

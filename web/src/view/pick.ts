@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which sphere a ray meets first.
 
 import { Vector3 } from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the views show. All views of a page share one set.
 
 import type { MapName } from "../colours";

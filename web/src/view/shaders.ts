@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spheres and sticks as quads whose fragments find the true surface (impostors: Tarini, Cignoni and Montani 2006), seen with perspective
 // from the eye in the origin or, where `parallel` is set, along -z.
 

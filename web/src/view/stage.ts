@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One view on the page: canvas, colour bars, what was picked, keyboard.
 
 import { el, prefixOf, printed, quantity } from "../dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One structure in three dimensions: camera, drawing on demand, picking.
 
 import { BoxGeometry, Color, EdgesGeometry, LineBasicMaterial, LineSegments, Scene, Vector3, WebGLRenderer } from "three";

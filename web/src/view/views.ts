@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The views with their controls: one or two stages that share settings and, if wanted, the camera.
 
 import type { Structure } from "../data";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Standard errors from sub-volumes of one structure, so that two structures can be compared honestly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bond-orientational order of the cells: Steinhardt's q4 and q6 with the Voronoi facets as weights.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Chords: the pieces that straight lines have in the void space and in the spheres.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two structures held against each other by the three measures of heterogeneity.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pore sizes after Gelb and Gubbins: the largest sphere in the void that covers a point.
 #pragma once
 

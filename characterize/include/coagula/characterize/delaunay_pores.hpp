@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pores as the spheres between four neighbours, and the throats between these.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Density fluctuations: how the solid volume in cubic windows varies with their position, against their size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spheres that fit into the void, and that can move through it without end.
 #pragma once
 

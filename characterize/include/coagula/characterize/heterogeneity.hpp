@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Degree of heterogeneity: the width a of the error function fitted to the pore-size curve (Schenker et al. 2012, section 2.3).
 #pragma once
 

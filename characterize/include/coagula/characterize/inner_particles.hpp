@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part of an open packing that its free surface does not touch.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The largest pores as spheres: where they are and how large.
 #pragma once
 

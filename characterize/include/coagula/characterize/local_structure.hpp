@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The surroundings of a particle: angles between contacts, common neighbours and distances to the nearest particles.
 #pragma once
 

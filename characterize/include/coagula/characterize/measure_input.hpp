@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Input of the measures: the packing, the values of the options, and what several measures share, computed once.
 #pragma once
 

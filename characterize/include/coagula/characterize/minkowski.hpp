@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Minkowski functionals of the union of the spheres, as all spheres grow: volume, surface, mean curvature, Euler characteristic.
 #pragma once
 

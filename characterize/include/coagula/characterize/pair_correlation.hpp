@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pair correlation function g(r): how much more often than in an ideal gas two particles lie at a distance.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether coordinates and radii can be those of a packing of spheres: what a wrong length unit or pixel size makes of them cannot.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pore sizes: the probability that a random point of the void space is farther than r from the nearest particle surface,
 // exact, from the volume of the union of balls cut up along the Voronoi (power) cells.
 #pragma once

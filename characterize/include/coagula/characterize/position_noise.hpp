@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effect of errors of the coordinates on the measures.
 #pragma once
 

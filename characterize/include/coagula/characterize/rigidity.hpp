@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Local rigidity of a contact network: floppy modes, states of self-stress, where they are, and rigid clusters.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shortest-path rings of the contact network.
 #pragma once
 

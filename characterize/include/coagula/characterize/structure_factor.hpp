@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structure factor S(q) of the centres, two ways: directly from wave vectors, and by the transform of the pair correlation.
 #pragma once
 

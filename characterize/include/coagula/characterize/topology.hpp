@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Topology of the contact network: spread of the contact numbers, triangles, loops, clusters.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Transport through the pore space on a grid of voxels: formation factor, permeability, geodesic tortuosity.
 #pragma once
 

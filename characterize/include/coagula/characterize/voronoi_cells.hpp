@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Voronoi (power) cells of the particles: volumes, faces, and the distribution of the volumes.
 #pragma once
 

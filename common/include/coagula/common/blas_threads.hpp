@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How many threads the dense kernels below CHOLMOD use.
 #pragma once
 

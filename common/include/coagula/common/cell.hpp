@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The simulation cell: a parallelepiped, periodic along any of its edges.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cell list: particles sorted into boxes no smaller than a cut-off, for neighbour searches in O(N).
 #pragma once
 

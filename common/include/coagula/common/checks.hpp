@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of arguments: a failed one throws std::invalid_argument with a sentence that names the object, the value and the rule.
 #pragma once
 

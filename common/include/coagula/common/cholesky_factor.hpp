@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Supernodal sparse Cholesky factor (SuiteSparse CHOLMOD), wrapped once; status and input are checked here.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact laws as values: parameters, energy, force and tangent stiffness. The loops over contacts live elsewhere and are
 // templates over the law, so that every solver runs the same one.
 #pragma once

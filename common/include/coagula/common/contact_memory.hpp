@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a contact remembers, and how motion of its two particles changes that: the kinematics that all contact laws share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a contact is made of: springs, strengths, friction, losses, ageing, and the solvent around it.
 #pragma once
 

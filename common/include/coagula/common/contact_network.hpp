@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Who touches whom: pairs of particles with the vector that joins their centres.
 #pragma once
 

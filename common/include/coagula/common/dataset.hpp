@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results as named arrays with unit and meaning: the value that stages hand to whoever writes files, JSON or pages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factorisations of dense matrices of any size. They stand behind one source: their templates take seconds to compile wherever they
 // are included. Matrices whose size is known to the compiler are small, and better factorised where they are.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fabric: the directions of contacts, or of the forces they carry.
 #pragma once
 

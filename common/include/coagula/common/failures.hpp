@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ways in which work fails that a caller tells apart, and the sentence about an exception that nobody expected.
 #pragma once
 

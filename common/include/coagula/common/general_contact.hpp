@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The contact law with all terms of the contact model in the time domain: one law for the explicit and the quasi-static solver.
 #pragma once
 

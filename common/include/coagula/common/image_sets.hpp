@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Union-find on a periodic box, which finds the walks that reach around it.
 #pragma once
 

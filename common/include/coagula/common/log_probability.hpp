@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Probabilities from logarithms that may be far apart.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A packing of spheres: the value that all stages exchange.
 #pragma once
 

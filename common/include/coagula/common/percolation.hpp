@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Connected clusters of bonds, and whether they reach around a periodic box.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Counter-based random numbers (Philox 4x64-10 of Random123): noise is a function of (seed, purpose, step, particle) and so
 // does not depend on the number of threads or on the order of evaluation.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values as people read them: with unit, SI prefix and standard error.
 #pragma once
 

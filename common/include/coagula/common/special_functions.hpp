@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Special functions and quantiles. They stand behind one source: the templates of Boost.Math take seconds to compile wherever they
 // are included.
 #pragma once

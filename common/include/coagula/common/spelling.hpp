@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What somebody meant who wrote a name that does not exist.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kernels that are compiled for several kinds of processor, of which the program takes the best at its start.
 #pragma once
 

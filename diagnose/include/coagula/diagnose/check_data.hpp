@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of measured data before any physics. A cell that fails is listed and left out, never repaired.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From measured data and structures to a named cause and a better model: fit, detect, localise, attribute, extend, gain, propose.
 #pragma once
 

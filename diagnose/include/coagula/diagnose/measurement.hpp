@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measured data as plain values: columns in SI units, what was left out and why, and the experiment they belong to.
 #pragma once
 

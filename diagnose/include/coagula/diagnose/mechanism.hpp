@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The catalogue of causes. Each changes one link of the chain from the structures to the numbers that an instrument shows:
 // structures and contacts, the modulus of the material, the geometry of the plates, the tool.
 #pragma once

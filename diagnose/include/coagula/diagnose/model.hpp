@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The base model with some mechanisms at work: what a prediction is made from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Noise of measured data: a floor, a relative part and a random effect of each sample, estimated from replicates.
 //
 //     y = mu (1 + b) + e,     b ~ N(0, sample^2) once per sample,     e ~ N(0, (w floor)^2 + (relative mu (1 + b))^2) in each row

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows and samples that no law of the errors makes: a slipped decimal point, a bubble, a sample that slid.
 #pragma once
 

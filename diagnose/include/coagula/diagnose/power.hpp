@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Before anyone measures: which causes an experiment could find, and how strong they would have to be.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // When the runs on a sample took place: ageing, drying and settling go on between them.
 #pragma once
 

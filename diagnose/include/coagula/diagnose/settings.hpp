@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Everything that a simulation of the sample can be run with: contacts, structures and their images.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The structures behind a diagnosis, and what was simulated of them: each result has one key and is computed once.
 #pragma once
 

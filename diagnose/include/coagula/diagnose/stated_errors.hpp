@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From the noise of replicates to the errors of every modulus of an experiment.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The structures behind a simulation: as they were given, or made again with something changed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of torque, deflection and the phase between them into stress, strain and moduli.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Analysis of a waveform: moduli of the first harmonic and the third harmonic of the stress.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An experiment after every check that needs no simulation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The experiment file: TOML that names a sample, an instrument and tables of measured data (docs/reference/experiment-file.md).
 #pragma once
 

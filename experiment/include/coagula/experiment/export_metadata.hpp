@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Statements of exports about instrument and sample, and their use in an experiment.
 #pragma once
 

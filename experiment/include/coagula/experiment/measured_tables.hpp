@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of a table from a file into a measurement in SI units.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // An experiment file written from the exports of instruments.
 #pragma once
 

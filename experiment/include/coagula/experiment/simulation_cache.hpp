@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What was simulated before, as a text file: one line per result, key, tab, numbers, tab, checksum of what stands before.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Brownian dynamics of spheres with pair forces: the coagulation of a suspension.
 // Overdamped motion without hydrodynamic interactions: dx = mobility F dt + sqrt(2 kB T mobility) dW, mobility 1/(6 pi viscosity
 // R).

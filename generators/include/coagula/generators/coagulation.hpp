@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coagulation from a stabilised suspension: particles placed at random, brought to equilibrium behind a high barrier, then left to
 // the potential under which they coagulate (docs/explanation/brownian.md).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces between two spheres in a liquid, as values: parameters, energy and force by the gap between the surfaces. SI units.
 // The gap is the distance of the centres minus both radii; forces are positive where they push apart, F = -dE/dgap.
 #pragma once

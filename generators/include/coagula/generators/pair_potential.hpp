@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole interaction of two spheres: a sum of pair laws, continued below a small gap by a linear elastic contact.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Radii of the particles: monodisperse, normal, lognormal or from a table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Void expansion method: packings of chosen heterogeneity, made by growing void particles among the structure particles.
 // Schenker, Filser, Gauckler, Aste, Herrmann, Phys. Rev. E 80 (2009) 021302.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frequency response of a bonded network with losses in a periodic cell: complex moduli and their derivatives by every contact
 // parameter, for all six strains.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Resistance of Hertz contacts with a load at rest to a growing strain.
 #pragma once
 

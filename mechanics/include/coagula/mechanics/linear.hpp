@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear elastic response of a bonded network in a periodic cell: all six unit strains from one factorisation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What carries the load of a sheared network: fabric, contact forces, backbone, non-affinity. Definitions:
 // docs/explanation/load-structure.md.
 #pragma once

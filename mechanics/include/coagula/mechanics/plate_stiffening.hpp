@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // By how much the plates of a rheometer stiffen the sample between them.
 #pragma once
 

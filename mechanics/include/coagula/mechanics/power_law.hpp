@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Power law G' = c (a - a0)^beta through the moduli of structures, and what the data say about the critical value a0.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quasi-static non-linear shear of a bonded packing: a path of equilibria in a deforming periodic cell, with breaking bonds,
 // friction and large strain.
 #pragma once

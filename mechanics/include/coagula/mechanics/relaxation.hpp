@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Relaxation of a bonded packing before it is sheared.
 #pragma once
 

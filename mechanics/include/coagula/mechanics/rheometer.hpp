@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Oscillatory shear by explicit discrete elements: the rheometer of Schenker et al. 2012 (sec. 2.4), and homogeneous shear of a
 // periodic cell.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Straight lines by least squares, through the origin or not.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Charts for a paper: series of numbers over axes with units, drawn by gnuplot as SVG, PNG or PDF.
 #pragma once
 

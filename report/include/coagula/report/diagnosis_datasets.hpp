@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // diagnosis.h5: everything behind a diagnosis, each data set with unit and description.
 #pragma once
 

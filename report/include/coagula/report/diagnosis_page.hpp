@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // report.html: what a diagnosis found, as one page that needs no other file.
 #pragma once
 

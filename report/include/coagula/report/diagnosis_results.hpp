@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results of `coagula diagnose`: diagnosis.json and a table.
 #pragma once
 

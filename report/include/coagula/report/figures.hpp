@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The figures that can be drawn from result files: one table, to which a measure adds its figure by one line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A folder of results that belong together: they appear at once, after all of them have been written.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results as data sets of a file, as a JSON object and as a short table for people.
 #pragma once
 

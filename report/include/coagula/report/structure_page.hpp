@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `coagula report`: structures in three dimensions and every result of their files, in one file that needs no other.
 #pragma once
 

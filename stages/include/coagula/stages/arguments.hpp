@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The values of a verb's options in one call, read by its table: from the words of a command line, from TOML and from Python alike.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data sets: many structures made, measured and sheared as one sweep file says (docs/reference/sweep-file.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Diagnoses of experiments, and what comes before one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Structures from and for other programs, and figures, pages and tables of result files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Making structures: by void expansion, and by coagulation of a suspension.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of a verb's options. Parsing, range checks, help text, manual page, completion, signatures of Python and provenance
 // follow from it.
 #pragma once

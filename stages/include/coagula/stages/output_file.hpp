@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where results go, checked before the work begins.
 #pragma once
 

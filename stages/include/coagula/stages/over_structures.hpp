@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mean over several structures, with the error that their scatter gives it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The options of a stage as its entry in the provenance of a file has them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The simple bonds of a part of space, stored so that several can be computed at a time.
 #pragma once
 

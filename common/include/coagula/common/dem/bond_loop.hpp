@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of bonds with shear springs: the formulas, once, for one bond at a time or several in the lanes of vector registers.
 //
 // Everything is a template over `Lanes`, so that a translation unit compiled for special instructions shares no function with the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Force evaluation: loops over pairs and bonds, templates over the contact law.
 #pragma once
 

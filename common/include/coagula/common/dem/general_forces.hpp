@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Force evaluation with the general contact law: bonds with moments that may break, contacts with friction that come and go.
 #pragma once
 

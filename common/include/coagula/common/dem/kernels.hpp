@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The loops in which nearly all time of an explicit step of a bonded network is spent, for the widest instructions of the
 // processor.
 //

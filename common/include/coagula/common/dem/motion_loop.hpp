@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One step of central differences with local damping: the formulas, once, for single components or whole vectors in registers.
 //
 // A template over `Lanes` for the reasons given in bond_loop.hpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which pairs of a list overlap: one at a time or several in the lanes of vector registers.
 //
 // A template over `Lanes` for the reasons given in bond_loop.hpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Moving spheres with their neighbour list, laid out for speed: the state behind the explicit stepper and the minimiser.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Explicit integration of the equations of motion (central differences, that is leap-frog) with local damping.
 #pragma once
 

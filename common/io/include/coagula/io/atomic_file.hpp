@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files that appear whole or not at all, and that two processes do not write at once. Every file of the house is written here.
 #pragma once
 

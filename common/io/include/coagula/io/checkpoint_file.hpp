@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the checkpoints of long runs have in common: named arrays, and a text that tells runs apart.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results that replace others of the same group, and the conditions that tell whether they are the same measurement again.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The contact model as a TOML file; docs/reference/contact-model.md describes the keys.
 #pragma once
 

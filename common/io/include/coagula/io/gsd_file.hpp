@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // GSD, the binary trajectories of HOOMD-blue: the HOOMD schema in files of versions 1 and 2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // H5MD files of other programs (https://nongnu.org/h5md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files that somebody else wrote, read as a whole.
 #pragma once
 

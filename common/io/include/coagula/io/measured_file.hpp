@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables that somebody measured: CSV, and what the common rheometer programs export.
 #pragma once
 

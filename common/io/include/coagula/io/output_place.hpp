@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a file is to be made, found once: whatever others do to names and links meanwhile, it is made there.
 #pragma once
 

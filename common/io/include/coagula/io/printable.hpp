@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts that somebody else wrote: names of files, what stands in files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A data set of many structures in one file: an index of columns, the structures in the layout of single files, and its card.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Standard input, output and error, which whoever starts a program may have closed.
 #pragma once
 

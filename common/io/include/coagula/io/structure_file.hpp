@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The HDF5 file of coagula: H5MD 1.1 structure, VTKHDF view, results with units, provenance. See docs/reference/file.md.
 #pragma once
 

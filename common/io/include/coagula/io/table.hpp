@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of numbers as CSV: columns with their units in the header.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinates in text formats: CSV with a header, extended XYZ, LAMMPS data, LAMMPS dump.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files that a program which is ended by force takes away with it.
 #pragma once
 

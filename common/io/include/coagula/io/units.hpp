@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quantities as people write them, read with UDUNITS-2: "0.25um", "15 mV", "100N/m".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // VTK XML PolyData (.vtp), which ParaView, VisIt, Mayavi and PyVista open.
 #pragma once
 
