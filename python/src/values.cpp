@@ -9,6 +9,7 @@
 
 #include <array>
 #include <tuple>
+#include <vector>
 
 namespace coagula::python {
 
@@ -86,8 +87,10 @@ std::shared_ptr<Packing> make_packing(const Rows& positions, const py::object& r
     return packing;
 }
 
-std::array<double, 3> numbers_of(const Eigen::Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
+/// The entries of a vector or matrix.
+template <class Matrix>
+std::vector<double> numbers_of(const Matrix& matrix) {
+    return {matrix.data(), matrix.data() + matrix.size()};
 }
 
 void define_packing(py::module_& module) {
@@ -146,10 +149,13 @@ void define_packing(py::module_& module) {
         .def(py::pickle(
             [](const Packing& packing) {
                 const Cell& cell = packing.cell;
-                return py::make_tuple(packing.positions, packing.radii, cell.origin(), cell.edges(), cell.periodicity());
+                return py::make_tuple(packing.positions, packing.radii, numbers_of(cell.origin()), numbers_of(cell.edges()),
+                                      cell.periodicity());
             },
             [](const py::tuple& state) {
-                const Cell cell = Cell::of_edges(state[2].cast<Eigen::Vector3d>(), state[3].cast<Eigen::Matrix3d>(),
+                const auto origin = state[2].cast<std::vector<double>>();
+                const auto edges = state[3].cast<std::vector<double>>();
+                const Cell cell = Cell::of_edges(Eigen::Vector3d::Map(origin.data()), Eigen::Matrix3d::Map(edges.data()),
                                                  state[4].cast<std::array<bool, 3>>());
                 return std::make_shared<Packing>(
                     Packing{cell, state[0].cast<Eigen::Matrix3Xd>(), state[1].cast<Eigen::VectorXd>()});

@@ -32,6 +32,15 @@ Packing tilted_packing(const std::array<bool, 3>& periodic) {
     return packing;
 }
 
+ImportOptions in_metres(double radius = unset) {
+    ImportOptions options;
+    options.length_unit = 1.0;
+    if (!std::isnan(radius)) {
+        options.radius = radius;
+    }
+    return options;
+}
+
 void expect_same(const Packing& found, const Packing& packing, double tolerance, const std::string& name) {
     EXPECT_LT((found.cell.edges() - packing.cell.edges()).norm(), tolerance * packing.cell.edges().norm()) << name;
     EXPECT_EQ(found.cell.periodicity(), packing.cell.periodicity()) << name;
@@ -48,7 +57,7 @@ TEST_F(Boxes, ComeBackFromEveryFormat) {
         for (const char* name : {"a.xyz", "a.lmp", "a.dump"}) {
             const TextFormat format = format_from_name(name);
             write_text(file(name), format, packing, std::nullopt, true);
-            expect_same(read_text(file(name), format, {.length_unit = 1.0}), packing, 1e-14, name);
+            expect_same(read_text(file(name), format, in_metres()), packing, 1e-14, name);
         }
         const Structure structure{packing, std::nullopt, {}, 0.0};
         write_gsd(file("a.gsd"), structure, true);
@@ -83,7 +92,7 @@ TEST_F(Boxes, GeneralTriclinicOfLammpsIsReadAsItStands) {
                                    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS abc origin pp pp ff\n4 0 1 -1\n"
                                    "1 5 0 2\n0 1 6 3\nITEM: ATOMS id x y z\n1 0 3 4\n");
     for (const auto& [path, format] : {std::pair(data, TextFormat::lammps_data), std::pair(dump, TextFormat::lammps_dump)}) {
-        const Packing found = read_text(path, format, {.radius = 0.1, .length_unit = 1.0});
+        const Packing found = read_text(path, format, in_metres(0.1));
         EXPECT_EQ(found.cell.edges(), edges);
         EXPECT_EQ(found.positions.col(0), Eigen::Vector3d(1, 1, 1));
         EXPECT_EQ(found.cell.is_periodic(), format == TextFormat::lammps_data);
@@ -94,15 +103,16 @@ TEST_F(Boxes, GeneralTriclinicOfLammpsIsReadAsItStands) {
 TEST_F(Boxes, ParticlesOutsideATiltedOneAreNamed) {
     const std::string path = write("a.xyz", "2\nlength_unit=m Lattice=\"4 0 0 2 4 0 0 0 4\"\nX 1 1 1\nX 0.5 3 1\n");
     try {
-        read_text(path, TextFormat::extended_xyz, {.radius = 0.1});
+        read_text(path, TextFormat::extended_xyz, in_metres(0.1));
         FAIL();
     } catch (const InputError& error) {
         EXPECT_EQ(std::string(error.what()), path +
                                                  ", line 4: it lies at -0.25 of edge a, outside the periodic box from 0 to 1; give "
                                                  "--wrap to bring such particles back in");
     }
-    EXPECT_EQ(read_text(path, TextFormat::extended_xyz, {.radius = 0.1, .wrap = true}).positions.col(1),
-              Eigen::Vector3d(4.5, 3, 1));
+    ImportOptions wrapping = in_metres(0.1);
+    wrapping.wrap = true;
+    EXPECT_EQ(read_text(path, TextFormat::extended_xyz, wrapping).positions.col(1), Eigen::Vector3d(4.5, 3, 1));
 }
 
 }  // namespace

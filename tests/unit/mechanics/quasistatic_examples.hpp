@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace coagula::mechanics::testing {
+namespace coagula::mechanics::quasistatic_examples {
 
 inline constexpr double radius = 0.25e-6;
 inline constexpr ShearOrientation zx{2, 0};
@@ -56,4 +56,4 @@ inline generators::VoidExpansion gel(Index particles) {
     return generators::expand_voids(options);
 }
 
-}  // namespace coagula::mechanics::testing
+}  // namespace coagula::mechanics::quasistatic_examples

@@ -21,7 +21,8 @@ struct Pair {
 TEST(AnyBox, HasTheSameElasticTensor) {
     const Pair pair;
     for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::iterative}) {
-        const LinearOptions options{.solver = solver};
+        LinearOptions options;
+        options.solver = solver;
         const LinearResponse straight = solve_linear(pair.straight, find_contacts(pair.straight, 0.2), options);
         const LinearResponse tilted = solve_linear(pair.tilted, find_contacts(pair.tilted, 0.2), options);
         ASSERT_GT(straight.elastic_tensor.diagonal().minCoeff(), 0);

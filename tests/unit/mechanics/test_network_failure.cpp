@@ -11,12 +11,12 @@
 namespace coagula::mechanics {
 namespace {
 
-using testing::Columns;
-using testing::gel;
-using testing::radius;
-using testing::springs;
-using testing::stress_zx;
-using testing::zx;
+using quasistatic_examples::Columns;
+using quasistatic_examples::gel;
+using quasistatic_examples::radius;
+using quasistatic_examples::springs;
+using quasistatic_examples::stress_zx;
+using quasistatic_examples::zx;
 
 /// A chain along the plates may hold: it takes no part.
 TEST(NetworkFailure, SweepEndsWhereNothingReachesFromPlateToPlate) {

@@ -22,12 +22,12 @@ namespace {
 using std::numbers::pi;
 
 using coagula::testing::random_spheres;
-using testing::Columns;
-using testing::gel;
-using testing::radius;
-using testing::springs;
-using testing::stress_zx;
-using testing::zx;
+using quasistatic_examples::Columns;
+using quasistatic_examples::gel;
+using quasistatic_examples::radius;
+using quasistatic_examples::springs;
+using quasistatic_examples::stress_zx;
+using quasistatic_examples::zx;
 
 /// Springs that resist bending, so that no part of the network is floppy.
 ContactModel stiff_joints() {

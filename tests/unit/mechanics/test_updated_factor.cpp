@@ -8,10 +8,10 @@
 namespace coagula::mechanics {
 namespace {
 
-using testing::Columns;
-using testing::gel;
-using testing::radius;
-using testing::springs;
+using quasistatic_examples::Columns;
+using quasistatic_examples::gel;
+using quasistatic_examples::radius;
+using quasistatic_examples::springs;
 
 /// Joints with moments, so that the factor's shift hardly matters.
 ContactModel joints_with_moments() {
