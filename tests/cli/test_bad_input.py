@@ -152,7 +152,7 @@ class VeryFewParticles(ProgramTest):
     def test_an_open_sample_without_inner_particles(self):
         self.write("few.csv", GOOD_CSV)
         self.succeed("import", "few.csv", "--radius", "0.5um", "--open", "-o", "out.h5")
-        self.assertIn("left out: the packing is open", self.succeed("characterize", "out.h5"))
+        self.assertIn("left out: the packing has a free surface", self.succeed("characterize", "out.h5"))
         self.fail_with(2, "characterize", "out.h5", "--only", "doh", says=["out.h5", "free surface"])
         self.fail_with(2, "shear", "out.h5", says="free surface")
 

@@ -64,7 +64,7 @@ class Packings(ProgramTest):
                 self.refuse(only, [f"has {count} particles"])
             self.refuse("voronoi", ["fewer than two"])
             text = self.spaced(self.succeed("characterize", "p.h5"))
-            self.assertIn(f"doh  left out: the packing is open and has {count} particles", text)
+            self.assertIn(f"doh  left out: the packing has a free surface and {count} particles", text)
             self.refuse("chord_lengths", ["periodic"])
             self.refuse("transport", ["periodic"])
             self.refuse("neighbour_distances", [f"{count} particles", "neighbour 12"])
