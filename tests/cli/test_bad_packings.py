@@ -61,7 +61,7 @@ class Packings(ProgramTest):
             for only in ("pair_correlation", "structure_factor"):
                 self.refuse(only, [only, f"has {count} particles", "at least 5"])
             for only in ("pores", "doh", "bond_order", "minkowski"):
-                self.refuse(only, [f"has {count} particles"])
+                self.refuse(only, [f"{count} particles"])
             self.refuse("voronoi", ["fewer than two"])
             text = self.spaced(self.succeed("characterize", "p.h5"))
             self.assertIn(f"doh  left out: the packing has a free surface and {count} particles", text)
