@@ -202,7 +202,7 @@ void add_errors(const std::array<Chords, 3>& chords, ChordLengths& result) {
 
 ChordLengths measure_chord_lengths(const Packing& packing, const ChordOptions& options, const Progress& progress) {
     check(packing);
-    require(packing.cell.is_periodic(), "chords are measured in periodic packings only, and this one is open");
+    require(packing.cell.is_periodic(), "chords are measured in periodic packings only, and this one has a free surface");
     require(options.lines >= 1 && options.bins >= 1, "the chord lengths need at least one line along each axis and one bin");
     ChordLengths result;
     result.void_fraction = result.void_fraction_stderr = 0;

@@ -86,7 +86,7 @@ VoxelGrid finest_grid(const Packing& packing, const TransportOptions& options) {
 
 Transport measure_transport(const Packing& packing, const TransportOptions& options, const Progress& progress) {
     check(packing);
-    require(packing.cell.is_periodic(), "transport is measured in periodic packings only, and this one is open");
+    require(packing.cell.is_periodic(), "transport is measured in periodic packings only, and this one has a free surface");
     require_between(options.voxels_per_radius, 0.99, 100.01, "the number of voxels per radius");
     require_between(options.most_voxels, 999, 1.000001e9, "the largest number of voxels");
     progress.update(stage, 0);

@@ -30,7 +30,7 @@ struct VoidGraph {
     std::vector<Link> links;  ///< widest first
 };
 
-/// Of the diagram of a periodic packing in `cell`, which counts all particles; each vertex and edge of the torus once.
+/// The graph of a diagram that counts all particles of a periodic packing in `cell`; it has each vertex and edge of the torus once.
 VoidGraph void_graph(const PowerDiagram& diagram, const Cell& cell);
 
 /// For each axis the widest link that, with those wider than it, closes a way that reaches around the box along the axis: its place

@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -60,7 +61,7 @@ Eigen::VectorXd radii_of(const Rows& radii, Index particles) {
 /// @param box edge lengths, or edge vectors as rows, of a box with a corner at the origin; otherwise the box around the spheres,
 /// without periodicity.
 std::shared_ptr<Packing> make_packing(const Rows& positions, const py::object& radii, const py::object& box, bool wrap,
-                                      const std::array<bool, 3>& periodic) {
+                                      const std::optional<std::array<bool, 3>>& periodic) {
     auto packing = std::make_shared<Packing>();
     packing->positions = positions_of(positions);
     packing->radii = radii_of(lengths_of(radii), packing->positions.cols());
@@ -74,8 +75,11 @@ std::shared_ptr<Packing> make_packing(const Rows& positions, const py::object& r
             matrix = edges.size() == 3 ? Eigen::Matrix3d(Eigen::Vector3d::Map(edges.data()).asDiagonal())
                                        : Eigen::Matrix3d(Eigen::Matrix3d::Map(edges.data()));
         }
-        packing->cell = Cell::of_edges(Eigen::Vector3d::Zero(), matrix, periodic);
+        packing->cell = Cell::of_edges(Eigen::Vector3d::Zero(), matrix, periodic.value_or(std::array{true, true, true}));
     } else {
+        if (periodic) {
+            throw InputError("periodic says along which edges a box is periodic: give the box, too");
+        }
         const Eigen::Vector3d lower = (packing->positions.rowwise() - packing->radii.transpose()).rowwise().minCoeff();
         const Eigen::Vector3d upper = (packing->positions.rowwise() + packing->radii.transpose()).rowwise().maxCoeff();
         packing->cell = Cell::open(lower, upper - lower);
@@ -105,9 +109,9 @@ void define_packing(py::module_& module) {
         "vectors as the rows of an array (3, 3); None: a sample with a free surface.\n"
         "wrap : bool\n    Bring particles outside the periodic box back in; otherwise they are "
         "an error.\n"
-        "periodic : tuple[bool, bool, bool]\n    Whether the box is periodic along each of its edges.")
+        "periodic : tuple[bool, bool, bool] | None\n    Whether the box is periodic along each of its edges; None: along all.")
         .def(py::init(&make_packing), py::arg("positions"), py::arg("radii"), py::arg("box") = py::none(), py::arg("wrap") = false,
-             py::arg("periodic") = std::array<bool, 3>{true, true, true})
+             py::arg("periodic") = py::none())
         .def_property_readonly(
             "positions", [](const py::object& self) { return rows_of(self.cast<const Packing&>().positions, self); },
             "Centres [m], array (N, 3), a read-only view of the packing's own numbers.")

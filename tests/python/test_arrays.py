@@ -103,6 +103,8 @@ class Values(ModuleTest):
         other = pickle.loads(pickle.dumps(packing))
         np.testing.assert_array_equal(other.edges, edges)
         self.assertEqual(other.periodic_edges, packing.periodic_edges)
+        with self.assertRaisesRegex(coagula.InputError, "give the box"):
+            coagula.Packing([[1.0, 1, 1]], 0.5, periodic=(True, True, False))
         with self.assertRaisesRegex(coagula.InputError, "one plane"):
             coagula.Packing([[1.0, 1, 1]], 0.5, box=[[1, 0, 0], [0, 1, 0], [1, 1, 0]])
 

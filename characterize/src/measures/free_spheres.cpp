@@ -47,7 +47,7 @@ MeasureResult run_free_spheres(const MeasureInput& input) {
     if (input.packing().cell.is_periodic()) {
         add_free(found, included_error, r0, result);
     } else {
-        result.add_line("largest free sphere D_f", "left out: an open packing has no periodic images to move to");
+        result.add_line("largest free sphere D_f", "left out: a packing with a free surface has no way without end");
     }
     return result;
 }

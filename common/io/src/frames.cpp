@@ -46,14 +46,13 @@ Cell cell_of(const std::string& path, const RawPacking& raw, const Packing& pack
         return sized_by_file ? *raw.cell : open_cell(packing.positions, packing.radii, options.box);
     }
     if (options.box) {
-        return Cell::of_edges(Eigen::Vector3d::Zero(), *options.box, options.periodic.value_or(everywhere));
+        const Eigen::Vector3d corner = raw.cell && !raw.cell->is_open() ? raw.cell->origin() : Eigen::Vector3d::Zero();
+        return Cell::of_edges(corner, *options.box, options.periodic.value_or(everywhere));
     }
     if (!raw.cell) {
         throw InputError(path + " names no box: give --box for a periodic one or --open for a set with a free surface");
     }
-    const Cell& cell = *raw.cell;
-    return Cell::of_edges(cell.is_open() ? cell.origin() : Eigen::Vector3d::Zero(), cell.edges(),
-                          options.periodic.value_or(cell.periodicity()));
+    return Cell::of_edges(raw.cell->origin(), raw.cell->edges(), options.periodic.value_or(raw.cell->periodicity()));
 }
 
 /// "x is 3e-06 m, outside the periodic box from 0 to 2e-06 m".
@@ -87,12 +86,11 @@ Packing packing_of(const std::string& path, const RawPacking& raw, const ImportO
     }
     Packing packing;
     packing.positions = Eigen::Matrix3Xd::Map(raw.coordinates.data(), 3, static_cast<Index>(raw.size()));
-    if (raw.cell && !raw.cell->is_open() && !options.open) {
-        packing.positions.colwise() -= raw.cell->origin();  // periodic boxes have a corner at the origin
-    }
     packing.radii = radii_of(path, raw, options);
     packing.cell = cell_of(path, raw, packing, options);
-    if (!packing.cell.is_open()) {
+    if (!packing.cell.is_open()) {  // such boxes have a corner at the origin
+        packing.positions.colwise() -= packing.cell.origin();
+        packing.cell = Cell::of_edges(Eigen::Vector3d::Zero(), packing.cell.edges(), packing.cell.periodicity());
         wrap_positions(path, raw, packing, options.wrap);
     }
     check(packing, path);

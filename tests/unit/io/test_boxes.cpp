@@ -100,6 +100,22 @@ TEST_F(Boxes, GeneralTriclinicOfLammpsIsReadAsItStands) {
     }
 }
 
+TEST_F(Boxes, CalledPeriodicHaveACornerAtTheOrigin) {
+    const std::string path =
+        write("a.xyz", "1\nlength_unit=m pbc=\"F F F\" Origin=\"5 6 7\" Lattice=\"4 0 0 0 4 0 0 0 4\"\nX 6 8 10\n");
+    for (const std::array<bool, 3>& periodic : {std::array{true, true, true}, {true, false, false}}) {
+        ImportOptions options = in_metres(0.1);
+        options.periodic = periodic;
+        const Packing found = read_text(path, TextFormat::extended_xyz, options);
+        EXPECT_EQ(found.cell.origin(), Eigen::Vector3d::Zero());
+        EXPECT_EQ(found.cell.periodicity(), periodic);
+        EXPECT_EQ(found.positions.col(0), Eigen::Vector3d(1, 2, 3));
+        write_structure(file("a.h5"), {found, std::nullopt, {}, 0.0}, {}, {}, {}, true);
+        EXPECT_LT((read_structure(file("a.h5")).packing.positions - found.positions).norm(), 1e-14);
+    }
+    EXPECT_EQ(read_text(path, TextFormat::extended_xyz, in_metres(0.1)).cell.origin(), Eigen::Vector3d(5, 6, 7));
+}
+
 TEST_F(Boxes, ParticlesOutsideATiltedOneAreNamed) {
     const std::string path = write("a.xyz", "2\nlength_unit=m Lattice=\"4 0 0 2 4 0 0 0 4\"\nX 1 1 1\nX 0.5 3 1\n");
     try {

@@ -17,6 +17,7 @@
 
 #include "support/lattices.hpp"
 
+#include "diluted_crystal.hpp"
 #include "plates.hpp"
 
 namespace coagula::mechanics {
@@ -68,25 +69,8 @@ TEST(Rheometer, AgreesWithTheLinearSolverInEveryOrientation) {
     }
 }
 
-/// A crystal that has lost two fifths of its bonds: particles move against the strain, but no mode is soft (the softest has a
-/// hundredth of the stiffness of the stiffest), so errors are those of the rate alone. Particles without a bond do not touch.
-const Sample& firm_sample() {
-    static const Sample made = [] {
-        Packing packing = coagula::testing::make_lattice(coagula::testing::face_centred_cubic(), 4, 4, 4);
-        const ContactNetwork whole = find_contacts(packing, 0.01);
-        std::vector<Index> kept;
-        for (Index bond = 0; bond < whole.size(); ++bond) {
-            if (random_uniform(1, RandomPurpose::test, 0, static_cast<std::uint64_t>(bond))[0] < 0.6) {
-                kept.push_back(bond);
-            }
-        }
-        packing.radii *= 0.97;
-        ContactNetwork bonds;
-        bonds.particles = whole.particles;
-        bonds.ends = whole.ends(Eigen::all, kept);
-        bonds.branch = whole.branch(Eigen::all, kept);
-        return Sample{packing, bonds};
-    }();
+const coagula::testing::DilutedCrystal& firm_sample() {
+    static const coagula::testing::DilutedCrystal made;
     return made;
 }
 
