@@ -11,8 +11,8 @@
 
 namespace coagula::testing {
 
-/// A crystal that has lost two fifths of its bonds: the softest mode has a hundredth of the stiffness of the stiffest, so errors are
-/// those of the rate alone. Particles without a bond do not touch.
+/// A crystal that has lost two fifths of its bonds: the softest mode has a hundredth of the stiffness of the stiffest, so errors
+/// are those of the rate alone. Particles without a bond do not touch.
 struct DilutedCrystal {
     Packing packing = make_lattice(face_centred_cubic(), 4, 4, 4);
     ContactNetwork bonds;
