@@ -51,7 +51,7 @@ void check(const Packing& start, const BrownianOptions& options) {
     if (!std::isnan(options.sample_interval)) {
         require_positive(options.sample_interval, "the sample interval", "s");
     }
-    require_between(options.contact_tolerance, 0, 0.1, "the contact tolerance");
+    require_between(options.contact_tolerance, 0, 0.5, "the contact tolerance");
     const Sedimentation& weight = options.sedimentation;
     require(std::isnan(weight.gravity) == std::isnan(weight.density_difference),
             "gravity and a density difference need each other");

@@ -109,6 +109,23 @@ double Yukawa::force(double gap) const {
     return energy(gap) * (inverse_length_ + 1 / (contact_distance_ + gap));
 }
 
+Morse::Morse(double depth, double rest, double length)
+    : depth_(require_positive(depth, "the depth of the well", "J")),
+      rest_(rest),
+      inverse_length_(1 / require_positive(length, "the length of the well", "m")) {
+    require(std::isfinite(rest), "the gap at the bottom of the well is " + to_text(rest) + " m, but it must be a finite number");
+}
+
+double Morse::energy(double gap) const {
+    const double x = std::exp(-(gap - rest_) * inverse_length_);
+    return depth_ * x * (x - 2);
+}
+
+double Morse::force(double gap) const {
+    const double x = std::exp(-(gap - rest_) * inverse_length_);
+    return 2 * depth_ * inverse_length_ * x * (x - 1);
+}
+
 constexpr double least_step = 1e-15;  ///< between gaps of a table [m]: slopes and curvatures stay finite
 
 TabulatedLaw::TabulatedLaw(std::vector<double> gaps, std::vector<double> energies)

@@ -27,15 +27,33 @@ double bisect(double low, double high, Function&& function) {
     return 0.5 * (low + high);
 }
 
+void check(const std::vector<PairLaw>& laws, double stiffness) {
+    require(!laws.empty(), "the pair potential has no laws, but it needs at least one");
+    require(stiffness > 0 && std::isfinite(stiffness),
+            "the contact stiffness is " + to_text(stiffness) +
+                " N/m, but it must be positive: without contact repulsion the particles would fall into each other");
+}
+
 }  // namespace
 
 PairPotential::PairPotential(std::vector<PairLaw> laws, const ElasticContact& contact) : laws_(std::move(laws)), contact_(contact) {
-    require(!laws_.empty(), "the pair potential has no laws, but it needs at least one");
-    require(contact.stiffness > 0 && std::isfinite(contact.stiffness),
-            "the contact stiffness is " + to_text(contact.stiffness) +
-                " N/m, but it must be positive: without contact repulsion the particles would fall into each other");
+    check(laws_, contact.stiffness);
     require_positive(contact.equilibrium_gap, "the equilibrium gap of the contact", "m");
     cut_gap_ = solve_cut_gap();
+    cut_off();
+}
+
+PairPotential::PairPotential(std::vector<PairLaw> laws, double stiffness, double cut_gap, double farthest)
+    : laws_(std::move(laws)), contact_{.stiffness = stiffness}, cut_gap_(cut_gap) {
+    check(laws_, stiffness);
+    require(std::isfinite(cut_gap) && cut_gap < farthest,
+            "the cut-off gap of the contact is " + to_text(cut_gap) + " m, but it must be less than " + to_text(farthest) + " m");
+    cut_off();
+    contact_.equilibrium_gap = solve_rest(farthest);
+}
+
+/// Takes over from the laws at the cut-off gap.
+void PairPotential::cut_off() {
     cut_force_ = sum_force(cut_gap_);
     cut_energy_ = sum_energy(cut_gap_);
     require(std::isfinite(cut_gap_) && std::isfinite(cut_force_) && std::isfinite(cut_energy_),
@@ -82,6 +100,22 @@ double PairPotential::solve_cut_gap() const {
                                 " m: take a stiffer contact or a larger gap");
 }
 
+double PairPotential::solve_rest(double farthest) const {
+    constexpr int steps = 4000;
+    require(cut_force_ > 0, "the laws of the pair potential attract at the cut-off gap of " + to_text(cut_gap_) +
+                                " m, but they must repel there: without contact repulsion the particles would fall into each other");
+    const double width = (farthest - cut_gap_) / steps;
+    for (int step = 0; step < steps; ++step) {
+        const double low = cut_gap_ + step * width;
+        if (sum_force(low + width) <= 0) {
+            const double rest = bisect(low, low + width, [this](double at) { return sum_force(at); });
+            return require_positive(rest, "the gap at which two particles rest", "m");
+        }
+    }
+    throw std::invalid_argument("the laws of the pair potential repel at all gaps up to " + to_text(farthest) +
+                                " m: there is no gap at which two particles rest");
+}
+
 double PairPotential::energy(double gap) const {
     if (gap >= cut_gap_) {
         return sum_energy(gap);
@@ -97,8 +131,9 @@ double PairPotential::force(double gap) const {
 std::vector<Extreme> PairPotential::extremes(double farthest, bool maxima) const {
     std::vector<Extreme> found;
     const double ratio = std::pow(10.0, 1.0 / scan_points_per_decade);
-    double low = cut_gap_;
-    for (double gap = cut_gap_ * ratio; low < farthest; low = gap, gap *= ratio) {
+    // Between the cut-off and the bottom of a well of the laws themselves the force only repels.
+    double low = std::max(cut_gap_, contact_.equilibrium_gap);
+    for (double gap = low * ratio; low < farthest; low = gap, gap *= ratio) {
         // At a maximum the force turns from attraction to repulsion.
         const bool turns = maxima ? force(low) < 0 && force(gap) >= 0 : force(low) > 0 && force(gap) <= 0;
         if (turns) {

@@ -64,6 +64,16 @@ double largest_steepness(const PairPotential& potential, const ReducedUnits& uni
     return largest;
 }
 
+/// Where the laws make the well in which contacts rest, the steepest fall of its attraction -V''/kB T: pairs leave the well and enter it
+/// there as they pass the top of a barrier.
+double steepest_fall(const PairPotential& potential, const ReducedUnits& units, double cutoff) {
+    double steepest = 0;
+    for (double gap = potential.contact().equilibrium_gap / units.length; gap < cutoff; gap += 1e-3) {
+        steepest = std::max(steepest, force_slope(potential, units, gap));
+    }
+    return steepest;
+}
+
 /// sqrt(kB T / |V''|) at the top: over this length around it the barrier is passed.
 double barrier_length(const PairPotential& potential, const ReducedUnits& units, double cutoff) {
     const auto top = potential.barrier(cutoff * units.length);
@@ -84,6 +94,8 @@ double mean_field_slowing(double volume_fraction) {
 
 SpringRules spring_rules(const PairPotential& potential, const ContactResistance& resistance, const ReducedUnits& units) {
     const auto given = [](double value) { return !std::isnan(value); };
+    require(!potential.has_well() || !given(resistance.tangential_stiffness),
+            "contacts that resist sliding need an elastic contact at which they begin, but this potential rests in a well of its own");
     SpringRules rules;
     rules.reach = potential.cut_gap() / units.length;
     const double stiffness_unit = units.energy / (units.length * units.length);
@@ -156,6 +168,13 @@ TimeStep choose_time_step(const PairPotential& potential, double mean_radius, do
         if (barrier_share * length * length < accurate) {
             accurate = barrier_share * length * length;
             chosen.reason = "the barrier";
+        }
+    }
+    if (potential.has_well()) {
+        const double fall = steepest_fall(potential, units, cutoff);
+        if (barrier_share < accurate * fall) {
+            accurate = barrier_share / fall;
+            chosen.reason = "the width of the attraction";
         }
     }
     const double stable = scheme_of(options.integrator, most_stages).stability / std::max(rate, 1.0);

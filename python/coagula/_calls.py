@@ -25,6 +25,14 @@ def packing_of(value):
     return packing
 
 
+def _potential_of(value):
+    """What a generated structure or a file says about the bonds of its potential: single numbers by name."""
+    for path in ("potential", "generation/brownian/potential"):
+        if isinstance(value, Result) and path in value and isinstance(value[path], Result):
+            return {name: number for name, number in value[path].flat().items() if isinstance(number, float)}
+    return {}
+
+
 def _numbers(items, unit):
     """An array of numbers, or of texts with a unit."""
     return np.array([_coagula.parse_quantity(value, unit) if isinstance(value, str) else value for value in items], dtype=float)
@@ -67,7 +75,8 @@ def generate_brownian(*, radii=None, start=None, progress=None, threads=None, **
 def characterize(packing, *, progress=None, threads=None, **options):
     """Returns what was measured: .coordination, .doh.a, .pore_size.mean, .pore_curve.radius ..."""
     call = call_text("characterize", ["packing"], options)
-    stage = _coagula.characterize(values("characterize", options, threads), call, packing_of(packing), progress)
+    stage = _coagula.characterize(values("characterize", options, threads), call, packing_of(packing), _potential_of(packing),
+                                  progress)
     return from_stage(stage, "Characterization")
 
 
@@ -112,7 +121,8 @@ def shear(packing, *, model=None, progress=None, threads=None, **options):
     """
     call = call_text("shear", ["packing"], {**options, "model": model})
     with _model_file(model) as path:
-        stage = _coagula.shear(values("shear", {**options, "model": path}, threads), call, packing_of(packing), progress)
+        stage = _coagula.shear(values("shear", {**options, "model": path}, threads), call, packing_of(packing),
+                               _potential_of(packing), progress)
     return from_stage(stage, stage.group.rpartition("/")[2].capitalize() + "Response")
 
 

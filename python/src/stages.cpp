@@ -128,13 +128,24 @@ std::shared_ptr<Stage> generate_brownian(const Options& options, const std::stri
     });
 }
 
+/// What a structure says about its bonds: the values of its potential by name, or nothing.
+std::optional<stages::BondPotential> bonds_of(const std::map<std::string, double>& potential) {
+    stages::Results results;
+    for (const auto& [name, value] : potential) {
+        results.push_back(io::scalar(stages::bond_potential_group + "/" + name, value, "1", ""));
+    }
+    return stages::bond_potential_in(results);
+}
+
 std::shared_ptr<Stage> characterize(const Options& options, const std::string& call, const std::shared_ptr<Packing>& packing,
-                                    const py::object& progress) {
+                                    const std::map<std::string, double>& potential, const py::object& progress) {
     const stages::Stopwatch clock;
     const Arguments arguments = arguments_of("characterize", options, call);
     auto stage = std::make_shared<Stage>();
     stage->findings = run(progress, threads_of(arguments),
-                          [&](const Progress& told) { return measure(stages::characterize_run(arguments), *packing, told); });
+                          [&](const Progress& told) {
+                              return measure(stages::characterize_run(arguments, bonds_of(potential)), *packing, told);
+                          });
     stage->provenance = describe_call(arguments, packing.get(), clock);
     return stage;
 }
@@ -149,11 +160,11 @@ std::string compare_heterogeneity(const Options& options, const std::array<std::
 }
 
 std::shared_ptr<Stage> shear(const Options& options, const std::string& call, const std::shared_ptr<Packing>& packing,
-                             const py::object& progress) {
+                             const std::map<std::string, double>& potential, const py::object& progress) {
     const stages::Stopwatch clock;
     const Arguments arguments = arguments_of("shear", options, call);
     stages::Sheared sheared = run(progress, threads_of(arguments), [&](const Progress& told) {
-        return stages::shear(stages::shear_run(arguments), *packing, told);
+        return stages::shear(stages::shear_run(arguments, {"the structure", bonds_of(potential)}), *packing, told);
     });
     auto stage = std::make_shared<Stage>();
     stage->findings = std::move(sheared.findings);
@@ -275,9 +286,9 @@ void define_stages(py::module_& module) {
                "unit"_a);
     module.def("generate_vem", &generate_vem, "options"_a, "call"_a, "radii"_a, "progress"_a);
     module.def("generate_brownian", &generate_brownian, "options"_a, "call"_a, "radii"_a, "start"_a, "progress"_a);
-    module.def("characterize", &characterize, "options"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("characterize", &characterize, "options"_a, "call"_a, "packing"_a, "potential"_a, "progress"_a);
     module.def("compare_heterogeneity", &compare_heterogeneity, "options"_a, "names"_a, "packings"_a, "progress"_a);
-    module.def("shear", &shear, "options"_a, "call"_a, "packing"_a, "progress"_a);
+    module.def("shear", &shear, "options"_a, "call"_a, "packing"_a, "potential"_a, "progress"_a);
     module.def("calibrate", &calibrate, "options"_a, "names"_a, "packings"_a, "progress"_a);
     module.def("fit_power_law", &fit_power_law, "options"_a, "a"_a, "modulus"_a, "standard_error"_a, "progress"_a);
     module.def("diagnose", &diagnose, "options"_a, "call"_a, "folder"_a, "progress"_a);

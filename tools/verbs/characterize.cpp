@@ -77,8 +77,9 @@ void run_characterize(const Arguments& arguments) {
     }
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"));
-    const stages::CharacterizeRun run = stages::characterize_run(arguments);
+    stages::characterize_run(arguments);  // what is wrong of the options, before the file is read
     const Packing packing = io::read_structure(arguments.input()).packing;
+    const stages::CharacterizeRun run = stages::characterize_run(arguments, stages::bond_potential_of(arguments.input()));
     const std::string target = checked_target(arguments);
     forecast_characterization(arguments, packing.size());
 

@@ -13,15 +13,18 @@ void check_picture_name(const std::string& path) {
 }
 
 void draw_potential(const std::string& path, const PotentialCurve& curve, bool overwrite) {
-    // The wells of contacts are far deeper than all else: the picture shows what lies above the secondary minimum.
+    // The wells of elastic contacts are far deeper than all else: the picture shows what lies above the secondary minimum. An
+    // attraction with a well of its own is shown whole.
     double highest = 1;
+    double lowest = curve.logarithmic ? -10 : 0;
     for (const double energy : curve.energy) {
         highest = std::max(highest, energy);
+        lowest = curve.logarithmic ? lowest : std::min(lowest, 1.1 * energy);
     }
-    const report::Chart chart{.x = {.name = "gap {/:Italic h}", .plain = "gap", .unit = "m", .logarithmic = true},
+    const report::Chart chart{.x = {.name = "gap {/:Italic h}", .plain = "gap", .unit = "m", .logarithmic = curve.logarithmic},
                               .y = {.name = "energy {/:Italic U} / {/:Italic k}_B{/:Italic T}",
                                     .plain = "energy over kB T",
-                                    .low = -10,
+                                    .low = lowest,
                                     .high = 1.1 * highest},
                               .series = {{.x = curve.gap, .y = curve.energy, .mark = report::Mark::line}}};
     const report::Drawing drawing{.panels = {chart}, .caption = ""};

@@ -11,6 +11,7 @@ struct PotentialCurve {
     std::vector<double> gap;     ///< [m]
     std::vector<double> energy;  ///< [kB T]
     std::vector<double> force;   ///< [N]
+    bool logarithmic = true;     ///< axis of the gap
 };
 
 /// Throws InputError unless the name ends in .svg, .png or .pdf, which says how the picture is drawn.

@@ -21,6 +21,11 @@ namespace {
 
 using stages::ShearRun;
 
+/// The run for a file, whose bonds may say how stiff they are.
+ShearRun run_for(const Arguments& arguments, const std::string& file) {
+    return stages::shear_run(arguments, {file, stages::bond_potential_of(file)});
+}
+
 /// Adds the response of the file `source` to `target`.
 Printed shear_file(const Arguments& arguments, const ShearRun& run, const std::string& source, const std::string& target,
                    const Packing& packing, const Progress& progress) {
@@ -47,22 +52,25 @@ void check_replaced(const Arguments& arguments, const std::string& file, const S
     }
 }
 
-/// Everything about the files that can be wrong is found before the first is sheared.
-void check_files(const Arguments& arguments, const std::vector<std::string>& files, const ShearRun& run) {
+/// Everything about the files that can be wrong is found before the first is sheared. @return the run for each.
+std::vector<ShearRun> check_files(const Arguments& arguments, const std::vector<std::string>& files) {
     for (const char* name : {"output", "checkpoint"}) {
         if (arguments.has(name)) {
             throw InputError(std::string("--") + name + " is for one file, but " + std::to_string(files.size()) +
                              " are given: without it each gets its own results");
         }
     }
+    std::vector<ShearRun> runs;
     std::set<std::filesystem::path> seen;
     for (const std::string& file : files) {
         stages::check_updatable(file);
         if (!seen.insert(std::filesystem::canonical(file)).second) {
             throw InputError(file + " is given twice, but the scatter of the structures is that of different ones");
         }
-        check_replaced(arguments, file, run);
+        runs.push_back(run_for(arguments, file));
+        check_replaced(arguments, file, runs.back());
     }
+    return runs;
 }
 
 std::string how_to_have_it_faster(const Arguments& arguments) {
@@ -77,14 +85,15 @@ std::string how_to_have_it_faster(const Arguments& arguments) {
            " take less";
 }
 
-void shear_files(const Arguments& arguments, const std::vector<std::string>& files, const ShearRun& run) {
+void shear_files(const Arguments& arguments, const std::vector<std::string>& files) {
     const Stopwatch clock;
     const Progress progress = make_progress(arguments.flag("quiet"), how_to_have_it_faster(arguments));
-    check_files(arguments, files, run);
+    const std::vector<ShearRun> runs = check_files(arguments, files);
     std::vector<Json> structures;
-    for (const std::string& file : files) {
+    for (std::size_t number = 0; number < files.size(); ++number) {
+        const std::string& file = files[number];
         Json json = {{"file", file}};
-        json.update(shear_file(arguments, run, file, file, io::read_structure(file).packing, progress).json);
+        json.update(shear_file(arguments, runs[number], file, file, io::read_structure(file).packing, progress).json);
         structures.push_back(std::move(json));
     }
     const Json json = {{"method", structures.front().at("method")},
@@ -97,16 +106,17 @@ void shear_files(const Arguments& arguments, const std::vector<std::string>& fil
 }  // namespace
 
 void run_shear(const Arguments& arguments) {
-    const ShearRun run = stages::shear_run(arguments);
+    stages::shear_run(arguments);  // what is wrong of the options, before a file is read
     const std::vector<std::string> files = arguments.inputs();
     if (files.size() > 1) {
-        shear_files(arguments, files, run);
+        shear_files(arguments, files);
         return;
     }
     const Progress progress = make_progress(arguments.flag("quiet"), how_to_have_it_faster(arguments));
     const std::string target = checked_target(arguments);
-    check_replaced(arguments, files.front(), run);
     const Packing packing = io::read_structure(files.front()).packing;
+    const ShearRun run = run_for(arguments, files.front());
+    check_replaced(arguments, files.front(), run);
     const Printed shown = shear_file(arguments, run, files.front(), target, packing, progress);
     report(arguments, shown.json, shown.table);
 }

@@ -28,6 +28,8 @@ struct UnitSystem {
         }
         const Unit degree(ut_get_unit_by_name(system.get(), "degree"), ut_free);
         ut_map_name_to_unit("deg", UT_ASCII, degree.get());  // as rheologists write a cone angle
+        const Unit thermal_energy(ut_new_base_unit(system.get()), ut_free);
+        ut_map_symbol_to_unit("kT", UT_ASCII, thermal_energy.get());  // of no temperature in particular; not kilotesla
     }
     std::unique_ptr<ut_system, decltype(&ut_free_system)> system;
     std::mutex mutex;

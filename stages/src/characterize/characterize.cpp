@@ -105,10 +105,13 @@ std::vector<std::string> measure_notes() {
 
 }  // namespace
 
-CharacterizeRun characterize_run(const Arguments& arguments) {
+CharacterizeRun characterize_run(const Arguments& arguments, const std::optional<BondPotential>& bonds) {
     CharacterizeRun run;
     run.only = chosen_measures(arguments);
     run.options = option_values(arguments, run.only);
+    if (bonds) {
+        run.options.try_emplace("contact-tolerance", bonds->tolerance);
+    }
     run.seed = static_cast<std::uint64_t>(arguments.count("seed"));
     if (arguments.has("position-noise")) {
         run.noise = {arguments.parsed("position-noise", parse_noise), arguments.count("noise-replicas")};

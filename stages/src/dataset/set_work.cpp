@@ -36,14 +36,14 @@ struct Found {
     std::vector<Findings> findings = {};
 };
 
-Found find(const SetRow& row, const Packing& packing) {
+Found find(const SetRow& row, const Packing& packing, const std::optional<BondPotential>& bonds) {
     Found found;
     if (row.characterize) {
-        found.findings.push_back(measure(characterize_run(*row.characterize), packing, {}));
+        found.findings.push_back(measure(characterize_run(*row.characterize, bonds), packing, {}));
         found.additions.push_back(addition_of(found.findings.back(), std::nullopt, timeless_call(*row.characterize, &packing)));
     }
     if (row.shear) {
-        Sheared sheared = shear(shear_run(*row.shear), packing, {});
+        Sheared sheared = shear(shear_run(*row.shear, {"the structure", bonds}), packing, {});
         found.additions.push_back(addition_of(sheared.findings, sheared.bonds, timeless_call(*row.shear, &packing)));
         found.findings.push_back(std::move(sheared.findings));
     }
@@ -79,17 +79,19 @@ void SetParts::keep(const SetRecord& record) const {
 
 void compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts, bool with_structures) {
     std::optional<Generated> made;
+    std::optional<BondPotential> bonds;
     std::optional<Packing> packing;  // as a file holds it: what is found is what a call for that file would find
     SetRecord common{.id = {}, .version = version_text()};
     succeeds(common, [&] {
         made = made_structure(rows.front()->generate);
         packing = io::packing_as_stored(made->structure.packing);
+        bonds = bond_potential_in(made->findings.results);
     });
     for (const SetRow* row : rows) {
         SetRecord record = common;
         record.id = row->id;
         Found found;
-        record.done = made && succeeds(record, [&] { found = find(*row, *packing); });
+        record.done = made && succeeds(record, [&] { found = find(*row, *packing, bonds); });
         if (record.done) {
             append_results(record, made->findings);
             for (const Findings& findings : found.findings) {

@@ -8,9 +8,11 @@
 #include <coagula/generators/coagulation.hpp>
 #include <coagula/io/checkpoint_file.hpp>
 #include <coagula/io/checkpoint_lock.hpp>
+#include <coagula/stages/bond_potential.hpp>
 #include <coagula/stages/provenance.hpp>
 
 #include <filesystem>
+#include <iterator>
 
 namespace coagula::stages {
 
@@ -86,6 +88,7 @@ void add_conditions(std::vector<Option>& options) {
         std::erase(of_run, name);
     }
     not_read_with(options, of_suspension, "start");
+    not_read_with(options, {"equilibration-potential", "tangential-stiffness", "rolling-stiffness"}, "law", {"depletion"});
     not_read_with(options, of_run, "potential-curve");
     read_only_with(options, {"picture"}, "potential-curve");
     read_only_with(options, {"friction"}, "tangential-stiffness");
@@ -109,7 +112,7 @@ Suspension suspension_of(const Arguments& arguments, const Eigen::VectorXd& give
 Packing made_suspension(const BrownianRun& run, const Progress& progress) {
     const Suspension& suspension = *run.suspension;
     return stabilised_suspension(
-        suspension.placed, [&](double radius) { return make_potential(run.forces, radius, suspension.stabilising_potential); },
+        suspension.placed, [&](double radius) { return make_stable_potential(run.forces, radius, suspension.stabilising_potential); },
         run.motion, suspension.duration, progress);
 }
 
@@ -128,6 +131,13 @@ void keep_sample_interval(const BrownianCheckpoint& checkpoint, BrownianOptions&
     if (std::isnan(options.sample_interval) && checkpoint.series.time.size() > 1) {
         options.sample_interval = checkpoint.series.time[1];
     }
+}
+
+/// What a gel in the well of an attraction says about its bonds.
+void append_bonds(Findings& found, const PairForces& forces, const PairPotential& potential, double radius, double temperature) {
+    Findings bonds = bond_findings(potential, radius, temperature, forces.depletion->range_of(radius));
+    std::move(bonds.results.begin(), bonds.results.end(), std::back_inserter(found.results));
+    std::move(bonds.table.begin(), bonds.table.end(), std::back_inserter(found.table));
 }
 
 /// The run, from its checkpoint if there is one.
@@ -153,6 +163,18 @@ generators::BrownianRun run_or_resume(const BrownianRun& run, const Packing& sta
         since = Stopwatch();
     };
     return io::with_checkpoint(path, [&] { return simulate_brownian(start, potential, options, progress, control); });
+}
+
+/// What follows from the range of the attraction where it is not given: how far forces reach, and what counts as a contact.
+void take_ranges(const Arguments& arguments, BrownianRun& run, double radius) {
+    const double range = run.forces.depletion->range_of(radius);
+    const double rest = make_potential(run.forces, radius).contact().equilibrium_gap;
+    if (!arguments.has("cutoff-gap")) {
+        run.motion.cutoff_gap = rest + 2 * range;
+    }
+    if (!arguments.given("contact-tolerance")) {
+        run.motion.contact_tolerance = (rest + range) / (2 * radius);
+    }
 }
 
 void check_end(const Arguments& arguments, const BrownianOptions& options) {
@@ -183,6 +205,9 @@ BrownianRun brownian_run(const Arguments& arguments, const Packing* start, const
     } else {
         run.suspension = suspension_of(arguments, radii, run.motion.seed);
     }
+    if (run.forces.depletion) {
+        take_ranges(arguments, run, start != nullptr ? mean_radius(*start) : run.suspension->placed.radii.mean());
+    }
     run.heterogeneity = arguments.flag("heterogeneity");
     run.checkpoint = {arguments.text("checkpoint", ""), fingerprint(arguments)};
     run.checkpoint_interval = arguments.quantity("checkpoint-interval");
@@ -196,6 +221,9 @@ Generated generate(const BrownianRun& run, const Packing* start, const Progress&
     generators::BrownianRun made = run_or_resume(run, first, potential, options, progress);
 
     Findings found{.group = "/generation/brownian", .results = datasets_of(made, potential, options), .table = table_of(made)};
+    if (run.forces.depletion) {
+        append_bonds(found, run.forces, potential, mean_radius(first), options.temperature);
+    }
     if (run.heterogeneity) {
         const Results measured = heterogeneity_of(made, first, options, progress);
         found.results.insert(found.results.end(), measured.begin(), measured.end());
@@ -259,7 +287,8 @@ Verb generate_brownian_verb() {
                  physical::time),
         quantity("plateau-change", "1", "relative difference of these means below which the quantity is level", "0.01",
                  within(1e-12, 1)),
-        quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact", "0.01", within(0, 0.1)),
+        quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact; with depletion the range of the attraction when not given", "0.01",
+                 within(0, 0.5)),
         quantity("sample-interval", "s", "time between samples of the time series; a 200th of the stop time when not given", "",
                  physical::time),
         text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),
@@ -273,7 +302,7 @@ Verb generate_brownian_verb() {
     options.insert(options.end(), rest.begin(), rest.end());
     add_conditions(options);
     return {.name = "generate brownian",
-            .summary = "coagulate a stabilised suspension by Brownian dynamics with DLVO forces",
+            .summary = "coagulate a stabilised suspension by Brownian dynamics with DLVO forces or depletion attraction",
             .input = "",
             .options = std::move(options)};
 }

@@ -234,6 +234,12 @@ Arguments Arguments::with_count(const std::string& name, std::int64_t value) con
     return changed;
 }
 
+Arguments Arguments::with_quantity(const std::string& name, double value) const {
+    Arguments changed = *this;
+    changed.values_[name] = value;
+    return changed;
+}
+
 double Arguments::quantity(const std::string& name) const {
     return std::get<double>(values_.at(name));
 }

@@ -241,6 +241,33 @@ ShearRun shear_run(const Arguments& arguments) {
     return run;
 }
 
+ShearRun shear_run(const Arguments& arguments, const BondsOfStructure& of) {
+    Arguments resolved = arguments;
+    if (of.bonds && !arguments.given("bond-tolerance")) {
+        resolved = resolved.with_quantity("bond-tolerance", of.bonds->tolerance);
+    }
+    const std::string& from = arguments.text("stiffness-from");
+    if (from == "options") {
+        return shear_run(resolved);
+    }
+    if (!of.bonds) {
+        throw InputError(of.structure + " says nothing about the stiffness of its bonds, which " +
+                         arguments.spelled("stiffness-from", from) + " asks for: gels of depletion attraction do");
+    }
+    // Two particles in series make a contact. The attraction is central: nothing resists sliding unless it is asked for.
+    resolved = resolved.with_quantity("normal-stiffness",
+                                      2 * (from == "thermal" ? of.bonds->thermal_stiffness : of.bonds->stiffness));
+    if (!arguments.given("shear-stiffness")) {
+        resolved = resolved.with_quantity("shear-stiffness", 0);
+    }
+    ShearRun run = shear_run(resolved);
+    if (run.model.normal_stiffness != resolved.quantity("normal-stiffness")) {
+        throw InputError(run.model_file + " has normal_stiffness, but " + arguments.spelled("stiffness-from", from) +
+                         " takes it from the gel: give it in one of the two places");
+    }
+    return run;
+}
+
 Sheared shear(const ShearRun& run, const Packing& packing, const Progress& progress) {
     ContactNetwork bonds = find_contacts(packing, run.bond_tolerance);
     const auto rest = relaxed(run, packing, bonds, progress);
@@ -272,7 +299,13 @@ Verb shear_verb() {
              quantity("normal-stiffness", "N/m", "normal stiffness of a particle, two in series make a contact", "100N/m",
                       physical::stiffness),
              quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", within(0, 1e15)),
-             quantity("bond-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are bonded", "0.01", within(0, 1)),
+             choice("stiffness-from", {"options", "potential", "thermal"},
+                    "potential: normal stiffness by the attraction that made a depletion gel, no shear stiffness unless given; thermal: "
+                    "by the motion of bound pairs in it",
+                    "options"),
+             quantity("bond-tolerance", "1",
+                      "pairs nearer than (1 + X) (r_i + r_j) are bonded; of a depletion gel the range of the attraction when not given",
+                      "0.01", within(0, 1)),
              text("frequency", "LIST", "compute the response to an oscillating strain at these frequencies, such as 1Hz,10Hz"),
              text("frequency-sweep", "FROM:TO:N", "compute it at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
              reads(text("model", "FILE.toml", "all parameters of the contacts and the solvent (docs/reference/contact-model.md)")),
@@ -300,6 +333,7 @@ Verb shear_verb() {
         verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
     }
     const std::vector<std::string> of_solver = {"solver", "memory-limit", "modulus-tolerance"};
+    not_read_with(verb.options, {"normal-stiffness"}, "stiffness-from", {"potential", "thermal"});
     read_only_with(verb.options, {"solver", "memory-limit", "modulus-tolerance", "tolerance"}, "method", {"linear"});
     not_read_with(verb.options, of_solver, "frequency");
     not_read_with(verb.options, of_solver, "frequency-sweep");

@@ -85,7 +85,7 @@ struct TimeStep {
     int stages = 1;                  ///< force evaluations per step
     std::int64_t far_interval = 1;   ///< the smooth far forces are evaluated once in so many steps
     double stability_bound = unset;  ///< longest stable time step of the integrator [s]
-    double accuracy_bound = unset;   ///< longest that passes the barrier at the right rate to 5 % [s]
+    double accuracy_bound = unset;   ///< longest that passes the barrier, or the rim of a well, at the right rate to 5 % [s]
     double diffusion_time = unset;   ///< tau = R^2/D of a particle of mean radius [s]
     std::string reason;              ///< what sets the time step
 };

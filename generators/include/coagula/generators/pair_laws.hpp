@@ -92,6 +92,22 @@ private:
     double contact_distance_;
 };
 
+/// Morse's well (Phys. Rev. 34 (1929) 57), E = depth [exp(-2 (gap - rest)/length) - 2 exp(-(gap - rest)/length)]. It stands for the
+/// attraction of particles by a polymer that does not adsorb (depletion.hpp).
+class Morse {
+public:
+    /// @param depth of the well [J], > 0. @param rest the gap at its bottom [m]. @param length by which the attraction falls off [m],
+    /// > 0.
+    Morse(double depth, double rest, double length);
+    double energy(double gap) const;
+    double force(double gap) const;
+
+private:
+    double depth_;
+    double rest_;
+    double inverse_length_;
+};
+
 /// A law given by numbers: the natural cubic spline of an energy, zero beyond the last gap. Energies count from that of the last
 /// gap. Below the first gap the force keeps its first value.
 class TabulatedLaw {
@@ -111,6 +127,6 @@ private:
 };
 
 /// Any of the laws.
-using PairLaw = std::variant<HamakerAttraction, LinearSuperposition, HoggHealyFuerstenau, Yukawa, TabulatedLaw>;
+using PairLaw = std::variant<HamakerAttraction, LinearSuperposition, HoggHealyFuerstenau, Yukawa, Morse, TabulatedLaw>;
 
 }  // namespace coagula::generators

@@ -21,19 +21,25 @@ struct Extreme {
     double energy = unset;  ///< [J], zero for spheres far apart
 };
 
-/// Sum of laws above a cut-off gap; below it the force continues as f(cut) + stiffness (cut - gap). The cut-off is solved so that
-/// the force vanishes at the equilibrium gap; laws that repel there are cut at that gap.
+/// Sum of laws above a cut-off gap; below it the force continues as f(cut) + stiffness (cut - gap).
 class PairPotential {
 public:
+    /// The cut-off is solved so that the force vanishes at the equilibrium gap; laws that repel there are cut at that gap.
     /// Throws std::invalid_argument when no law is given, or when no cut-off gap leads to the equilibrium wanted (the attraction is
     /// too strong for so soft a contact).
     PairPotential(std::vector<PairLaw> laws, const ElasticContact& contact);
+    /// Laws that have a well of their own: they act down to a cut-off gap where they repel. The equilibrium gap is the first above it
+    /// where the force vanishes. Throws std::invalid_argument when there is none.
+    /// @param stiffness below the cut-off gap [N/m], > 0. @param farthest gap where the bottom of the well may be [m].
+    PairPotential(std::vector<PairLaw> laws, double stiffness, double cut_gap, double farthest);
 
     double energy(double gap) const;
     double force(double gap) const;
     /// Below this gap the contact is elastic [m].
     double cut_gap() const { return cut_gap_; }
     const ElasticContact& contact() const { return contact_; }
+    /// Whether the laws themselves make the well in which contacts rest.
+    bool has_well() const { return cut_gap_ < contact_.equilibrium_gap; }
 
     /// The highest maximum of the energy outside the contact, which spheres must pass to touch; none if there is none.
     /// @param farthest gap that is searched [m].
@@ -50,6 +56,8 @@ private:
     double sum_energy(double gap) const;
     double sum_force(double gap) const;
     double solve_cut_gap() const;
+    double solve_rest(double farthest) const;
+    void cut_off();
     std::vector<Extreme> extremes(double farthest, bool maxima) const;
 
     std::vector<PairLaw> laws_;

@@ -71,6 +71,8 @@ public:
 
     /// The same call with another value of a count.
     Arguments with_count(const std::string& name, std::int64_t value) const;
+    /// Likewise with a quantity.
+    Arguments with_quantity(const std::string& name, double value) const;
 
     const std::string& verb() const { return verb_; }
     /// The verb as the caller names it: "coagula generate vem", "generate_vem()" or "generate vem".

@@ -7,6 +7,7 @@
 #include <coagula/common/packing.hpp>
 #include <coagula/common/progress.hpp>
 #include <coagula/stages/arguments.hpp>
+#include <coagula/stages/bond_potential.hpp>
 #include <coagula/stages/findings.hpp>
 
 #include <array>
@@ -26,7 +27,8 @@ struct CharacterizeRun {
 };
 
 Verb characterize_verb();
-CharacterizeRun characterize_run(const Arguments& arguments);
+/// @param bonds of the structure, where they are known: their tolerance is that of contacts where none is given.
+CharacterizeRun characterize_run(const Arguments& arguments, const std::optional<BondPotential>& bonds = std::nullopt);
 Findings measure(const CharacterizeRun& run, const Packing& packing, const Progress& progress);
 
 /// The options of a comparison, for which only those of the measures of heterogeneity and the seed count.

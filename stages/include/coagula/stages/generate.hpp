@@ -38,8 +38,20 @@ Verb generate_vem_verb();
 VemRun vem_run(const Arguments& arguments, const Eigen::VectorXd& radii = {});
 Generated generate(const VemRun& run, const Progress& progress);
 
+/// Attraction by a polymer that does not adsorb: of its depth and of its range one is given each.
+struct Depletion {
+    std::optional<double> depth;          ///< [kB T]
+    std::optional<double> concentration;  ///< of the polymer over its overlap concentration
+    std::optional<double> range;          ///< [m]
+    std::optional<double> size_ratio;     ///< radius of gyration over the radius of the particles
+
+    /// [m]. Throws InputError for one that is not short beside the particles. @param radius of the particles [m].
+    double range_of(double radius) const;
+};
+
 /// The pair potential of particles by their mean radius.
 struct PairForces {
+    std::optional<Depletion> depletion;             ///< in place of attraction and double layer
     std::optional<generators::TabulatedLaw> table;  ///< in place of attraction and double layer
     generators::DoubleLayer layer;                  ///< its surface potential is unset with a table
     bool superposition = true;                      ///< of the double layers; else Hogg, Healy and Fuerstenau
@@ -56,6 +68,8 @@ PairForces pair_forces(const Arguments& arguments);
 /// @param surface_potential instead of that of the forces, and of their table [V].
 generators::PairPotential make_potential(const PairForces& forces, double radius,
                                          std::optional<double> surface_potential = std::nullopt);
+/// The potential of the suspension before it coagulates: a high surface potential, or no polymer.
+generators::PairPotential make_stable_potential(const PairForces& forces, double radius, double surface_potential);
 
 /// How a suspension is brought to equilibrium before it coagulates.
 struct Suspension {

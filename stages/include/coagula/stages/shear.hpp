@@ -14,6 +14,7 @@
 #include <coagula/mechanics/rheometer.hpp>
 #include <coagula/mechanics/stiffness_series.hpp>
 #include <coagula/stages/arguments.hpp>
+#include <coagula/stages/bond_potential.hpp>
 #include <coagula/stages/checkpointing.hpp>
 #include <coagula/stages/findings.hpp>
 
@@ -62,9 +63,18 @@ struct Sheared {
     Findings findings;
 };
 
+/// The structure that is sheared, as far as it says what its bonds are.
+struct BondsOfStructure {
+    std::string structure;               ///< its name in messages
+    std::optional<BondPotential> bonds;  ///< none: the file says nothing
+};
+
 Verb shear_verb();
 /// Throws InputError for what needs no packing to be seen wrong.
 ShearRun shear_run(const Arguments& arguments);
+/// The run for one structure: its bonds give the stiffness, where that is asked for, and the tolerance where none is given. Throws
+/// InputError where it says nothing about the stiffness that is asked for.
+ShearRun shear_run(const Arguments& arguments, const BondsOfStructure& of);
 Sheared shear(const ShearRun& run, const Packing& packing, const Progress& progress);
 
 /// A series of stiffnesses, and the stiffness that matches measured moduli.
