@@ -69,8 +69,9 @@ PairPotential depletion_potential(const DepletionAttraction& attraction, std::ve
         return {std::move(others), 6 * curvature, rest - std::numbers::ln2 * length, rest + attraction.range};
     }
     const double stiffness = *attraction.contact_stiffness;
-    require(stiffness > curvature, "the contact stiffness is " + to_text(stiffness) + " N/m, softer than the attraction's well of " +
-                                       to_text(curvature) + " N/m: take a stiffer contact");
+    require(stiffness > curvature, "the contact stiffness is " + to_text(stiffness) +
+                                       " N/m, softer than the attraction's well of " + to_text(curvature) +
+                                       " N/m: take a stiffer contact");
     // The slope of the force is curvature (2 x^2 - x), with x = exp(-(gap - rest)/length).
     const double x = 0.25 * (1 + std::sqrt(1 + 8 * stiffness / curvature));
     return {std::move(others), stiffness, rest - std::log(x) * length, rest + attraction.range};
@@ -81,8 +82,8 @@ BoundPair bound_pair(const PairPotential& potential, double radius, double tempe
     const double thermal = boltzmann_constant * require_positive(temperature, "the temperature", "K");
     require(potential.has_well(), "bonds have the stiffness of a well, but the laws of this potential have none of their own");
     const double rest = potential.contact().equilibrium_gap;
-    require(bond_range > rest, "the bond range is " + to_text(bond_range) + " m, but it must be more than the gap of " + to_text(rest) +
-                                   " m at which two particles rest");
+    require(bond_range > rest, "the bond range is " + to_text(bond_range) + " m, but it must be more than the gap of " +
+                                   to_text(rest) + " m at which two particles rest");
     const double half = 1e-3 * std::abs(rest - potential.cut_gap());
     const double slope = (potential.force(rest - half) - potential.force(rest + half)) / (2 * half);
     return {.stiffness = slope,

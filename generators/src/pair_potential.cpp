@@ -102,8 +102,9 @@ double PairPotential::solve_cut_gap() const {
 
 double PairPotential::solve_rest(double farthest) const {
     constexpr int steps = 4000;
-    require(cut_force_ > 0, "the laws of the pair potential attract at the cut-off gap of " + to_text(cut_gap_) +
-                                " m, but they must repel there: without contact repulsion the particles would fall into each other");
+    require(cut_force_ > 0,
+            "the laws of the pair potential attract at the cut-off gap of " + to_text(cut_gap_) +
+                " m, but they must repel there: without contact repulsion the particles would fall into each other");
     const double width = (farthest - cut_gap_) / steps;
     for (int step = 0; step < steps; ++step) {
         const double low = cut_gap_ + step * width;

@@ -64,8 +64,8 @@ double largest_steepness(const PairPotential& potential, const ReducedUnits& uni
     return largest;
 }
 
-/// Where the laws make the well in which contacts rest, the steepest fall of its attraction -V''/kB T: pairs leave the well and enter it
-/// there as they pass the top of a barrier.
+/// Where the laws make the well in which contacts rest, the steepest fall of its attraction -V''/kB T: pairs leave the well and
+/// enter it there as they pass the top of a barrier.
 double steepest_fall(const PairPotential& potential, const ReducedUnits& units, double cutoff) {
     double steepest = 0;
     for (double gap = potential.contact().equilibrium_gap / units.length; gap < cutoff; gap += 1e-3) {
@@ -94,8 +94,9 @@ double mean_field_slowing(double volume_fraction) {
 
 SpringRules spring_rules(const PairPotential& potential, const ContactResistance& resistance, const ReducedUnits& units) {
     const auto given = [](double value) { return !std::isnan(value); };
-    require(!potential.has_well() || !given(resistance.tangential_stiffness),
-            "contacts that resist sliding need an elastic contact at which they begin, but this potential rests in a well of its own");
+    require(
+        !potential.has_well() || !given(resistance.tangential_stiffness),
+        "contacts that resist sliding need an elastic contact at which they begin, but this potential rests in a well of its own");
     SpringRules rules;
     rules.reach = potential.cut_gap() / units.length;
     const double stiffness_unit = units.energy / (units.length * units.length);

@@ -142,10 +142,9 @@ std::shared_ptr<Stage> characterize(const Options& options, const std::string& c
     const stages::Stopwatch clock;
     const Arguments arguments = arguments_of("characterize", options, call);
     auto stage = std::make_shared<Stage>();
-    stage->findings = run(progress, threads_of(arguments),
-                          [&](const Progress& told) {
-                              return measure(stages::characterize_run(arguments, bonds_of(potential)), *packing, told);
-                          });
+    stage->findings = run(progress, threads_of(arguments), [&](const Progress& told) {
+        return measure(stages::characterize_run(arguments, bonds_of(potential)), *packing, told);
+    });
     stage->provenance = describe_call(arguments, packing.get(), clock);
     return stage;
 }

@@ -69,9 +69,9 @@ inline double boltzmann_integral(
 
 /// Share of the pairs that started at one gap and are inside another after a time: the radial Smoluchowski equation with relative
 /// diffusion coefficient 2, by finite volumes with exponential fitting (Scharfetter and Gummel 1969), implicit in time and
-/// extrapolated to no time step.
-inline double share_inside(const PairPotential& potential, double start, double inside, double time) {
-    std::vector<double> faces{-0.006};
+/// extrapolated to no time step. @param closest gap that a pair comes to.
+inline double share_inside(const PairPotential& potential, double start, double inside, double time, double closest = -0.006) {
+    std::vector<double> faces{closest};
     while (faces.back() < 1.5) {
         faces.push_back(faces.back() + 2e-4 + 0.01 * std::max(0.0, faces.back() - 0.2));
     }

@@ -16,7 +16,8 @@ using namespace generators;
 
 namespace {
 
-/// Gaps of a curve: in logarithmic steps, or in equal ones through a well of the laws themselves, whose repulsion begins below zero.
+/// Gaps of a curve: in logarithmic steps, or in equal ones through a well of the laws themselves, whose repulsion begins below
+/// zero.
 std::vector<double> gaps_of(const PairPotential& potential, double farthest) {
     constexpr int intervals = 200;
     const double rest = potential.contact().equilibrium_gap;

@@ -28,12 +28,13 @@ Findings bond_findings(const generators::PairPotential& potential, double radius
     const generators::BoundPair bond = generators::bound_pair(potential, radius, temperature, bond_range);
     const std::string group = bond_potential_group + "/";
     return {.group = bond_potential_group,
-            .results = {io::scalar(group + "attraction_range", attraction_range, "m", "gap beyond that at rest where the attraction ends"),
-                        io::scalar(group + "bond_tolerance", tolerance, "1", "pairs nearer than (1 + x) (r_i + r_j) attract each other"),
-                        io::scalar(group + "bond_stiffness", bond.stiffness, "N/m", "curvature of the energy at the bottom of the well"),
-                        io::scalar(group + "thermal_bond_stiffness", bond.thermal_stiffness, "N/m",
-                                   "kB T over the variance of the distance of a bound pair"),
-                        io::scalar(group + "rupture_force", bond.rupture_force, "N", "largest attraction of two particles")},
+            .results =
+                {io::scalar(group + "attraction_range", attraction_range, "m", "gap beyond that at rest where the attraction ends"),
+                 io::scalar(group + "bond_tolerance", tolerance, "1", "pairs nearer than (1 + x) (r_i + r_j) attract each other"),
+                 io::scalar(group + "bond_stiffness", bond.stiffness, "N/m", "curvature of the energy at the bottom of the well"),
+                 io::scalar(group + "thermal_bond_stiffness", bond.thermal_stiffness, "N/m",
+                            "kB T over the variance of the distance of a bound pair"),
+                 io::scalar(group + "rupture_force", bond.rupture_force, "N", "largest attraction of two particles")},
             .table = {{"attraction", with_unit(depth, "kT") + " deep, felt within " + with_unit(1 + tolerance, "1") +
                                          " diameters; largest force " + with_unit(bond.rupture_force, "N")},
                       {"bond stiffness", with_unit(bond.stiffness, "N/m") + " by the curvature of the well, " +

@@ -112,8 +112,9 @@ Suspension suspension_of(const Arguments& arguments, const Eigen::VectorXd& give
 Packing made_suspension(const BrownianRun& run, const Progress& progress) {
     const Suspension& suspension = *run.suspension;
     return stabilised_suspension(
-        suspension.placed, [&](double radius) { return make_stable_potential(run.forces, radius, suspension.stabilising_potential); },
-        run.motion, suspension.duration, progress);
+        suspension.placed,
+        [&](double radius) { return make_stable_potential(run.forces, radius, suspension.stabilising_potential); }, run.motion,
+        suspension.duration, progress);
 }
 
 /// What must be the same for a run to go on: everything but when it stops and where results go.
@@ -210,7 +211,9 @@ BrownianRun brownian_run(const Arguments& arguments, const Packing* start, const
     }
     run.heterogeneity = arguments.flag("heterogeneity");
     run.checkpoint = {arguments.text("checkpoint", ""), fingerprint(arguments)};
-    run.checkpoint_interval = arguments.quantity("checkpoint-interval");
+    if (arguments.has("checkpoint-interval")) {  // a sweep has none
+        run.checkpoint_interval = arguments.quantity("checkpoint-interval");
+    }
     return run;
 }
 
@@ -287,8 +290,9 @@ Verb generate_brownian_verb() {
                  physical::time),
         quantity("plateau-change", "1", "relative difference of these means below which the quantity is level", "0.01",
                  within(1e-12, 1)),
-        quantity("contact-tolerance", "1", "pairs nearer than (1 + X) (r_i + r_j) are in contact; with depletion the range of the attraction when not given", "0.01",
-                 within(0, 0.5)),
+        quantity("contact-tolerance", "1",
+                 "pairs nearer than (1 + X) (r_i + r_j) are in contact; with depletion the range of the attraction when not given",
+                 "0.01", within(0, 0.5)),
         quantity("sample-interval", "s", "time between samples of the time series; a 200th of the stop time when not given", "",
                  physical::time),
         text("snapshots", "LIST", "times at which positions are kept, such as 1ms,2ms"),

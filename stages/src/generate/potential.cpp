@@ -90,13 +90,14 @@ std::vector<PairLaw> dlvo_laws(const PairForces& forces, const PairRadii& radii,
 
 std::vector<Option> potential_options() {
     std::vector<Option> options = {
-        choice("law", {"dlvo", "depletion"}, "forces of the particles: DLVO, or attraction by a polymer that does not adsorb", "dlvo"),
+        choice("law", {"dlvo", "depletion"}, "forces of the particles: DLVO, or attraction by a polymer that does not adsorb",
+               "dlvo"),
         quantity("depth", "kT", "depth of the depletion attraction, such as 10kT", "", within(0.1, 1000)),
         quantity("polymer-concentration", "1",
                  "polymer in the liquid over its overlap concentration, from which the depth of the attraction follows", "",
                  within(1e-3, 100)),
-        quantity("attraction-range", "m", "gap where the depletion attraction ends: twice the radius of gyration of the polymer", "",
-                 physical::length),
+        quantity("attraction-range", "m", "gap where the depletion attraction ends: twice the radius of gyration of the polymer",
+                 "", physical::length),
         quantity("size-ratio", "1", "radius of gyration over the radius of the particles, from which the range follows", "",
                  within(smallest_range / 2, largest_range / 2)),
         quantity("surface-potential", "V", "surface potential of the particles; required unless a table gives the potential", "",
@@ -112,18 +113,21 @@ std::vector<Option> potential_options() {
         quantity("yukawa-energy", "J", "energy at contact of an additional Yukawa potential", "", within(-1e-15, 1e-15)),
         quantity("yukawa-length", "m", "screening length of the Yukawa potential", "", physical::length),
         reads(text("potential-table", "FILE", "CSV file with columns 'gap [unit],energy [unit]', in place of these potentials")),
-        quantity("contact-stiffness", "N/m", "stiffness of the elastic contact below a cut-off gap; when not given 4e5 kB T/R^2, with depletion that of the well",
-                 "", physical::stiffness),
+        quantity(
+            "contact-stiffness", "N/m",
+            "stiffness of the elastic contact below a cut-off gap; when not given 4e5 kB T/R^2, with depletion that of the well",
+            "", physical::stiffness),
         quantity("equilibrium-gap", "m", "gap at which two particles in contact rest; 0.004 R when not given", "",
                  physical::length),
-        quantity("cutoff-gap", "m", "gap beyond which there are no forces; when not given R, with depletion twice the range", "", physical::length),
+        quantity("cutoff-gap", "m", "gap beyond which there are no forces; when not given R, with depletion twice the range", "",
+                 physical::length),
         quantity("temperature", "K", "temperature of the suspension", "293K", within(1, 1e4)),
         flag("potential-curve", "print the potential against the gap and run nothing"),
         writes(text("picture", "FILE", "with --potential-curve: draw the curve into this file, .svg, .png or .pdf"))};
     read_only_with(options, {"depth", "polymer-concentration", "attraction-range", "size-ratio"}, "law", {"depletion"});
     not_read_with(options,
-                  {"surface-potential", "debye-length", "ionic-strength", "double-layer", "hamaker-constant", "permittivity", "valency",
-                   "potential-table"},
+                  {"surface-potential", "debye-length", "ionic-strength", "double-layer", "hamaker-constant", "permittivity",
+                   "valency", "potential-table"},
                   "law", {"depletion"});
     return options;
 }
@@ -131,9 +135,9 @@ std::vector<Option> potential_options() {
 double Depletion::range_of(double radius) const {
     const double found = range ? *range : 2 * *size_ratio * radius;
     if (!(found >= smallest_range * radius && found <= largest_range * radius)) {
-        throw InputError("the attraction ends at a gap of " + to_text(found) + " m, which is " + to_text(found / radius) +
-                         " radii of the particles: a depletion attraction by pairs may have " + to_text(smallest_range) + " to " +
-                         to_text(largest_range));
+        throw InputError("the attraction ends at a gap of " + with_unit(found, "m") + ", which is " +
+                         with_unit(found / radius, "1") + " radii of the particles: a depletion attraction by pairs may have " +
+                         to_text(smallest_range) + " to " + to_text(largest_range));
     }
     return found;
 }

@@ -255,8 +255,8 @@ ShearRun shear_run(const Arguments& arguments, const BondsOfStructure& of) {
                          arguments.spelled("stiffness-from", from) + " asks for: gels of depletion attraction do");
     }
     // Two particles in series make a contact. The attraction is central: nothing resists sliding unless it is asked for.
-    resolved = resolved.with_quantity("normal-stiffness",
-                                      2 * (from == "thermal" ? of.bonds->thermal_stiffness : of.bonds->stiffness));
+    resolved =
+        resolved.with_quantity("normal-stiffness", 2 * (from == "thermal" ? of.bonds->thermal_stiffness : of.bonds->stiffness));
     if (!arguments.given("shear-stiffness")) {
         resolved = resolved.with_quantity("shear-stiffness", 0);
     }
@@ -300,12 +300,14 @@ Verb shear_verb() {
                       physical::stiffness),
              quantity("shear-stiffness", "N/m", "shear stiffness of a particle", "10N/m", within(0, 1e15)),
              choice("stiffness-from", {"options", "potential", "thermal"},
-                    "potential: normal stiffness by the attraction that made a depletion gel, no shear stiffness unless given; thermal: "
+                    "potential: normal stiffness by the attraction that made a depletion gel, no shear stiffness unless given; "
+                    "thermal: "
                     "by the motion of bound pairs in it",
                     "options"),
-             quantity("bond-tolerance", "1",
-                      "pairs nearer than (1 + X) (r_i + r_j) are bonded; of a depletion gel the range of the attraction when not given",
-                      "0.01", within(0, 1)),
+             quantity(
+                 "bond-tolerance", "1",
+                 "pairs nearer than (1 + X) (r_i + r_j) are bonded; of a depletion gel the range of the attraction when not given",
+                 "0.01", within(0, 1)),
              text("frequency", "LIST", "compute the response to an oscillating strain at these frequencies, such as 1Hz,10Hz"),
              text("frequency-sweep", "FROM:TO:N", "compute it at N frequencies in logarithmic steps, such as 0.1Hz:1kHz:20"),
              reads(text("model", "FILE.toml", "all parameters of the contacts and the solvent (docs/reference/contact-model.md)")),

@@ -80,6 +80,42 @@ double diffusion_of_axes(const BrownianOptions& options, double interval, int ti
     return -std::log(sum / static_cast<double>(count)) / (2 * interval);
 }
 
+TEST(BrownianContacts, SlipByThermalMotionCoolsSlidingAndLeavesTheNormalMode) {
+    // Coulomb's slip loses energy without a noise of its own, so what the spring holds is below equipartition: it cannot be more
+    // than at the limit of friction, a fifth of kB T here. The gap has its Boltzmann variance all the same.
+    constexpr int side = 12;
+    constexpr double tangential = 1e5;
+    constexpr double most = 0.2;
+    const PairPotential potential = dlvo(0);
+    const double normal_force = potential.contact().stiffness / stiffness_unit * (potential.cut_gap() / radius - rest_gap);
+    const Packing start = examples::lattice_of_pairs(side, [](int) { return rest_gap; });
+    BrownianOptions options;
+    options.resistance = resistance(tangential);
+    options.resistance.friction = std::sqrt(2 * tangential * most) / normal_force;
+    const BrownianRun run = watch(start, options, 6e-5, 80);
+    const double sliding = late_mean(run.series.sliding_energy) / (side * side * side * thermal);
+    std::vector<double> gaps;
+    for (std::size_t time = 20; time < run.snapshots.size(); ++time) {
+        const std::vector<double> more = examples::gaps_of(start.cell, run.snapshots[time].positions);
+        gaps.insert(gaps.end(), more.begin(), more.end());
+    }
+    const double count = static_cast<double>(gaps.size());
+    const double mean = std::accumulate(gaps.begin(), gaps.end(), 0.0) / count;
+    const double variance =
+        std::accumulate(gaps.begin(), gaps.end(), 0.0, [&](double sum, double gap) { return sum + (gap - mean) * (gap - mean); }) /
+        count;
+    const auto average = [&](const std::function<double(double)>& weight) {
+        return examples::boltzmann_integral(potential, -0.01, 0.018, weight) /
+               examples::boltzmann_integral(potential, -0.01, 0.018);
+    };
+    const double exact_mean = average([](double gap) { return gap; });
+    const double exact = average([&](double gap) { return (gap - exact_mean) * (gap - exact_mean); });
+    std::printf("sliding energy over kB T %.4f, at most %.1f; variance of gaps over exact %.4f\n", sliding, most, variance / exact);
+    EXPECT_LT(sliding, most * 1.1);  // the normal force, and its square more, fluctuates about that at rest
+    EXPECT_GT(sliding, 0.5 * most);
+    EXPECT_NEAR(variance / exact, 1, 0.03);
+}
+
 TEST(BrownianContacts, PairThatSlidesAndPairThatRolls) {
     // Two centres at a distance r: relative mobility 2 along the tangent. Where the surfaces must not slide, the friction turns
     // both spheres (mobility 3/4, lever r/2): the mobility 2 of the centres becomes 2 s/(2 + s), s = 2 (3/4) (r/2)^2, about 3/7 of

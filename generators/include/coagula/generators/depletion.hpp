@@ -38,9 +38,9 @@ struct BoundPair {
     double rupture_force = unset;      ///< largest attraction [N]
 };
 
-/// What the well of a potential says about the bonds that it makes. The variance is that of Boltzmann's distribution of the distances
-/// up to the bond range. A distance is one component of a displacement, so kB T stands where 3 kB T stands over the variance of all
-/// three. Throws std::invalid_argument for a potential without a well of its own.
+/// What the well of a potential says about the bonds that it makes. The variance is that of Boltzmann's distribution of the
+/// distances up to the bond range. A distance is one component of a displacement, so kB T stands where 3 kB T stands over the
+/// variance of all three. Throws std::invalid_argument for a potential without a well of its own.
 /// @param radius of both spheres [m], > 0. @param temperature [K], > 0. @param bond_range gap up to which a pair is bound [m].
 BoundPair bound_pair(const PairPotential& potential, double radius, double temperature, double bond_range);
 

@@ -96,8 +96,8 @@ private:
 /// attraction of particles by a polymer that does not adsorb (depletion.hpp).
 class Morse {
 public:
-    /// @param depth of the well [J], > 0. @param rest the gap at its bottom [m]. @param length by which the attraction falls off [m],
-    /// > 0.
+    /// @param depth of the well [J], > 0. @param rest the gap at its bottom [m]. @param length by which the attraction falls off
+    /// [m], > 0.
     Morse(double depth, double rest, double length);
     double energy(double gap) const;
     double force(double gap) const;

@@ -28,8 +28,8 @@ public:
     /// Throws std::invalid_argument when no law is given, or when no cut-off gap leads to the equilibrium wanted (the attraction is
     /// too strong for so soft a contact).
     PairPotential(std::vector<PairLaw> laws, const ElasticContact& contact);
-    /// Laws that have a well of their own: they act down to a cut-off gap where they repel. The equilibrium gap is the first above it
-    /// where the force vanishes. Throws std::invalid_argument when there is none.
+    /// Laws that have a well of their own: they act down to a cut-off gap where they repel. The equilibrium gap is the first above
+    /// it where the force vanishes. Throws std::invalid_argument when there is none.
     /// @param stiffness below the cut-off gap [N/m], > 0. @param farthest gap where the bottom of the well may be [m].
     PairPotential(std::vector<PairLaw> laws, double stiffness, double cut_gap, double farthest);
 
