@@ -193,11 +193,7 @@ bool Inference::is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd plac
 
 /// Draws at equal steps of the cumulated probability.
 Eigen::MatrixXd Inference::draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters) {
-    std::vector<double> weights;
-    for (const Node& node : grid.nodes) {
-        weights.push_back(node.log_weight);
-    }
-    const std::vector<double> probability = probabilities_of(std::move(weights));
+    const std::vector<double> probability = probabilities_of(grid.log_weights());
     Eigen::MatrixXd draws(static_cast<Index>(parameters.size()) + 1, posterior_draws);
     double below = 0;
     std::size_t number = 0;
@@ -216,13 +212,29 @@ Eigen::MatrixXd Inference::draws_from(const PosteriorGrid& grid, const std::vect
     return draws;
 }
 
+/// The highest of the nodes, or between them where a parabola through these leads higher.
+std::pair<Eigen::VectorXd, Node> Inference::most_probable(const Hypothesis& hypothesis, const PosteriorGrid& grid) const {
+    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
+    const std::size_t best = grid.best();
+    const auto at = [&](const Eigen::VectorXd& place) {
+        return place == grid.places[best] ? grid.nodes[best]
+                                          : best_stiffness(model_at(hypothesis, place, 1), grid.nodes[best].log_stiffness);
+    };
+    const Eigen::VectorXd at_node = rounded(parameters, grid.places[best]);
+    const std::optional<Eigen::VectorXd> peak = parameters.empty() ? std::nullopt : grid.peak();
+    const Eigen::VectorXd between = peak ? rounded(parameters, *peak) : at_node;
+    const Node node = at(at_node);
+    if (between == at_node) {
+        return {at_node, node};
+    }
+    const Node higher = at(between);
+    return higher.log_weight > node.log_weight ? std::pair(between, higher) : std::pair(at_node, node);
+}
+
 Fit Inference::fit(const Hypothesis& hypothesis) const {
     const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
     const PosteriorGrid grid = posterior(hypothesis);
-    const std::size_t best = grid.best();
-    const Eigen::VectorXd place = rounded(parameters, grid.places[best]);
-    const Node node = place == grid.places[best] ? grid.nodes[best]
-                                                 : best_stiffness(model_at(hypothesis, place, 1), grid.nodes[best].log_stiffness);
+    const auto [place, node] = most_probable(hypothesis, grid);
     const double stiffness = std::exp(node.log_stiffness);
     Fit fit{.hypothesis = hypothesis,
             .model = model_at(hypothesis, place, stiffness),

@@ -18,9 +18,6 @@
 
 namespace coagula::diagnose {
 
-/// Distance from the ends of a prior, 0 .. 1, that fits by straight lines keep.
-inline constexpr double prior_edge = 1e-3;
-
 /// A parameter's posterior.
 struct Posterior {
     double value;  ///< most probable
@@ -109,6 +106,7 @@ private:
     PosteriorGrid posterior(const Hypothesis& hypothesis) const;
     std::optional<PosteriorGrid> grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
                                                  const EvaluateNode& evaluate) const;
+    std::pair<Eigen::VectorXd, Node> most_probable(const Hypothesis& hypothesis, const PosteriorGrid& grid) const;
     Node highest_of_base(const Node& found) const;
     bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
     double log_level(Model model = {}) const;

@@ -3,25 +3,19 @@
 
 #include <coagula/common/log_probability.hpp>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace coagula::diagnose {
 
 namespace {
-
-/// Where a growing function passes a value.
-double halved(const std::function<double(double)>& function, double value, double low, double high) {
-    for (int halving = 0; halving < 50; ++halving) {
-        const double middle = 0.5 * (low + high);
-        (function(middle) < value ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
 
 using Eigen::Index;
 
@@ -118,15 +112,15 @@ private:
     std::vector<Eigen::VectorXd> parts_;
 };
 
-std::vector<double> log_weights(const PosteriorGrid& grid) {
+}  // namespace
+
+std::vector<double> PosteriorGrid::log_weights() const {
     std::vector<double> weights;
-    for (const Node& node : grid.nodes) {
+    for (const Node& node : nodes) {
         weights.push_back(node.log_weight);
     }
     return weights;
 }
-
-}  // namespace
 
 std::size_t PosteriorGrid::best() const {
     const auto found =
@@ -135,12 +129,12 @@ std::size_t PosteriorGrid::best() const {
 }
 
 double PosteriorGrid::log_evidence() const {
-    return log_sum(log_weights(*this)) + log_cell;
+    return log_sum(log_weights()) + log_cell;
 }
 
 double PosteriorGrid::effective_nodes() const {
     double squares = 0;
-    for (const double probability : probabilities_of(log_weights(*this))) {
+    for (const double probability : probabilities_of(log_weights())) {
         squares += probability * probability;
     }
     return 1 / squares;
@@ -150,17 +144,30 @@ bool PosteriorGrid::reaches(const Eigen::VectorXd& place) const {
     return factor.triangularView<Eigen::Lower>().solve(place - mode).norm() <= reach;
 }
 
+std::vector<bool> PosteriorGrid::resolved_axes(double enough) const {
+    const Eigen::ArrayXd variance = moments().second.diagonal();
+    const Eigen::Array<bool, Eigen::Dynamic, 1> resolved = variance >= enough * (2 * half_widths).array().square();
+    return {resolved.begin(), resolved.end()};
+}
+
 bool PosteriorGrid::resolves_axes() const {
-    const std::vector<double> probability = probabilities_of(log_weights(*this));
+    constexpr double enough = 0.65;  // three nodes of equal weight have two thirds
+    const std::vector<bool> resolved = resolved_axes(enough);
+    return std::find(resolved.begin(), resolved.end(), false) == resolved.end();
+}
+
+std::pair<Eigen::VectorXd, Eigen::MatrixXd> PosteriorGrid::moments() const {
+    const std::vector<double> probability = probabilities_of(log_weights());
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(half_widths.size());
-    Eigen::VectorXd squares = mean;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         mean += probability[k] * places[k];
-        squares += probability[k] * places[k].cwiseAbs2();
     }
-    const Eigen::VectorXd variance = squares - mean.cwiseAbs2();
-    constexpr double enough = 0.65;  // of the square of a cell: three nodes of equal weight have two thirds
-    return (variance.array() >= enough * (2 * half_widths).array().square()).all();
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(mean.size(), mean.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const Eigen::VectorXd away = places[k] - mean;
+        covariance += probability[k] * away * away.transpose();
+    }
+    return {std::move(mean), std::move(covariance)};
 }
 
 bool PosteriorGrid::is_fine() const {
@@ -168,47 +175,12 @@ bool PosteriorGrid::is_fine() const {
     return effective_nodes() >= std::pow(enough, static_cast<double>(half_widths.size()));
 }
 
-double PosteriorGrid::quantile(Index axis, double part) const {
-    const std::vector<double> probability = probabilities_of(log_weights(*this));
-    const double half = half_widths[axis];
-    // A node stands for its cell.
-    const auto below = [&](double place) {
-        double sum = 0;
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
-            sum += probability[k] * std::clamp((place - places[k][axis] + half) / (2 * half), 0.0, 1.0);
-        }
-        return sum;
-    };
-    return halved(below, part, 0, 1);
-}
-
-double PosteriorGrid::log_stiffness_quantile(double part, double further) const {
-    constexpr double farthest = 10;  // standard deviations
-    const std::vector<double> probability = probabilities_of(log_weights(*this));
-    const auto deviation = [&](const Node& node) { return std::hypot(node.deviation, further); };
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const Node& node : nodes) {
-        low = std::min(low, node.log_stiffness - farthest * deviation(node));
-        high = std::max(high, node.log_stiffness + farthest * deviation(node));
-    }
-    const auto below = [&](double log_stiffness) {
-        double sum = 0;
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
-            const double departure = (log_stiffness - nodes[k].log_stiffness) / deviation(nodes[k]);
-            sum += probability[k] * 0.5 * std::erfc(-departure / std::numbers::sqrt2);
-        }
-        return sum;
-    };
-    return halved(below, part, low, high);
-}
-
 ClosingGrid::ClosingGrid(Index axes, EvaluateNode evaluate)
     : evaluate_(std::move(evaluate)), low_(Eigen::ArrayXd::Zero(axes)), high_(Eigen::ArrayXd::Ones(axes)) {
     const auto count = static_cast<std::size_t>(axes);
     const NodesAlong nodes = nodes_for(axes);
     fill(std::vector<int>(count, nodes.first));
-    const std::vector<double> rough = roughness(grid_.nodes, along_, infinite);
+    const std::vector<double> rough = roughness(grid_.nodes, grid_.along, infinite);
     settled_ = std::all_of(rough.begin(), rough.end(), [](double one) { return one < smooth; });
     if (!settled_) {
         fill(std::vector<int>(count, nodes.whole));
@@ -217,20 +189,21 @@ ClosingGrid::ClosingGrid(Index axes, EvaluateNode evaluate)
 
 void ClosingGrid::fill(const std::vector<int>& along) {
     const Index axes = low_.size();
-    along_ = along;
     grid_ = {};
+    grid_.along = along;
     for (const Eigen::VectorXd& cell : middles(along)) {
         grid_.places.emplace_back((low_ + (high_ - low_) * cell.array()).matrix());
         grid_.nodes.push_back(evaluate_(grid_.places.back()));
     }
     const Eigen::ArrayXd width = (high_ - low_) / Eigen::ArrayXi::Map(along.data(), axes).cast<double>();
     grid_.log_cell = width.log().sum();
+    grid_.cell = width.matrix().asDiagonal();
     grid_.half_widths = (0.5 * width).matrix();
 }
 
 /// Few along axes along which the posterior hardly varies, and the more along the others.
 std::vector<int> ClosingGrid::nodes_of_box() const {
-    const std::vector<double> rough = roughness(grid_.nodes, along_, heavy);
+    const std::vector<double> rough = roughness(grid_.nodes, grid_.along, heavy);
     const auto narrow = std::count_if(rough.begin(), rough.end(), [](double one) { return one >= smooth; });
     std::vector<int> along;
     for (const double one : rough) {
@@ -257,6 +230,38 @@ void ClosingGrid::close_in(int rounds) {
             is_box_ = true;
             settled_ = std::abs(grid_.log_evidence() - before) < same_evidence && grid_.effective_nodes() > enough &&
                        grid_.resolves_axes();
+        }
+    }
+}
+
+void ClosingGrid::refine(int rounds) {
+    constexpr int most_nodes = 1000;
+    constexpr double lost_peak = 0.5;  // logarithms
+    constexpr double enough = 0.3;     // two nodes of equal weight have a quarter; with more, parabolas tell the rest
+    for (int round = 0; round < rounds; ++round) {
+        const std::vector<bool> resolved = grid_.resolved_axes(enough);
+        const auto coarse = std::count(resolved.begin(), resolved.end(), false);
+        if (coarse == 0) {
+            return;
+        }
+        std::vector<int> along = nodes_of_box();
+        for (std::size_t axis = 0; axis < along.size(); ++axis) {
+            along[axis] = resolved[axis] ? along[axis] : std::max(along[axis], nodes_for(coarse).box);
+        }
+        if (std::accumulate(along.begin(), along.end(), 1, std::multiplies<>()) > most_nodes) {
+            return;
+        }
+        const auto [low, high] = box_of_posterior();
+        PosteriorGrid before = std::exchange(grid_, {});
+        low_ = low;
+        high_ = high;
+        fill(along);
+        is_box_ = true;
+        // Nodes between which a narrow maximum falls tell less, however near they are.
+        const double lost = before.nodes[before.best()].log_weight - grid_.nodes[grid_.best()].log_weight;
+        if (lost > lost_peak && grid_.effective_nodes() < before.effective_nodes()) {
+            grid_ = std::move(before);
+            return;
         }
     }
 }
@@ -291,6 +296,7 @@ PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& fac
     grid.mode = mode;
     grid.factor = factor;
     grid.log_cell = edges.diagonal().array().abs().log().sum();
+    grid.cell = edges;
     grid.half_widths = 0.5 * edges.rowwise().norm();
     const CutCell cut(edges);
     for (const Eigen::VectorXd& cell : middles(std::vector<int>(static_cast<std::size_t>(mode.size()), nodes))) {
@@ -307,6 +313,18 @@ PosteriorGrid grid_about(const Eigen::VectorXd& mode, const Eigen::MatrixXd& fac
         }
     }
     return grid;
+}
+
+PosteriorGrid refined(const PosteriorGrid& grid, const EvaluateNode& evaluate) {
+    const auto [mean, covariance] = grid.moments();
+    const Eigen::MatrixXd of_cells = grid.cell * grid.cell.transpose() / 12;
+    PosteriorGrid finer = grid_about(mean, (covariance + of_cells).llt().matrixL(), evaluate);
+    const double least = grid.nodes[grid.best()].log_weight - heavy;
+    bool holds_all = !finer.nodes.empty() && finer.effective_nodes() > grid.effective_nodes();
+    for (std::size_t k = 0; k < grid.nodes.size(); ++k) {
+        holds_all = holds_all && (grid.nodes[k].log_weight < least || finer.reaches(grid.places[k]));
+    }
+    return holds_all ? finer : grid;
 }
 
 }  // namespace coagula::diagnose

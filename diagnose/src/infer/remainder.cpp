@@ -129,18 +129,39 @@ Eigen::VectorXd values_at(const Inference& inference, const Start& start, const 
     return values;
 }
 
-/// The fit where the model beside a departure would have it, and how well it is determined there.
+/// A parameter that a normal posterior, of which the prior cuts off a part, leads to.
+Posterior within_prior(const MechanismParameter& parameter, double value, double place, double deviation) {
+    const auto [low, high] = middle_within_prior(place, deviation, 0.9);
+    return {value, std::min(value, parameter.at(low)), std::max(value, parameter.at(high))};
+}
+
+/// Whether the data would have more of it than its prior: a tenth of the range beyond its end is more probable by an e-fold.
+bool leads_beyond_prior(double place, double deviation) {
+    constexpr double beyond = 0.1;
+    return std::max(-place, place - 1) * beyond > deviation * deviation;
+}
+
+/// The fit where the model beside a departure would have it, and how well it is determined there. What does not follow keeps the
+/// posterior that it has by itself.
 Fit moved_fit(const Inference& inference, const Start& start, const Followed& beside) {
-    const Eigen::VectorXd half = normal_half_width * beside.covariance.diagonal().cwiseSqrt();
+    const std::vector<MechanismParameter> parameters = parameters_of(start.fit.hypothesis);
+    const Eigen::VectorXd deviation = beside.covariance.diagonal().cwiseSqrt();
     const Eigen::VectorXd middle = values_at(inference, start, beside.moved);
-    const Eigen::VectorXd low = values_at(inference, start, beside.moved - half);
-    const Eigen::VectorXd high = values_at(inference, start, beside.moved + half);
     const Eigen::VectorXd rest = middle.tail(middle.size() - 1);
     Fit fit = start.fit;
     fit.model = Model(fit.hypothesis, Values(rest.data(), static_cast<std::size_t>(rest.size())), middle[0]);
-    fit.stiffness = {middle[0], low[0], high[0]};
-    for (Index k = 0; k < rest.size(); ++k) {
-        fit.parameters[static_cast<std::size_t>(k)] = {rest[k], low[k + 1], high[k + 1]};
+    for (std::size_t k = 0; k < start.follow.size(); ++k) {
+        const double sigma = deviation[static_cast<Index>(k)];
+        const double value = middle[start.follow[k]];
+        if (start.follow[k] == 0) {
+            const double factor = std::exp(normal_half_width * sigma);
+            fit.stiffness = {value, value / factor, value * factor};
+            continue;
+        }
+        const auto number = static_cast<std::size_t>(start.follow[k]) - 1;
+        const double place = parameters[number].place_of(start.fit.values()[number]) + beside.moved[static_cast<Index>(k)];
+        fit.parameters[number] = within_prior(parameters[number], value, place, sigma);
+        fit.active_end[number] = leads_beyond_prior(place, sigma);
     }
     return fit;
 }
@@ -155,7 +176,7 @@ Eigen::MatrixXd draws_of(const Inference& inference, const Start& start, const F
             normal[k] =
                 random_normal(0, RandomPurpose::diagnosis, static_cast<std::uint64_t>(draw), static_cast<std::uint64_t>(k))[0];
         }
-        draws.col(draw) = values_at(inference, start, beside.moved + root * normal);
+        draws(start.follow, draw) = values_at(inference, start, beside.moved + root * normal)(start.follow);
     }
     return draws;
 }

@@ -188,7 +188,11 @@ PosteriorGrid Inference::posterior(const Hypothesis& hypothesis) const {
         closing.close_in(more_rounds);
         look_about_mode();
     }
-    return about && sees_more(*about, grid) ? *about : grid;
+    if (about && sees_more(*about, grid)) {
+        return about->is_fine() ? *about : refined(*about, evaluate);
+    }
+    closing.refine(axes > 1 ? 1 : 2);
+    return grid;
 }
 
 }  // namespace coagula::diagnose

@@ -65,6 +65,86 @@ TEST(PosteriorGrid, HasFewNodesWhereThePosteriorHardlyDiffersFromThePrior) {
     EXPECT_GT(steep.grid().nodes.size(), 100U);
 }
 
+/// Half the width that 90 % of a normal distribution have, in standard deviations.
+constexpr double half_width = 1.6449;
+
+/// Two nodes on the whole peak are enough: between nodes the logarithm of the density is a parabola.
+TEST(PosteriorGrid, QuantilesAndPeakLieBetweenTheNodes) {
+    for (const double mean : {0.31, 0.4711, 0.5, 0.757}) {
+        for (const double deviation : {0.012, 0.02, 0.06}) {
+            ClosingGrid closing(1, [=](const Eigen::VectorXd& place) {
+                const double away = (place[0] - mean) / deviation;
+                return Node{.log_weight = -0.5 * away * away};
+            });  // 41 nodes over the prior
+            const PosteriorGrid& grid = closing.grid();
+            EXPECT_NEAR(grid.quantile(0, 0.05), mean - half_width * deviation, 0.01 * deviation) << mean << " " << deviation;
+            EXPECT_NEAR(grid.quantile(0, 0.95), mean + half_width * deviation, 0.01 * deviation) << mean << " " << deviation;
+            const auto peak = grid.peak();
+            EXPECT_NEAR(peak ? (*peak)[0] : grid.places[grid.best()][0], mean, 0.05 * deviation) << mean << " " << deviation;
+        }
+    }
+}
+
+TEST(PosteriorGrid, PeakOfARidgeLiesBetweenTheNodes) {
+    Eigen::Matrix2d covariance;
+    covariance << 4e-4, 3e-4, 3e-4, 4e-4;
+    const Eigen::Vector2d mean(0.417, 0.5731);
+    const PosteriorGrid grid = grid_along_axes(normal_density(mean, covariance));
+    const auto peak = grid.peak();
+    ASSERT_TRUE(peak.has_value());
+    EXPECT_LT((*peak - mean).norm(), 1e-6);
+    EXPECT_GT((grid.places[grid.best()] - mean).norm(), 1e-3);
+    const Eigen::VectorXd beside = mean + Eigen::Vector2d(0.003, -0.002);
+    const PosteriorGrid about =
+        grid_about(beside, Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL(), normal_density(mean, covariance));
+    ASSERT_TRUE(about.peak().has_value());
+    EXPECT_LT((*about.peak() - mean).norm(), 1e-6);
+}
+
+/// A slope that ends with the prior: nodes along such an axis were fewer each second time that the grid closed in.
+TEST(PosteriorGrid, IsRefinedUntilItsNodesTellTheQuantiles) {
+    for (const double steepness : {30.0, 45.0, 60.0, 90.0, 200.0}) {
+        ClosingGrid closing(1, [=](const Eigen::VectorXd& place) { return Node{.log_weight = steepness * (place[0] - 1)}; });
+        closing.close_in(7);
+        closing.refine(2);
+        const PosteriorGrid& grid = closing.grid();
+        EXPECT_TRUE(grid.resolved_axes(0.3).front()) << steepness;
+        EXPECT_NEAR(grid.log_evidence(), -std::log(steepness), 0.1) << steepness;
+        EXPECT_NEAR(steepness * (1 - grid.quantile(0, 0.05)), -std::log(0.05), 0.05) << steepness;
+        EXPECT_NEAR(steepness * (1 - grid.quantile(0, 0.95)), -std::log(0.95), 0.01) << steepness;
+    }
+}
+
+/// A covariance that is far too wide leaves few nodes that count.
+TEST(PosteriorGrid, AboutAModeIsRefinedByItsOwnNodes) {
+    const Eigen::Vector2d mean(0.41, 0.57);
+    const Eigen::Matrix2d covariance = 1e-6 * Eigen::Matrix2d::Identity();
+    const EvaluateNode density = normal_density(mean, covariance);
+    const Eigen::Vector2d beside = mean + Eigen::Vector2d(0.002, -0.003);
+    const PosteriorGrid coarse = grid_about(beside, 0.008 * Eigen::Matrix2d::Identity(), density);
+    EXPECT_FALSE(coarse.is_fine());
+    const PosteriorGrid fine = refined(coarse, density);
+    EXPECT_TRUE(fine.is_fine());
+    EXPECT_NEAR(fine.log_evidence(), 0, 0.02);
+    EXPECT_NEAR(fine.quantile(0, 0.95) - fine.quantile(0, 0.05), 2 * half_width * 1e-3, 5e-5);
+}
+
+TEST(PosteriorGrid, NormalPosteriorsAreCutOffByThePrior) {
+    const auto [low, high] = middle_within_prior(0.4, 0.01, 0.9);
+    EXPECT_NEAR(low, 0.4 - half_width * 0.01, 1e-6);
+    EXPECT_NEAR(high, 0.4 + half_width * 0.01, 1e-6);
+    // At an end a half of it is left; far beyond that an exponential, of deviation^2 over the distance.
+    const auto [half_low, half_high] = middle_within_prior(1, 0.01, 0.9);
+    EXPECT_NEAR(half_low, 1 - 1.95996 * 0.01, 1e-5);
+    EXPECT_NEAR(half_high, 1 - 0.062707 * 0.01, 1e-5);
+    const auto [far_low, far_high] = middle_within_prior(-0.2, 0.01, 0.9);
+    EXPECT_NEAR(far_low, -std::log(0.95) * 0.01 / 20, 2e-6);
+    EXPECT_NEAR(far_high, -std::log(0.05) * 0.01 / 20, 2e-5);
+    const auto [beyond_low, beyond_high] = middle_within_prior(5, 1e-6, 0.9);
+    EXPECT_LT(beyond_low, beyond_high);
+    EXPECT_LE(beyond_high, 1);
+}
+
 /// One axis that is known to a hundredth of its prior beside three that are not known at all, or to a third.
 TEST(PosteriorGrid, ClosesInOnANarrowAxisBesideFlatOnes) {
     for (const double middle : {0.3, 0.5, 0.86}) {

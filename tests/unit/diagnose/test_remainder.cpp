@@ -119,6 +119,27 @@ TEST(Remainder, LeadsTheParametersToWhereTheyStay) {
     EXPECT_GT(beside.high, 3e-5);
 }
 
+/// A smooth material follows by its own functions and keeps the parameters where they are; they are no better known for that.
+TEST(Remainder, OfASmoothMaterialLeavesNoIntervalOfZeroWidth) {
+    Experiment experiment = sweeps_of(
+        [](double frequency) { return std::complex<double>(1, 0.2) * with_inertia(frequency) * (frequency > 100 ? 1.2 : 1.0); }, 5);
+    experiment.material.kind = MaterialKind::smooth;
+    const DataSet data = data_set_of(experiment, {.sample = 0.02});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    for (const char* cause : {"tool-inertia", "bearing-damping"}) {
+        const Fit without = inference.fit({find_mechanism(cause)});
+        const SmoothRemainder beside = find_remainder(inference, without, smooth_departures(data.observations));
+        const Posterior& parameter = beside.fit.parameters.front();
+        EXPECT_LT(parameter.low, parameter.high) << cause;
+        EXPECT_LE(parameter.low, parameter.value) << cause;
+        EXPECT_GE(parameter.high, parameter.value) << cause;
+        const Eigen::VectorXd drawn = beside.fit.draws.row(1);
+        EXPECT_GT(drawn.maxCoeff(), drawn.minCoeff()) << cause;
+    }
+}
+
 /// Beside a remainder that explains all there is nothing for a cause to add: its parameters lie anywhere in their priors, which is
 /// no evidence for it.
 TEST(Remainder, ThatExplainsAllIsNoEvidenceForACause) {
