@@ -30,11 +30,12 @@ MEMORY = 4 << 30
 SUSPENSION = "generate brownian --particles 100 --volume-fraction 0.2 --radius 0.25um --equilibration-time 1us --surface-potential 0"
 RUN = SUSPENSION + " --stop-time 1us -o made.h5"
 CURVE = "generate brownian --potential-curve --radius 0.25um --surface-potential 15mV"
+WELL = "generate brownian --potential-curve --radius 0.25um --law depletion --depth 5kT --size-ratio 0.1"
 
 # Small calls of each verb; an option is added to each of them, unless its text begins with the name of a method.
 CALLS = {
     "generate vem": ["generate vem --particles 30 --voids 15 --volume-fraction 0.4 --target-coordination 4 --radius 1um -o made.h5"],
-    "generate brownian": [RUN, CURVE],
+    "generate brownian": [RUN, CURVE, WELL],
     "characterize": ["characterize packing.h5 -o made.h5 --radii 20"],
     "shear": ["shear packing.h5 -o made.h5", "shear packing.h5 -o made.h5 --frequency 1Hz --model losses.toml"],
     "calibrate": ["calibrate packing.h5 -o made.csv"],
@@ -66,10 +67,14 @@ COMPANIONS = {"yukawa-energy": "--yukawa-length 1nm", "yukawa-length": "--yukawa
               "density-difference": "--gravity 10", "friction": "--tangential-stiffness 1", "rolling-stiffness": "--tangential-stiffness 1",
               "rolling-friction": "--tangential-stiffness 1 --rolling-stiffness 1", "plateau-time": "--stop-plateau mean-gap",
               "plateau-change": "--stop-plateau mean-gap", "checkpoint-interval": "--checkpoint state.h5",
+              "depth": "--law depletion --size-ratio 0.1", "polymer-concentration": "--law depletion --size-ratio 0.1",
+              "attraction-range": "--law depletion --depth 5", "size-ratio": "--law depletion --depth 5",
               "cycles": "--amplitudes 1e-4", "steps-per-cycle": "--amplitudes 1e-4", "ramp-steps": "--ramp 1e-4",
               "modulus-tolerance": "--solver iterative", "noise-replicas": "--position-noise 5nm",
               "voxels-per-radius": "--only transport", "most-voxels": "--only transport"}
-WITHOUT = {"stop-coordination": "--stop-time 1us", "voxels-per-radius": "--radii 20", "most-voxels": "--radii 20"}  # parts of a call that would hide the option
+WITHOUT = {"stop-coordination": "--stop-time 1us", "voxels-per-radius": "--radii 20", "most-voxels": "--radii 20",
+           "depth": "--surface-potential 0", "polymer-concentration": "--surface-potential 0", "attraction-range": "--surface-potential 0",
+           "size-ratio": "--surface-potential 0"}  # parts of a call that would hide the option
 # Numbers that may be missing, as the documentation says: ends of an interval that the data do not bound, errors of a line through two
 # points, ratios to a structure without load, a barrier that is not there, strengths that are found
 # too rarely, the model of a cause where none is found.
