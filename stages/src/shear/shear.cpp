@@ -324,8 +324,8 @@ Verb shear_verb() {
         .notes = {
             "--method dem takes one --frequency (default 1Hz) and scales the masses so that its time steps are few enough.",
             "With --frequency the springs may have losses (--model), and only --tolerance of the solver's options has an effect.",
-            "Bond strengths, friction and ageing have no effect at vanishing strain; linear and --frequency results list those "
-            "given.",
+            ("Bond strengths, friction and ageing have no effect at vanishing strain; linear and --frequency results list those "
+             "given."),
             "--relax moves the particles for the calculation only; relaxation_displacement in the file says how far.",
             "--method quasistatic without --amplitudes and --ramp computes secant moduli at a strain of 1e-6."}};
     verb.notes.emplace_back(

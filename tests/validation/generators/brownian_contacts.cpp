@@ -99,7 +99,7 @@ TEST(BrownianContacts, SlipByThermalMotionCoolsSlidingAndLeavesTheNormalMode) {
         const std::vector<double> more = examples::gaps_of(start.cell, run.snapshots[time].positions);
         gaps.insert(gaps.end(), more.begin(), more.end());
     }
-    const double count = static_cast<double>(gaps.size());
+    const auto count = static_cast<double>(gaps.size());
     const double mean = std::accumulate(gaps.begin(), gaps.end(), 0.0) / count;
     const double variance =
         std::accumulate(gaps.begin(), gaps.end(), 0.0, [&](double sum, double gap) { return sum + (gap - mean) * (gap - mean); }) /
