@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/outliers.hpp>
+#include <coagula/diagnose/replicate_groups.hpp>
 #include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/stated_errors.hpp>
+#include <coagula/diagnose/stress_control.hpp>
 #include <coagula/diagnose/waveform.hpp>
 #include <coagula/experiment/checked_experiment.hpp>
-#include <coagula/experiment/measured_tables.hpp>
 
+#include "copied_tables.hpp"
 #include "liquid.hpp"
 
 #include <algorithm>
@@ -17,24 +19,20 @@ namespace coagula::experiment {
 
 namespace {
 
-bool same_numbers(const diagnose::Measurement& one, const diagnose::Measurement& other) {
-    const auto alike = [](const diagnose::Column& a, const diagnose::Column& b) {
-        return a.name == b.name && same_values(a.values, b.values);
-    };
-    return one.kind == other.kind &&
-           std::equal(one.columns.begin(), one.columns.end(), other.columns.begin(), other.columns.end(), alike);
-}
-
 /// Plans, and copies: replicates are never the same to the last digit.
 void refuse_what_was_not_measured(const std::vector<diagnose::Measurement>& tables) {
     for (auto table = tables.begin(); table != tables.end(); ++table) {
         if (table->label.ends_with("(planned)")) {
             throw InputError(table->label + ": a planned table has no measured moduli; give --power to judge the plan");
         }
-        const auto copy = std::find_if(tables.begin(), table, [&](const auto& other) { return same_numbers(*table, other); });
-        if (copy != table && table->kind != diagnose::MeasurementKind::waveform) {
+        const auto copy = std::find_if(tables.begin(), table, [&](const auto& other) {
+            return table->kind != diagnose::MeasurementKind::waveform && likeness(*table, other) != Likeness::none;
+        });
+        if (copy != table) {
+            const bool rounded = likeness(*table, *copy) == Likeness::rounded;
             throw InputError(table->label + ", sample '" + table->sample + "': the same numbers as in " + copy->label +
-                             ", sample '" + copy->sample + "'; give each measurement once");
+                             ", sample '" + copy->sample + "'" + (rounded ? ", but for their rounding" : "") +
+                             "; give each measurement once");
         }
     }
 }
@@ -96,6 +94,17 @@ void state_inherited(diagnose::Experiment& experiment) {
     }
 }
 
+/// Whose strain is no coordinate, because it followed.
+void note_set_stresses(ExperimentFile& file) {
+    for (const diagnose::Measurement& table : file.experiment.measurements) {
+        if (!table.stress_controlled && diagnose::is_stress_controlled(table)) {
+            file.notes.push_back(table.label + ", sample '" + table.sample +
+                                 "': the stress stays while the strain changes from row to row, so that the stress is taken for "
+                                 "what was set and the strain for what followed; if it was not, say control = \"strain\"");
+        }
+    }
+}
+
 /// A network cannot show what a liquid does.
 void note_liquids(ExperimentFile& file) {
     const bool network = file.experiment.material.kind == diagnose::MaterialKind::network;
@@ -119,10 +128,14 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     std::transform(found.tables.begin(), found.tables.end(), experiment.measurements.begin(),
                    [](const diagnose::CheckedMeasurement& checked) { return checked.measurement; });
     note_liquids(found.file);
+    note_set_stresses(found.file);
     for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(experiment.measurements)) {
         found.file.notes.push_back(outlier.sentence);
     }
     state_inherited(experiment);
+    for (std::string& note : diagnose::notes_on_groups(experiment.measurements)) {
+        found.file.notes.push_back(std::move(note));
+    }
     found.noise = diagnose::noise_of_tables(experiment.measurements, noise);
     found.options.stated_noise = noise;
     diagnose::state_errors(experiment, found.noise);

@@ -92,6 +92,7 @@ private:
     toml::table root_;
     ExperimentFile result_;
     ExportMetadata metadata_;
+    std::map<std::size_t, ColumnsToDrop> without_;     ///< columns of measurements that are not to be used
     std::vector<std::size_t> raw_moduli_;              ///< measurements whose moduli are to be those of torque and raw phase
     std::map<std::string, io::MeasuredFile> exports_;  ///< by resolved name
 };
@@ -278,6 +279,7 @@ void ExperimentReader::derive_moduli() {
         if (!tables[i].label.ends_with("(planned)")) {
             diagnose::derive_moduli(tables[i], result_.experiment.instrument, raw);
             diagnose::derive_viscosity(tables[i]);
+            drop_derived_columns(tables[i], without_[i]);
         }
     }
 }
@@ -343,6 +345,7 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         const io::PlainTable named = with_names(keys, *chosen, rules, label);
         diagnose::Measurement measurement = in_setting(setting, to_measurement(named, *kind, label, rules));
         place_in_range(measurement, *chosen, *tables.front(), selection.first == 1);
+        without_[result_.experiment.measurements.size()] = drop_given_columns(measurement, selection.without);
         select(measurement, selection);
         if (chosen->announced_points > 0 && chosen->rows() != static_cast<std::size_t>(chosen->announced_points)) {
             result_.notes.push_back(label + ": the file announces " + std::to_string(chosen->announced_points) +

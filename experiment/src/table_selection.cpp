@@ -75,13 +75,10 @@ void set_clock(diagnose::Measurement& table, const TableSelection& selection) {
     }
 }
 
-void drop_columns(diagnose::Measurement& table, const std::vector<std::string>& names) {
-    for (const std::string& name : names) {
-        if (std::erase_if(table.columns, [&](const diagnose::Column& column) { return column.name == name; }) == 0) {
-            throw InputError(table.label + ": there is no column '" + name + "' to do without");
-        }
-        std::erase_if(table.left_out, [&](const diagnose::LeftOutCell& cell) { return cell.column == name; });
-    }
+/// Whether the table had it.
+bool drop_column(diagnose::Measurement& table, const std::string& name) {
+    std::erase_if(table.left_out, [&](const diagnose::LeftOutCell& cell) { return cell.column == name; });
+    return std::erase_if(table.columns, [&](const diagnose::Column& column) { return column.name == name; }) > 0;
 }
 
 void keep(std::vector<double>& values, const std::vector<std::size_t>& rows) {
@@ -149,7 +146,6 @@ TableSelection read_selection(TomlKeys& keys) {
 
 void select(diagnose::Measurement& table, const TableSelection& selection) {
     set_clock(table, selection);
-    drop_columns(table, selection.without);
     if (table.rows() == 0) {
         throw InputError(table.label + ": there are no rows below the header");
     }
@@ -178,6 +174,26 @@ void select(diagnose::Measurement& table, const TableSelection& selection) {
     std::erase_if(table.left_out, [&](const diagnose::LeftOutCell& cell) { return !place.contains(cell.row); });
     for (diagnose::LeftOutCell& cell : table.left_out) {
         cell.row = place.at(cell.row);
+    }
+}
+
+ColumnsToDrop drop_given_columns(diagnose::Measurement& table, const std::vector<std::string>& names) {
+    ColumnsToDrop columns{names, {}};
+    for (const std::string& name : names) {
+        const bool there = name == "strain" ? diagnose::find_column(table, name) != nullptr : drop_column(table, name);
+        if (!there) {
+            columns.missing.push_back(name);
+        }
+    }
+    return columns;
+}
+
+void drop_derived_columns(diagnose::Measurement& table, const ColumnsToDrop& columns) {
+    for (const std::string& name : columns.names) {
+        const bool derived = drop_column(table, name);
+        if (!derived && std::find(columns.missing.begin(), columns.missing.end(), name) != columns.missing.end()) {
+            throw InputError(table.label + ": there is no column '" + name + "' to do without");
+        }
     }
 }
 

@@ -37,4 +37,17 @@ TableSelection read_selection(TomlKeys& keys);
 /// InputError naming the table when nothing remains or a column is missing.
 void select(diagnose::Measurement& table, const TableSelection& selection);
 
+/// Columns to do without that a table was left with, or without, before its moduli were derived.
+struct ColumnsToDrop {
+    std::vector<std::string> names;
+    std::vector<std::string> missing;  ///< of these, what the table did not have
+};
+
+/// Takes columns away of which nothing else is derived; the strain stays as long as moduli may be those of stress and strain.
+ColumnsToDrop drop_given_columns(diagnose::Measurement& table, const std::vector<std::string>& names);
+
+/// Takes the same away once more after moduli and strain have been derived. Throws InputError naming a column that was there
+/// neither time.
+void drop_derived_columns(diagnose::Measurement& table, const ColumnsToDrop& columns);
+
 }  // namespace coagula::experiment

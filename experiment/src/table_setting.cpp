@@ -31,6 +31,15 @@ std::optional<bool> shares_clock(TomlKeys& keys) {
     return clock.empty() ? std::nullopt : std::optional(clock == "sample");
 }
 
+/// Whether the stress was set and the strain followed.
+std::optional<bool> is_under_stress(TomlKeys& keys) {
+    const std::string control = keys.text("control").value_or("");
+    if (!control.empty() && control != "stress" && control != "strain") {
+        keys.fail("control", "'" + control + "' is neither stress nor strain");
+    }
+    return control.empty() ? std::nullopt : std::optional(control == "stress");
+}
+
 }  // namespace
 
 diagnose::Measurement read_setting(TomlKeys& keys, std::size_t number) {
@@ -41,6 +50,8 @@ diagnose::Measurement read_setting(TomlKeys& keys, std::size_t number) {
     setting.pause = duration(keys, "pause");
     setting.preshear = duration(keys, "preshear");
     setting.shared_clock = shares_clock(keys);
+    setting.stress_controlled = is_under_stress(keys);
+    setting.instrument = keys.text("instrument").value_or("");
     setting.rough_plates = keys.flag("rough_plates");
     setting.solvent_trap = keys.flag("solvent_trap");
     setting.cone_angle = keys.quantity("cone_angle", "rad").value_or(unset);

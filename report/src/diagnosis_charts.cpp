@@ -251,6 +251,24 @@ std::string symbol_of(const std::string& observable) {
                                                         : "all numbers";
 }
 
+namespace {
+
+/// Measured values that are missing from the chart of a pair, because they were left out.
+std::string missing_values(const Measurement& table, const Pair& pair) {
+    std::string list;
+    for (std::size_t part = 0; part < pair.observables.size(); ++part) {
+        const auto count = std::count_if(table.left_out.begin(), table.left_out.end(), [&](const diagnose::LeftOutCell& cell) {
+            return cell.column == pair.observables.at(part);
+        });
+        if (count > 0) {
+            list += (list.empty() ? "" : " and ") + std::to_string(count) + " of " + pair.symbols.at(part);
+        }
+    }
+    return list.empty() ? "" : "<p class=\"soft\">Left out, and not drawn: " + list + " (see cells left out).</p>\n";
+}
+
+}  // namespace
+
 std::string table_charts(Charts& charts, const Measurement& table, std::size_t number, const Diagnosis& diagnosis,
                          const std::string& cause) {
     std::string html;
@@ -258,7 +276,7 @@ std::string table_charts(Charts& charts, const Measurement& table, std::size_t n
         const Shown shown = rows_of(table, number, diagnosis, pair);
         if (!shown.rows.empty()) {
             html += "<div class=\"pair\">\n" + charts.place(data_chart(shown, diagnosis, cause)) +
-                    charts.place(residual_chart(shown, diagnosis, cause)) + "</div>\n";
+                    charts.place(residual_chart(shown, diagnosis, cause)) + "</div>\n" + missing_values(table, pair);
         }
     }
     return html;

@@ -140,6 +140,33 @@ class Check(ProgramTest):
         self.assertEqual((table["rows"], columns["time"]["min"], columns["time"]["max"]), (10, 0, 135))
         self.assertEqual([(cell["column"], cell["row"]) for cell in table["left_out"]], [("storage_modulus", 3)])
 
+    def test_columns_to_do_without_may_be_derived(self):
+        """What torque and raw phase give counts, too: `without` takes the columns that remain."""
+        rows = "".join(f"{k + 1},1e-4,{1e-3 / (k + 1)},{20 + k},{100 + k},{30 + k}\n" for k in range(6))
+        self.write("raw.csv", "ω [rad/s],torque [N.m],deflection [rad],raw phase [deg],G' [Pa],G'' [Pa]\n" + rows)
+        plates = '[instrument]\ngeometry = "plate-plate"\nplate_radius = "20 mm"\ngap = "1 mm"\n'
+
+        def columns(*keys):
+            text = "\n".join(('kind = "frequency-sweep"', 'file = "raw.csv"', 'moduli = "raw"', *keys))
+            (table,) = self.found(experiment(text, before=plates))["measurements"]
+            return {column["name"] for column in table["columns"]}
+
+        self.assertLessEqual({"strain", "storage_modulus", "loss_modulus"}, columns())
+        self.assertNotIn("strain", columns('without = "strain"'))
+        self.assertIn("storage_modulus", columns('without = "strain"'))
+        self.assertNotIn("loss_modulus", columns('without = ["loss_modulus", "strain"]'))
+        self.write("experiment.toml", experiment('kind = "frequency-sweep"\nfile = "raw.csv"\nwithout = "viscosity"', before=plates))
+        self.fail_with(2, "diagnose", "--check", "experiment.toml", says="no column 'viscosity' to do without")
+
+    def test_what_the_stress_was_set_for_is_said(self):
+        sizes = [100 + 10 * k for k in range(8)]
+        text = 'kind = "frequency-sweep"\nfile = "s.csv"\n'
+        self.write("s.csv", "ω [rad/s],strain [1],stress [Pa],G' [Pa]\n" + "".join(f"{k + 1},{5 / size:.9g},5,{size}\n" for k, size in enumerate(sizes)))
+        self.assertIn("the stress is taken for what was set", " ".join(self.found(experiment(text))["notes"]))
+        self.assertNotIn("what was set", " ".join(self.found(experiment(text + 'control = "strain"'))["notes"]))
+        self.write("experiment.toml", experiment(text + 'control = "torque"'))
+        self.fail_with(2, "diagnose", "--check", "experiment.toml", says="'torque' is neither stress nor strain")
+
     def test_trios_steps_are_chosen_by_section_and_result(self):
         rows = "".join(f"{10 ** (0.5 * i)}\t{100 + i}\t{10}\n" for i in range(6))
         self.write("t.txt", "Filename\tx\n[step]\nConditioning\nTime\tTemperature\ns\t°C\n1\t20\n\n"
@@ -180,6 +207,21 @@ class BadInput(ProgramTest):
     def test_copies_and_plans_are_no_measurements(self):
         self.refuse(experiment(SWEEP, SWEEP + '\nsample = "B"'), "sweep.csv, sample 'B': the same numbers as in sweep.csv, sample 'measurement 1'")
         self.refuse(experiment('kind = "time-sweep"\nplanned = { from = "1 s", to = "9 s", points = 9 }'), "measurement 1 (planned)", "--power")
+
+    def test_a_copy_with_fewer_digits_is_no_replicate(self):
+        head, *rows = sweep(9, 1.0, 0.01).splitlines()
+        cells = [[float(cell) for cell in row.split(",")] for row in rows]
+        for digits in ("{:.3e}", "{:.2e}"):
+            copy = "\n".join(",".join([f"{row[0]:.6g}", *(digits.format(cell) for cell in row[1:])]) for row in cells)
+            self.write("copy.csv", f"{head}\n{copy}\n")
+            other = 'kind = "amplitude-sweep"\nfile = "copy.csv"\nsample = "B"'
+            self.refuse(experiment(SWEEP, other), "copy.csv, sample 'B': the same numbers as in sweep.csv, sample 'measurement 1', but for their rounding",
+                        data=sweep(9, 1.0, 0.01))
+        self.write("sweep.csv", sweep(9, 1.0, 0.01))
+        other = "\n".join(",".join(f"{cell:.4g}" for cell in (row[0], 1.004 * row[1], 1.004 * row[2], 1.004 * row[3])) for row in cells)
+        self.write("copy.csv", f"{head}\n{other}\n")
+        self.write("experiment.toml", experiment(SWEEP, 'kind = "amplitude-sweep"\nfile = "copy.csv"\nsample = "B"'))
+        self.assertEqual(len(self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"]), 2)
 
     def test_what_no_amplitude_and_no_modulus_can_be(self):
         text = "frequency [Hz],strain [1],storage modulus [Pa]\n" + "".join(f"{k},{(-1) ** k},{'1e300' if k == 4 else 500 + k}\n" for k in range(1, 9))

@@ -23,8 +23,11 @@ constexpr double loss_tangent_limit = 20000;
 
 constexpr std::array status_headings = {"status", "statut", "etat", "état", "ステータス"};
 
-constexpr std::array clock_headings = {"time of day", "date time",  "datetime", "date/time", "date and time",
-                                       "timestamp",   "clock time", "uhrzeit",  "tageszeit", "heure"};
+constexpr std::array clock_headings = {"time of day",   "date time", "datetime",  "date/time",  "date and time", "timestamp",
+                                       "clock time",    "uhrzeit",   "tageszeit", "heure",      "date",          "datum",
+                                       "absolute time", "abs. time", "abs time",  "local time", "time stamp"};
+
+constexpr double day = 86400;  // s
 
 template <std::size_t size>
 bool is_one_of(const std::array<const char*, size>& names, const std::string& heading) {
@@ -144,13 +147,14 @@ TableBuilder::TableBuilder(const std::vector<HeadingWithUnit>& headings, bool de
 }
 
 void TableBuilder::add_row(const std::vector<std::string>& cells) {
+    std::string clock;
     for (std::size_t column = 0; column < table_.columns.size(); ++column) {
         const std::string text = column < cells.size() ? cells[column] : "";
         if (is_status_[column]) {
             add_flags(text);
         }
         if (is_clock_[column]) {
-            note_clock(text);
+            clock += (clock.empty() ? "" : " ") + text;
         }
         const CellNumber cell = read_cell(text, decimal_comma_);
         table_.columns[column].values.push_back(cell.value.value_or(no_value));
@@ -159,26 +163,55 @@ void TableBuilder::add_row(const std::vector<std::string>& cells) {
             table_.unreadable.push_back({column, rows_, text, cell.complaint});
         }
     }
+    note_clock(clock);
     ++rows_;
 }
 
-void TableBuilder::note_clock(const std::string& cell) {
-    if (const auto time = seconds_of_date(cell)) {
-        clock_.push_back(*time);
-    } else if (const auto time_of_day = seconds_of_day(cell)) {
-        clock_.push_back(*time_of_day);
+/// Day and time may stand in two columns.
+void TableBuilder::note_clock(const std::string& date_and_time) {
+    const auto date = date_and_time.empty() ? std::nullopt : seconds_of_date(date_and_time);
+    const auto time_of_day = date_and_time.empty() || date ? std::nullopt : seconds_of_day(date_and_time);
+    clock_.push_back(date ? *date : time_of_day.value_or(no_value));
+}
+
+/// What the clock tells, a day more each time that midnight has passed, whether the rows stand in the order of time or against it;
+/// rows without a time are left out.
+std::vector<double> TableBuilder::unbroken_clock() const {
+    std::vector<double> times;
+    double days = 0;
+    for (const double time : clock_) {
+        if (std::isnan(time)) {
+            continue;
+        }
+        const double before = times.empty() ? time : times.back() - days;
+        days += time < day && before < day ? day * std::round((before - time) / day) : 0;
+        times.push_back(time + days);
     }
+    return times;
 }
 
 /// The clock shows when a row was finished, so that the first began a row earlier; NaN without a clock.
 double TableBuilder::start_by_clock() const {
-    constexpr double day = 86400;
-    if (clock_.size() < 2) {
-        return clock_.empty() ? unset : clock_.front();
+    const std::vector<double> times = unbroken_clock();
+    if (times.size() < 2) {
+        return times.empty() ? unset : times.front();
     }
-    const double difference = clock_.back() - clock_.front();
-    const double duration = difference < 0 ? difference + day : difference;  // over midnight
-    return clock_.front() - duration / static_cast<double>(clock_.size() - 1);
+    const auto [first, last] = std::minmax_element(times.begin(), times.end());
+    return *first - (*last - *first) / static_cast<double>(times.size() - 1);
+}
+
+/// Where every row has a time of day and the table has no times.
+void TableBuilder::add_times_by_clock() {
+    std::vector<double> times = unbroken_clock();
+    const auto [first, last] = std::minmax_element(times.begin(), times.end());
+    if (times.size() < rows_ || times.size() < 2 || !(*first < *last) || column_of("time") < table_.columns.size()) {
+        return;
+    }
+    const double start = start_by_clock();
+    std::for_each(times.begin(), times.end(), [&](double& time) { time -= start; });
+    const auto clock = std::find(is_clock_.begin(), is_clock_.end(), true) - is_clock_.begin();
+    table_.columns.push_back({table_.columns[static_cast<std::size_t>(clock)].heading, "time", "s", 0, std::move(times)});
+    has_number_.push_back(true);
 }
 
 void TableBuilder::add_flags(const std::string& status) {
@@ -242,6 +275,7 @@ void TableBuilder::take_out_negative_moduli() {
 PlainTable TableBuilder::take(std::string title, int section, bool keep_all) {
     take_out_loss_tangent_limit();
     take_out_negative_moduli();
+    add_times_by_clock();
     PlainTable kept;
     kept.title = std::move(title);
     kept.section = section;

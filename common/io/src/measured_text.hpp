@@ -40,15 +40,17 @@ public:
 
     /// One row; missing fields are empty cells.
     void add_row(const std::vector<std::string>& cells);
-    /// Takes what stands for no value out and, unless all are to be kept, drops the columns that carry no number and have no known
-    /// heading.
+    /// Takes what stands for no value out, gives the rows the times of their clock where they have no others, and, unless all are
+    /// to be kept, drops the columns that carry no number and have no known heading.
     PlainTable take(std::string title, int section, bool keep_all = false);
     std::size_t rows() const { return rows_; }
 
 private:
     void add_flags(const std::string& status);
-    void note_clock(const std::string& cell);
+    void note_clock(const std::string& date_and_time);
+    std::vector<double> unbroken_clock() const;
     double start_by_clock() const;
+    void add_times_by_clock();
     void take_out_loss_tangent_limit();
     void take_out_negative_moduli();
     void take_out(std::size_t column, std::size_t row, const std::string& reason);
@@ -57,7 +59,7 @@ private:
     PlainTable table_;
     std::vector<bool> is_status_;               ///< per column
     std::vector<bool> is_clock_;                ///< per column: tells the time of day
-    std::vector<double> clock_;                 ///< what it tells, as seconds_of_date() or seconds_of_day() [s]
+    std::vector<double> clock_;                 ///< per row: what it tells, as seconds_of_date() or seconds_of_day() [s], or NaN
     std::vector<bool> has_number_;              ///< per column
     std::vector<std::size_t> negative_moduli_;  ///< rows flagged so
     std::map<std::string, std::size_t> flags_;

@@ -150,7 +150,7 @@ Eigen::MatrixXcd functions_of(const std::vector<Observation>& observations, bool
     } else {
         functions.add_constants();
     }
-    if (const Places strain = places_of(observations, &Observation::strain); strain.vary) {
+    if (const Places strain = places_of(observations, &Observation::set_strain); strain.vary) {
         functions.add_bumps(strain.at);
     }
     if (const Places age = places_of(observations, &Observation::time); ages && age.vary) {

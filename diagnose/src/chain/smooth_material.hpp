@@ -13,9 +13,9 @@ namespace coagula::diagnose {
 
 /// G* = sum of functions with independent normal coefficients of zero mean. Along the frequency Maxwell elements, three a decade of
 /// the frequencies measured, a spring and a dashpot, so that G' and G'' belong to one relaxation spectrum (Ferry 1980, ch. 3); each
-/// as large as |G*| at its frequency. Along the logarithms of strain and age bumps of each modulus, of the middle size of |G*|, and
-/// of the viscosity along that of the shear rate, of its size there; as many a decade. The common size of the coefficients is known
-/// from a few degrees of freedom only.
+/// as large as |G*| at its frequency. Along the logarithms of the strain that was set (not one that follows a stress) and of the
+/// age bumps of each modulus, of the middle size of |G*|, and of the viscosity along that of the shear rate, of its size there; as
+/// many a decade. The common size of the coefficients is known from a few degrees of freedom only.
 class SmoothMaterial {
 public:
     /// @param ages whether it varies with its age, too.

@@ -155,6 +155,17 @@ double time_in(const Measurement& table, std::size_t row) {
     return next == place || last == time->values.rend() ? (next == time->values.end() ? unset : *next) : *last;
 }
 
+std::vector<std::size_t> rows_in_time(const Measurement& table) {
+    std::vector<std::pair<double, std::size_t>> rows;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        rows.emplace_back(time_in(table, row), row);
+    }
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<std::size_t> order;
+    std::transform(rows.begin(), rows.end(), std::back_inserter(order), [](const auto& row) { return row.second; });
+    return order;
+}
+
 std::vector<RunTime> run_times(const Experiment& experiment) {
     const auto& tables = experiment.measurements;
     std::vector<RunTime> times(tables.size());

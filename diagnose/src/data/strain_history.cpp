@@ -28,15 +28,15 @@ bool shears(const Measurement& table) {
 }
 
 void add_run(const Measurement& table, const RunTime& time, bool destroyed, std::vector<ShearedSpan>& spans) {
-    const std::size_t rows = table.rows();
-    const double start = time_in(table, 0);
-    const double step = rows > 1 ? (time_in(table, rows - 1) - start) / static_cast<double>(rows - 1) : 0.0;
+    const std::vector<std::size_t> rows = rows_in_time(table);
+    const double start = time_in(table, rows.front());
+    const double step = rows.size() > 1 ? (time_in(table, rows.back()) - start) / static_cast<double>(rows.size() - 1) : 0.0;
     double from = time.origin + std::max(0.0, start - std::max(step, 0.0));
     from = destroyed ? std::max(from, time.sheared) : from;
-    for (std::size_t row = 0; row < rows; ++row) {
+    for (const std::size_t row : rows) {
         const double to = time.origin + time_in(table, row);
         if (std::isfinite(to) && to >= from) {
-            spans.push_back({from, to, mean_rate(table, row), destroyed && row == 0});
+            spans.push_back({from, to, mean_rate(table, row), destroyed && row == rows.front()});
             from = to;
         }
     }

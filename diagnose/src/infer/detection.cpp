@@ -338,7 +338,7 @@ const char* name_of(Coordinate coordinate) {
 double coordinate_of(const Observation& observation, Coordinate coordinate) {
     switch (coordinate) {
         case Coordinate::strain:
-            return observation.strain;
+            return observation.set_strain;
         case Coordinate::angular_frequency:
             return observation.angular_frequency;
         case Coordinate::shear_rate:

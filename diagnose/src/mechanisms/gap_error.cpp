@@ -9,15 +9,15 @@ constexpr double narrowest = 0.1;  ///< gap over the stated one: plates do not m
 
 }  // namespace
 
-/// Parallelism and zero make it larger by 10 to 60 um and up to 200 um in bad cases, a zero taken warm or on a film smaller
-/// (Kramer, Davies and Stokes 2008; rheometers' manuals).
+/// Parallelism and zero make it larger by 10 to 60 um as a rule (Kramer, Davies and Stokes 2008); 430 um have been seen. A zero
+/// taken warm or on a film makes it smaller (rheometers' manuals).
 Mechanism gap_error() {
     return {.name = "gap-error",
             .term = "the true gap differs from the stated one",
             .signature =
                 "All moduli are lower by one factor where the true gap is larger, most at small gaps. A Newtonian oil "
                 "shows it too.",
-            .parameters = {{"gap_error", "m", -5e-5, 2e-4, false}},
+            .parameters = {{"gap_error", "m", -5e-5, 5e-4, false, 0, 5e-5}},
             .effect = ChangesGeometry{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return std::isfinite(row.gap) ? modulus * row.gap / std::max(row.gap + values[0], narrowest * row.gap) : modulus;
             }},

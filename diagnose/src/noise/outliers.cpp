@@ -3,6 +3,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/run_clock.hpp>
 
 #include "data/median.hpp"
 #include "data/table_cells.hpp"
@@ -160,6 +161,24 @@ struct Sizes {
         return beside < 0 && negative[k - 1] != negative[k + 1] ? 0.0 : beside;  // raw |G*| is least where inertia cancels G'
     }
 
+    /// Whether one at an end is far above its neighbour, and its next ones by far less from each other, so that no course of theirs
+    /// leads to it. A sample that still builds up may be below.
+    bool stands_apart(std::size_t end) const {
+        constexpr double least = 1.1;  // a factor of three
+        constexpr double share = 0.25;
+        constexpr std::size_t looked_at = 5;
+        if (values.size() <= looked_at) {
+            return false;
+        }
+        const auto from_end = [&](std::size_t k) { return values[end == 0 ? k : end - k]; };
+        const double apart = from_end(0) - from_end(1);
+        double largest = 0;
+        for (std::size_t k = 1; k < looked_at; ++k) {
+            largest = std::max(largest, std::abs(from_end(k) - from_end(k + 1)));
+        }
+        return apart > least && largest < share * apart;
+    }
+
     std::vector<double> values;
     std::vector<std::size_t> rows;
     std::vector<bool> negative;  ///< G'
@@ -172,12 +191,14 @@ void leave_out_rows(std::vector<Measurement>& tables, std::size_t number, const 
     const Sizes sizes(table);
     const double own = sizes.deviation();
     const double deviation = std::isnan(own) ? usual : std::min(own, 3 * usual);
+    const std::size_t first = table.rows() == 0 ? 0 : rows_in_time(table).front();
     for (std::size_t k = 0; k < sizes.values.size() && sizes.values.size() > 2 && std::isfinite(deviation); ++k) {
         const bool end = k == 0 || k + 1 == sizes.values.size();
         const double departure = sizes.departure(k);
         const double place = axis_of(table)->values[sizes.rows[k]];
-        // The others contradict, or there are none, which tells nothing of an end.
-        bool contradicted = !end;
+        // The others contradict, or there are none, which tells nothing of an end, but for the first row that was measured: before
+        // it the sample had no time to change.
+        bool contradicted = !end || (sizes.rows[k] == first && sizes.stands_apart(k));
         for (const AlikeTables& group : groups) {
             const double expected = by_the_others(group, number, place);
             contradicted = std::isnan(expected) ? contradicted : std::abs(sizes.values[k] - expected) > 0.5 * std::abs(departure);

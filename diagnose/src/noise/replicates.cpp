@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/run_clock.hpp>
 
 #include "data/table_cells.hpp"
 
@@ -71,12 +72,14 @@ private:
     std::vector<std::pair<double, std::size_t>> rows_;
 };
 
-/// Whether an axis goes up more often than down.
+/// Whether an axis goes up in time more often than down.
 bool goes_up(const Measurement& table) {
     const std::vector<double>& axis = axis_of(table)->values;
+    const std::vector<std::size_t> rows = rows_in_time(table);
     int steps = 0;
-    for (std::size_t row = 1; row < axis.size(); ++row) {
-        steps += axis[row] > axis[row - 1] ? 1 : (axis[row] < axis[row - 1] ? -1 : 0);
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        const double step = axis[rows[k]] - axis[rows[k - 1]];
+        steps += step > 0 ? 1 : (step < 0 ? -1 : 0);
     }
     return steps >= 0;
 }

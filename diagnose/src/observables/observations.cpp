@@ -2,6 +2,7 @@
 #include "observations.hpp"
 
 #include <coagula/diagnose/run_clock.hpp>
+#include <coagula/diagnose/stress_control.hpp>
 #include <coagula/diagnose/tool_constants.hpp>
 
 #include "data/table_cells.hpp"
@@ -94,6 +95,7 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
             column.standard_errors.empty() ? (what.third_harmonic ? unstated_error : unset) : column.standard_errors[row],
         .of_phase = what.loss && !flows,
         .strain = cell(table, "strain", row),
+        .set_strain = cell(table, "strain", row),
         .angular_frequency = angular_frequency(table, row),
         .time = series ? unset : time_in(table, row),
         .shear_rate = flows ? cell(table, "shear_rate", row) : unset,
@@ -258,6 +260,23 @@ std::vector<RunPlace> run_places(const Experiment& experiment, const std::vector
     return places;
 }
 
+/// What came before each row of a table in the order of time.
+struct RowsBefore {
+    std::vector<double> count;           ///< of rows of the table
+    std::vector<double> largest_strain;  ///< that of the row included
+};
+
+RowsBefore rows_before(const Measurement& table, double largest_strain) {
+    RowsBefore before{std::vector<double>(table.rows()), std::vector<double>(table.rows())};
+    double count = 0;
+    for (const std::size_t row : rows_in_time(table)) {
+        largest_strain = std::fmax(largest_strain, cell(table, "strain", row));
+        before.count[row] = count++;
+        before.largest_strain[row] = largest_strain;
+    }
+    return before;
+}
+
 /// When and where the runs of an experiment were made.
 struct Runs {
     std::vector<RunTime> times;
@@ -270,15 +289,14 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
     const RunTime& time = runs.times[run];
     const RunPlace& place = runs.places[run];
     const bool flows = table.kind == MeasurementKind::flow_curve;
-    const double largest_before = largest_strain_before(experiment, runs.times, run);
+    const std::vector<double> set = set_strains(table);
+    const RowsBefore before = rows_before(table, largest_strain_before(experiment, runs.times, run));
     for (const Shown& what : shown_in(table)) {
-        double largest_strain = largest_before;
         const Column* column = find_column(table, what.column);
         // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
         const bool fluid = std::isfinite(table.fluid_viscosity);
         const bool takes_part = column != nullptr && (!fluid || (what.loss && !what.third_harmonic));
         for (std::size_t row = 0; takes_part && row < table.rows(); ++row) {
-            largest_strain = std::fmax(largest_strain, cell(table, "strain", row));
             if (!std::isfinite(column->values[row]) || (fluid && !flows && std::isnan(angular_frequency(table, row))) ||
                 (flows && std::isnan(cell(table, "shear_rate", row)))) {
                 continue;
@@ -289,8 +307,9 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
             one.time += time.known ? time.origin : unset;
             one.age = one.time - time.sheared;
             one.sample_place = place.sample;
-            one.place = place.first + static_cast<double>(row) * place.per_row;
-            one.largest_strain = largest_strain;
+            one.place = place.first + before.count[row] * place.per_row;
+            one.largest_strain = before.largest_strain[row];
+            one.set_strain = set[row];
         }
     }
 }

@@ -28,6 +28,7 @@ struct Observation {
     double other_error = 0;  ///< of the other part of G*, as turned [Pa]
     // Conditions of the row; NaN where the table does not state them.
     double strain = unset;              ///< amplitude
+    double set_strain = unset;          ///< the same where it was set; of a run under a set stress that, as a strain
     double largest_strain = unset;      ///< that the sample has seen up to this row
     double angular_frequency = unset;   ///< [rad/s]
     double time = unset;                ///< on the clock of the sample (run_clock.hpp) [s]

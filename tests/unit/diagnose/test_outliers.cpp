@@ -91,6 +91,36 @@ TEST(Outliers, AtAnEndAreToldByTheOtherSamples) {
     EXPECT_TRUE(leave_out_outliers(alone).empty());
 }
 
+/// Before the first row the sample had no time to change: of a single table, and of two, it is told by the course of the next rows.
+TEST(Outliers, AtTheBeginningAreToldByTheNextRows) {
+    std::vector<Measurement> alone{three_samples()[0]};
+    multiply(alone[0], 0, 10);
+    const std::vector<Outlier> found = leave_out_outliers(alone);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].row, 0U);
+    EXPECT_NEAR(found[0].factor, 10, 1);
+    std::vector<Measurement> two{three_samples()[0], three_samples()[1]};
+    multiply(two[1], 0, 10);
+    EXPECT_EQ(leave_out_outliers(two).size(), 1U);
+    // A sample that still builds up.
+    std::vector<Measurement> low{three_samples()[0]};
+    multiply(low[0], 0, 0.1);
+    EXPECT_TRUE(leave_out_outliers(low).empty());
+    // A relaxation that begins fast, and rows against the order of time.
+    std::vector<Measurement> relaxing{three_samples()[0]};
+    for (std::size_t row = 0; row < 14; ++row) {
+        multiply(relaxing[0], row, 1 + 9 * std::exp(-0.8 * static_cast<double>(row)));
+    }
+    EXPECT_TRUE(leave_out_outliers(relaxing).empty());
+    std::vector<Measurement> reversed{three_samples()[0]};
+    multiply(reversed[0], 0, 10);
+    reversed[0].columns.push_back({"time", "s", {}});
+    for (std::size_t row = 0; row < 14; ++row) {
+        reversed[0].columns.back().values.push_back(140 - 10 * static_cast<double>(row));
+    }
+    EXPECT_TRUE(leave_out_outliers(reversed).empty());
+}
+
 /// What every sample shows in a row is no outlier, nor is a step, after which all is different.
 TEST(Outliers, AreNeitherPeaksThatAllSamplesHaveNorSteps) {
     std::vector<Measurement> tables = three_samples();

@@ -51,6 +51,20 @@ std::vector<std::pair<double, double>> first_rows(const Experiment& experiment) 
 
 using Times = std::vector<std::pair<double, double>>;
 
+/// A table whose rows stand against the order of time: the last one was measured first.
+TEST(RunClock, RowsAreInTheOrderOfTheirTimes) {
+    Measurement table = run_at(50, 0, -10);
+    table.kind = MeasurementKind::frequency_sweep;
+    table.columns.push_back({"angular_frequency", "rad/s", {1, 2, 3, 4, 5}});
+    table.columns.push_back({"strain", "1", {0.5, 0.4, 0.3, 0.2, 0.1}});
+    EXPECT_EQ(rows_in_time(table), (std::vector<std::size_t>{4, 3, 2, 1, 0}));
+    for (const Observation& one : observations_of(with({table}))) {
+        const auto from_last = static_cast<double>(4 - one.row);
+        EXPECT_DOUBLE_EQ(one.place, from_last / 5) << one.row;
+        EXPECT_DOUBLE_EQ(one.largest_strain, 0.1 * (from_last + 1)) << one.row;
+    }
+}
+
 TEST(RunClock, RunsFollowEachOtherAfterTheirPauses) {
     Measurement second = run_at(10, 1);
     Measurement third = run_at(10, 2);

@@ -190,6 +190,35 @@ TEST_F(ExportVariants, TablesSideBySideWithAxesOfTheirOwnTemperaturesAndSamples)
     EXPECT_EQ(read_measured_file(write("twice.csv", "ω [rad/s],G' [Pa],G' [Pa]\n1,100,50\n2,120,60\n")).tables.size(), 1U);
 }
 
+/// The clock says what came first, not the order of the file: a program may sort rows by frequency.
+TEST_F(ExportVariants, AClockGivesRowsTheirTimes) {
+    const auto table_with = [&](const std::string& headings, const std::vector<std::string>& times) {
+        std::string text = headings + ",G' [Pa],ω [rad/s]\n";
+        for (std::size_t row = 0; row < times.size(); ++row) {
+            text += times[row] + "," + std::to_string(100 + row) + "," + std::to_string(row + 1) + "\n";
+        }
+        return read_measured_file(write("clock.csv", text)).tables.front();
+    };
+    const auto times_of = [](const PlainTable& table) {
+        const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                        [](const PlainColumn& column) { return column.quantity == "time"; });
+        return found == table.columns.end() ? std::vector<double>{} : found->values;
+    };
+    const PlainTable against = table_with("Time of Day", {"10:03:00", "10:02:00", "10:01:00"});
+    EXPECT_EQ(times_of(against), (std::vector<double>{180, 120, 60}));
+    EXPECT_EQ(against.date, 10 * 3600);
+    const PlainTable over_midnight = table_with("Absolute time", {"23:58:00", "23:59:00", "00:01:00"});
+    EXPECT_EQ(times_of(over_midnight), (std::vector<double>{90, 150, 270}));
+    const PlainTable back_over_midnight = table_with("Time of Day", {"00:01:00", "23:59:00", "23:58:00"});
+    EXPECT_EQ(times_of(back_over_midnight), (std::vector<double>{270, 150, 90}));
+    const PlainTable dated = table_with("Date,Time of Day", {"2019-03-27,23:59:00", "2019-03-28,00:00:00", "2019-03-28,00:02:00"});
+    EXPECT_EQ(times_of(dated), (std::vector<double>{90, 150, 270}));
+    EXPECT_EQ(dated.date, seconds_of_date(2019, 3, 27, 23, 57, 30));
+    EXPECT_TRUE(times_of(table_with("Time of Day", {"10:00", "10:00", "10:00"})).empty());  // when it was exported
+    EXPECT_EQ(times_of(table_with("Time of Day,Time [s]", {"10:03:00,1", "10:02:00,2", "10:01:00,3"})),
+              (std::vector<double>{1, 2, 3}));
+}
+
 TEST_F(ExportVariants, AClockSaysWhenATableBegan) {
     const auto dates = [&](const std::string& column, const std::vector<std::string>& times) {
         std::string text;

@@ -94,6 +94,9 @@ struct Measurement {
     double preshear = unset;  ///< how long a shear right before the run took that destroyed the structure [s]; NaN: none
     /// Whether its times are those of a clock that all runs on the sample share; without a word the times themselves tell.
     std::optional<bool> shared_clock = {};
+    /// Whether the stress was set and the strain followed; without a word the rows tell.
+    std::optional<bool> stress_controlled = {};
+    std::string instrument = {};     ///< that it was measured on, where somebody said
     bool rough_plates = false;       ///< nothing slips there
     bool solvent_trap = false;       ///< nothing dries there
     double cone_angle = unset;       ///< of a cone in place of the upper one of two plates [rad]

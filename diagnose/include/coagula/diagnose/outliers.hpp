@@ -20,7 +20,8 @@ struct Outlier {
 
 /// Leaves out, with a reason, the moduli of
 /// - a row that lies beside both of its neighbours to the same side, and beside the same row of the other samples where three or
-///   more were measured alike, by more than eight robust standard deviations and a fifth;
+///   more were measured alike, by more than eight robust standard deviations and a fifth; likewise the first row that was measured
+///   where it lies above the next one by more than a factor of three, and by more than four times as much as these by each other;
 /// - every table of a sample whose level lies beside that of two or more others by more than six times their scatter, or the tenth
 ///   by which samples may differ.
 /// A difference between two samples is attributed to neither of them.

@@ -35,6 +35,9 @@ std::vector<RunTime> run_times(const Experiment& experiment);
 /// Time of a row on the clock of its table [s]; rows of a table without times follow each other every 10 s.
 double time_in(const Measurement& table, std::size_t row);
 
+/// The rows of a table in the order in which they were measured: that of its times, else that of the table.
+std::vector<std::size_t> rows_in_time(const Measurement& table);
+
 /// Notes about these clocks, in sentences: clocks that run on, and runs whose order nobody says.
 std::vector<std::string> notes_on_clocks(const Experiment& experiment);
 
