@@ -52,6 +52,17 @@ class Examples(ProgramTest):
         largest = max(rows, key=lambda row: row[2])
         self.assertTrue(1 < largest[0] < 10, "the loss is largest near 1 / (2 pi 50 ms) = 3.2 Hz")
 
+    def test_depletion_gel(self):
+        rows = [list(map(float, line.split())) for line in self.example("depletion_gel.py").splitlines()[1:]]
+        self.assertEqual([row[0] for row in rows], [2, 6, 10])
+        self.assertTrue(all(abs(row[1] / row[0] - rows[0][1] / rows[0][0]) < 0.1 for row in rows), "stiffness goes as the depth")
+        self.assertEqual(rows[0][4], 0, "a shallow attraction makes no gel")
+        self.assertEqual([row[3] for row in rows[1:]], [3, 3])
+        self.assertGreater(rows[0][2], 0)
+        self.assertLess(rows[0][2], 2)
+        self.assertGreater(min(row[2] for row in rows[1:]), 4)
+        self.assertGreater(rows[2][4], 0)
+
     def test_results_with_h5py(self):
         self.assertRegex(self.example("results_with_h5py.py"), r"(?m)^characterization/doh/a: 0\.\d+$")
 

@@ -100,7 +100,7 @@ std::vector<Option> potential_options() {
                  "", physical::length),
         quantity("size-ratio", "1", "radius of gyration over the radius of the particles, from which the range follows", "",
                  within(smallest_range / 2, largest_range / 2)),
-        quantity("surface-potential", "V", "surface potential of the particles; required unless a table gives the potential", "",
+        quantity("surface-potential", "V", "surface potential of the particles; DLVO needs it unless a table gives the potential", "",
                  within(-1, 1)),
         quantity("debye-length", "m", "Debye length of the double layer; 10 nm when not given", "", physical::length),
         quantity("ionic-strength", "mol/m3", "ionic strength of a z:z electrolyte, from which the Debye length follows", "",
