@@ -24,8 +24,9 @@ using examples::thermal;
 constexpr double rest_gap = 0.004;
 
 PairPotential attraction(double depth, double range, std::vector<PairLaw> others = {}) {
-    return depletion_potential({.depth = depth * thermal, .range = range * radius, .rest_gap = rest_gap * radius, .contact_stiffness = {}},
-                               std::move(others));
+    return depletion_potential(
+        {.depth = depth * thermal, .range = range * radius, .rest_gap = rest_gap * radius, .contact_stiffness = {}},
+        std::move(others));
 }
 
 /// Holds the pairs: nothing up to 0.4 radii, 30 kB T higher at 0.7.
@@ -81,8 +82,8 @@ TEST(BrownianDepletion, PairsHaveTheirBoltzmannDistribution) {
         }
         const double bound = share_between(gaps, -0.1, range);
         const double exact_bound = examples::boltzmann_integral(potential, -0.1, range) / all;
-        std::printf("%g kT, range %g: bound %.4f (exact %.4f), total variation %.4f; %s\n", depth, range, bound, exact_bound, distance,
-                    run.time_step.reason.c_str());
+        std::printf("%g kT, range %g: bound %.4f (exact %.4f), total variation %.4f; %s\n", depth, range, bound, exact_bound,
+                    distance, run.time_step.reason.c_str());
         EXPECT_NEAR(bound, exact_bound, 0.03);
         EXPECT_LT(distance, 0.03);
     }
@@ -119,8 +120,9 @@ TEST(BrownianDepletion, PairsFallIntoTheWellAtTheRightRate) {
         options.sample_interval = options.stop_time;
         const BrownianRun run = simulate_brownian(start, potential, options);
         const double share = share_between(examples::gaps_of(start.cell, run.packing.positions), -1, inside);
-        std::printf("range %g: %.4f of the pairs in the well, exact %.4f; time step %.2e R^2/D, %d stages, %s\n", range, share, exact,
-                    run.time_step.time_step / run.time_step.diffusion_time, run.time_step.stages, run.time_step.reason.c_str());
+        std::printf("range %g: %.4f of the pairs in the well, exact %.4f; time step %.2e R^2/D, %d stages, %s\n", range, share,
+                    exact, run.time_step.time_step / run.time_step.diffusion_time, run.time_step.stages,
+                    run.time_step.reason.c_str());
         EXPECT_NEAR(share / exact, 1, 0.05);
     }
 }
