@@ -107,6 +107,23 @@ class Check(ProgramTest):
             self.write("experiment.toml", experiment(run("first", "start = 0"), run("second", text)))
             self.refuse_experiment(says)
 
+    def test_replicates_that_agree_in_groups_are_noted(self):
+        """Two instruments, of which one sees the modulus rise along the frequency."""
+        tables = []
+        for name, slope, instrument in (("a", 0, "DHR"), ("b", 0, "DHR"), ("c", 0.2, "MCR"), ("d", 0.2, "MCR")):
+            sizes = [1e3 * (1 + slope * (k / 11 - 0.5)) * (1 + 0.01 * math.sin(7 * k * k + 3 * ord(name))) for k in range(12)]
+            self.write(f"{name}.csv", "ω [rad/s],G' [Pa],G'' [Pa]\n" + "".join(f"{10 ** (k / 6):.6g},{size:.6g},{0.1 * size:.6g}\n" for k, size in enumerate(sizes)))
+            tables.append(f'kind = "frequency-sweep"\nfile = "{name}.csv"\ninstrument = "{instrument}"\n')
+        self.assertIn("tables from the instruments 'DHR' and 'MCR' differ by", " ".join(self.found(experiment(*tables))["notes"]))
+        self.assertNotIn("differ by", " ".join(self.found(experiment(*tables[:2]))["notes"]))
+
+    def test_rows_are_in_the_order_of_their_clock(self):
+        rows = "".join(f"10:{59 - k:02}:00,{k + 1},{100 + k}\n" for k in range(8))
+        self.write("clock.csv", "Time of Day,ω [rad/s],G' [Pa]\n" + rows)
+        (table,) = self.found(experiment('kind = "frequency-sweep"\nfile = "clock.csv"'))["measurements"]
+        time = {column["name"]: column for column in table["columns"]}["time"]
+        self.assertEqual((time["min"], time["max"]), (60, 480))
+
     def test_columns_by_heading_and_standard_errors(self):
         self.write("s.csv", "a,modulus [MPa],error [MPa]\n" + "".join(f"{0.37 + 0.05 * i},{1 + 0.1 * i},0.1\n" for i in range(6)))
         found = self.found(experiment('kind = "structure-series"\nfile = "s.csv"\n'

@@ -216,6 +216,16 @@ class SmoothMaterial(Tables):
         self.assertLess(max(ratios) / min(ratios), 1.15)
         self.assertNotEqual(found["verdict"], "named")
 
+    def test_what_is_left_out_is_counted_beside_its_figure(self):
+        number = random.Random(4)
+        cells = [(f"{frequency:.9g}", *(lambda g: (f"{g.real:.9g}", f"{g.imag:.9g}"))(read(number, (500 + 79j) * frequency**0.1))) for frequency in FREQUENCIES]
+        cells[3] = (cells[3][0], "******", cells[3][2])
+        cells[5] = (cells[5][0], "******", "******")
+        self.write("gaps.csv", "\n".join(",".join(row) for row in (HEADS, *cells)) + "\n")
+        self.diagnosis('[material]\nkind = "smooth"\n\n[instrument]\ngeometry = "plate-plate"\nplate_radius = 0.01\ngap = 1e-3\n\n' + NOISE +
+                       '[[measurement]]\nkind = "frequency-sweep"\nfile = "gaps.csv"\n')
+        self.assertIn("Left out, and not drawn: 2 of G′ and 1 of G″ (see cells left out).", (self.folder / "results" / "report.html").read_text())
+
     def test_nothing_is_found_without_it(self):
         for count in (1, 10):
             self.assertFalse(self.diagnosis(self.sweeps(count, 0))["detected"])
