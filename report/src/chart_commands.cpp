@@ -209,6 +209,20 @@ std::vector<std::size_t> shown_places(const Chart& chart, const Series& series) 
     return places;
 }
 
+std::size_t values_below_axis(const Drawing& drawing) {
+    std::size_t count = 0;
+    for (const Chart& chart : drawing.panels) {
+        for (const Series& series : chart.series) {
+            const ChartAxis& y = series.second_axis ? chart.second_y : chart.y;
+            const bool shows_numbers = series.mark != Mark::discs && series.mark != Mark::arrow && !series.key_only;
+            for (std::size_t k = 0; shows_numbers && k < std::min(series.x.size(), series.y.size()); ++k) {
+                count += (y.logarithmic && series.y[k] < 0) || (chart.x.logarithmic && series.x[k] < 0) ? 1 : 0;
+            }
+        }
+    }
+    return count;
+}
+
 std::string gnuplot_commands(const Drawing& drawing, const PictureSize& size) {
     std::string commands = "set multiplot layout 1," + std::to_string(drawing.panels.size()) + "\n";
     for (const Chart& chart : drawing.panels) {

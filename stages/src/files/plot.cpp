@@ -239,6 +239,11 @@ Printed write_drawing(const Arguments& arguments, Drawing drawing, const std::st
                  {"caption", drawing.caption}};
     Table table{{"figure", name}};
     append_series(table, drawing);
+    if (const std::size_t below = report::values_below_axis(drawing); below > 0) {
+        json["below_axis"] = below;
+        table.emplace_back("not drawn", std::to_string(below) + (below == 1 ? " value" : " values") +
+                                            " below zero, which a logarithmic axis does not show; --log chooses the axes");
+    }
     if (arguments.has("data")) {
         json["data"] = arguments.text("data");
         table.emplace_back("data written to", arguments.text("data"));

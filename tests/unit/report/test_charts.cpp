@@ -42,8 +42,10 @@ TEST(Charts, LeaveOutWhatAnAxisCannotShow) {
     EXPECT_EQ(shown_places(chart, chart.series[0]), (std::vector<std::size_t>{0, 2, 3}));
     chart.y.logarithmic = true;
     EXPECT_EQ(shown_places(chart, chart.series[0]), (std::vector<std::size_t>{0}));
+    EXPECT_EQ(values_below_axis({.panels = {chart}, .caption = ""}), 1U);
     chart.series[0].second_axis = true;  // which is linear
     EXPECT_EQ(shown_places(chart, chart.series[0]), (std::vector<std::size_t>{0, 2, 3}));
+    EXPECT_EQ(values_below_axis({.panels = {chart}, .caption = ""}), 0U);
 }
 
 TEST(Charts, GiveDataInTheUnitOfTheFileAndAxesInOneThatSuits) {

@@ -89,6 +89,9 @@ PictureFormat picture_format(const std::string& path, const std::string& option)
 /// Indices of the places of a series that can be shown.
 std::vector<std::size_t> shown_places(const Chart& chart, const Series& series);
 
+/// Number of values below zero that a logarithmic axis cannot show.
+std::size_t values_below_axis(const Drawing& drawing);
+
 /// The picture as the bytes of a file. Nothing of a series reaches gnuplot but numbers and quoted names. Throws InputError when a
 /// series has no place that can be shown and std::runtime_error when gnuplot is missing or fails.
 std::string draw(const Drawing& drawing, PictureFormat format, const PictureSize& size);
