@@ -13,6 +13,8 @@ class Version(unittest.TestCase):
     def test_is_the_same_everywhere(self):
         version = re.search(r"project\(coagula VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
         self.assertEqual(re.search(r"(?m)^version: (.+)$", (ROOT / "CITATION.cff").read_text())[1], version)
+        self.assertEqual(re.search(r'set version = "(.+)"', (ROOT / "packaging/conda/meta.yaml").read_text())[1], version)
+        self.assertRegex((ROOT / "CHANGELOG.md").read_text(), rf"(?m)^## \[{re.escape(version)}\] - \d{{4}}-\d\d-\d\d$")
         self.assertEqual(json.loads((ROOT / "codemeta.json").read_text())["version"], version)
 
 
