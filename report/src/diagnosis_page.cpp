@@ -6,6 +6,7 @@
 #include "diagnosis_data_page.hpp"
 #include "diagnosis_tables.hpp"
 #include "html.hpp"
+#include "verdict_sentences.hpp"
 
 #include <coagula/report/diagnosis_results.hpp>
 
@@ -18,24 +19,11 @@ namespace {
 
 using diagnose::Cause;
 using diagnose::Diagnosis;
-using diagnose::Verdict;
 
 constexpr double shown_from = 0.001;  ///< smallest probability of a cause with a line of its own
 
 std::string print_number(double value) {
     return printed(value);
-}
-
-std::string chance_text(const Diagnosis& found) {
-    return (is_least_p(found) ? "p ≤ " : "p = ") + print_number(found.p_value);
-}
-
-std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        text += (k == 0 ? "" : k + 1 == names.size() ? " or " : ", ") + names[k];
-    }
-    return text;
 }
 
 std::string header(const DiagnosisRecord& record) {
@@ -262,80 +250,7 @@ std::string made(const DiagnosisRecord& record) {
     return html + "</dl>\n";
 }
 
-std::string gained(const diagnose::Gain& gain) {
-    return gain.held_out == 0 ? std::string{}
-                              : " On rows held out from the fit its error is " + percent(gain.rmse_extended) + " instead of " +
-                                    percent(gain.rmse_base) + "; the log predictive density changes by " +
-                                    change_of_density(gain, print_number) + ".";
-}
-
-/// Of a member "a + b" of the credible set, what is none of these causes.
-std::string without(std::string member, const std::vector<std::string>& causes) {
-    const std::string joint = " + ";
-    for (const std::string& cause : causes) {
-        member = member == cause                     ? std::string{}
-                 : member.starts_with(cause + joint) ? member.substr(cause.size() + joint.size())
-                 : member.ends_with(joint + cause)   ? member.substr(0, member.size() - cause.size() - joint.size())
-                                                     : member;
-    }
-    return member;
-}
-
-/// What data tell that leave several causes: goes on after "The base model fails".
-std::string tied_sentence(const Diagnosis& found) {
-    const std::string unknown = "hese data cannot tell whether ";
-    if (found.certain.empty()) {
-        return "; t" + unknown + "the cause is " + joined(found.credible_set) + ".";
-    }
-    std::vector<std::string> others;
-    for (const std::string& member : found.credible_set) {
-        others.push_back(without(member, found.certain));
-    }
-    const bool alone = std::erase(others, "") > 0;
-    const std::string certain = joined(found.certain);
-    return alone ? ", and " + certain + " is a cause. T" + unknown + joined(others) + " is another."
-                 : ", and " + certain + " is one cause. There is another; t" + unknown + "that is " + joined(others) + ".";
-}
-
 }  // namespace
-
-std::string verdict_sentence(const Diagnosis& found) {
-    const std::string chance = " (" + chance_text(found) + ")";
-    if (found.verdict == Verdict::no_discrepancy) {
-        return "The base model explains the data: these " + std::to_string(found.observations) +
-               " moduli show no deviation from it" + chance + ".";
-    }
-    const std::string fails = "The base model fails" + chance;
-    if (found.verdict == Verdict::none_of_catalogue) {
-        const Cause* best = extended_cause(found);
-        return fails + (best == &found.causes.front() ? ", and so does the best cause of the catalogue, " + best->name +
-                                                            " (p = " + print_number(found.extended_p_value) + ")."
-                                                      : ", and no cause of the catalogue explains the deviation.");
-    }
-    if (found.verdict == Verdict::tied) {
-        return fails + tied_sentence(found);
-    }
-    const Cause& cause = found.causes.front();
-    return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + probability_text(cause.posterior) +
-           ")." + gained(found.gain);
-}
-
-std::vector<std::string> verdict_sentences(const Diagnosis& found) {
-    constexpr double hardly = 0.1;
-    std::vector<std::string> sentences{verdict_sentence(found)};
-    if (const Cause* best = extended_cause(found); best != nullptr && found.remainder.detected) {
-        sentences.push_back("The best cause, " + best->name + ", leaves " +
-                            (found.remainder.most ? "most of the misfit: " : "a deviation: ") + found.remainder.where + ".");
-    }
-    if (!found.proposals.empty()) {
-        const diagnose::Proposal& first = found.proposals.front();
-        sentences.push_back(first.resolution >= hardly
-                                ? "To decide, measure " + first.what + "."
-                                : "None of the measurements considered here is likely to decide alone; the most informative is " +
-                                      first.what + ".");
-    }
-    return sentences;
-}
 
 std::string diagnosis_page(const DiagnosisRecord& record) {
     const Diagnosis& found = record.diagnosis;

@@ -69,6 +69,35 @@ Json row_json(const diagnose::PredictedRow& row) {
     return json;
 }
 
+Json kinds_json(const std::vector<diagnose::FollowedKind>& kinds) {
+    Json json = Json::array();
+    for (const diagnose::FollowedKind& one : kinds) {
+        json.push_back({{"link", diagnose::name_of(one.kind.link)},
+                        {"axis", diagnose::name_of(one.kind.axis)},
+                        {"posterior", one.posterior},
+                        {"log_factor", number(one.log_factor)}});
+    }
+    return json;
+}
+
+Json follows_json(const diagnose::Follows& follows) {
+    return {{"link", diagnose::name_of(follows.kind.link)},
+            {"axis", diagnose::name_of(follows.kind.axis)},
+            {"posterior", follows.posterior},
+            {"change", number(follows.change)},
+            {"from", number(follows.from)},
+            {"to", number(follows.to)},
+            {"sample", follows.sample.empty() ? Json(nullptr) : Json(follows.sample)}};
+}
+
+Json conditions_json(const std::vector<diagnose::Condition>& conditions) {
+    Json json = Json::array();
+    for (const diagnose::Condition& one : conditions) {
+        json.push_back({{"name", one.name}, {"value", number(one.value)}, {"limit", one.limit}, {"holds", one.holds}});
+    }
+    return json;
+}
+
 std::string describe(const Cause& cause) {
     std::string text = "probability " + probability_text(cause.posterior);
     for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
@@ -161,6 +190,9 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
     if (diagnosis.detected) {
         const diagnose::Gain& gain = diagnosis.gain;
         json["extended_p_value"] = diagnosis.extended_p_value;
+        json["follows"] = follows_json(diagnosis.follows);
+        json["kinds"] = kinds_json(diagnosis.kinds);
+        json["conditions"] = conditions_json(diagnosis.conditions);
         json["level_alone"] = diagnosis.level_alone;
         json["remainder"] = {{"detected", diagnosis.remainder.detected},
                              {"p_value", diagnosis.remainder.p_value},

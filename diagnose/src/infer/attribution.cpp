@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -81,6 +82,34 @@ Hypothesis look_alikes(const std::vector<Compared>& all, std::size_t best, const
     return causes;
 }
 
+/// Pairs to try where the best of all still fails its own test: the two best single causes, and the best with the best one of each
+/// other link of the chain; those that were not tried.
+std::vector<Hypothesis> further_pairs(const std::vector<Compared>& all) {
+    std::vector<std::pair<double, const Mechanism*>> singles;
+    for (auto one = all.begin() + 1; one != all.end(); ++one) {
+        if (one->fit.hypothesis.size() == 1) {
+            singles.emplace_back(one->log_weight(), one->fit.hypothesis.front());
+        }
+    }
+    std::sort(singles.begin(), singles.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    const auto is_tried = [&](const Hypothesis& pair) {
+        return std::any_of(all.begin(), all.end(), [&](const Compared& one) {
+            return std::is_permutation(one.fit.hypothesis.begin(), one.fit.hypothesis.end(), pair.begin(), pair.end());
+        });
+    };
+    std::vector<Hypothesis> pairs;
+    std::set<Link> links;
+    for (std::size_t k = 1; k < singles.size(); ++k) {
+        const Hypothesis pair{singles.front().second, singles[k].second};
+        const Link link = pair.back()->kind.link;
+        const bool is_first_of_link = link != pair.front()->kind.link && links.insert(link).second;
+        if ((k == 1 || is_first_of_link) && !is_tried(pair)) {
+            pairs.push_back(pair);
+        }
+    }
+    return pairs;
+}
+
 }  // namespace
 
 Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms) {
@@ -98,6 +127,18 @@ double Compared::log_weight_with_remainder(const Priors& priors) const {
 
 double Compared::log_total(const Priors& priors) const {
     return log_sum({log_weight(), log_weight_with_remainder(priors)});
+}
+
+double Comparison::log_weight_of_none(const Priors& priors) const {
+    const double smooth = all.front().log_weight_with_remainder(priors);
+    if (forms.empty()) {
+        return smooth;
+    }
+    std::vector<double> factors;
+    for (const FreeForm& form : forms) {
+        factors.push_back(form.log_factor);
+    }
+    return log_mean({smooth, all.front().log_weight() + priors.none + log_mean(factors)});
 }
 
 Comparison compare(const Fit& base, const Hypothesis& possible, const Inference& inference, const DiagnosisOptions& options,
@@ -128,14 +169,21 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
             }
         }
     }
+    const auto p_value_of = [&](std::size_t one) {
+        return one == best ? rest.p_value
+                           : detect(inference, all[one].fit, possible, options.seed, options.bootstrap, progress).p_value;
+    };
+    if (effort == Effort::whole && rest.p_value <= options.level && p_value_of(heaviest_cause(all, weight)) <= options.level) {
+        for (const Hypothesis& pair : further_pairs(all)) {
+            add_pair(pair.front(), pair.back());
+        }
+    }
     if (effort == Effort::whole) {
         find_remainders(inference, rest.p_value < with_ease ? most_with_remainder : few_with_remainder, all);
+        comparison.forms = free_forms(inference, base);
     }
     comparison.winner = heaviest_cause(all, [&](const Compared& one) { return one.log_total(priors); });
-    comparison.p_value =
-        comparison.winner == best
-            ? rest.p_value
-            : detect(inference, all[comparison.winner].fit, possible, options.seed, options.bootstrap, progress).p_value;
+    comparison.p_value = p_value_of(comparison.winner);
     return comparison;
 }
 

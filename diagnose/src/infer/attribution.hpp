@@ -2,6 +2,7 @@
 // Which cause explains the data: the base model, every cause and pairs, each alone and with a remainder on top.
 #pragma once
 
+#include "free_forms.hpp"
 #include "hypothesis.hpp"
 #include "remainder.hpp"
 
@@ -35,16 +36,21 @@ struct Compared {
 
 /// The models compared.
 struct Comparison {
-    std::vector<Compared> all;  ///< the base model first
-    std::size_t winner = 0;     ///< the most probable of all but the base model
-    double p_value = 1;         ///< of the test, applied to the winner
+    std::vector<Compared> all;         ///< the base model first
+    std::size_t winner = 0;            ///< the most probable of all but the base model
+    double p_value = 1;                ///< of the test, applied to the winner
+    std::vector<FreeForm> forms = {};  ///< of each kind of departure; none in brief
+
+    /// Of a departure that no cause explains: smooth along the coordinates, or the free form of a link.
+    double log_weight_of_none(const Priors& priors) const;
 };
 
 /// Extent of the search: in brief without remainders and with one pair.
 enum class Effort { whole, brief };
 
 /// Fits single causes; where the best does not pass the test with ease, it is paired with those causes towards which the data still
-/// depart from it. Where a pair is the best then, its second member is paired with those that explain nearly as much alone.
+/// depart from it. Where a pair is the best then, its second member is paired with those that explain nearly as much alone; where
+/// the best still fails, the two best causes are paired, and the best with one of every other link of the chain.
 Comparison compare(const Fit& base, const Hypothesis& possible, const Inference& inference, const DiagnosisOptions& options,
                    Effort effort = Effort::whole, const Progress& progress = {});
 

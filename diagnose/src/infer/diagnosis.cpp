@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coagula/common/log_probability.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
 
 #include "attribution.hpp"
@@ -9,6 +8,7 @@
 #include "hypothesis.hpp"
 #include "localise.hpp"
 #include "proposal.hpp"
+#include "verdict.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,32 +18,6 @@
 namespace coagula::diagnose {
 
 namespace {
-
-constexpr double certain = 0.95;
-constexpr double decisive = 3;  ///< logarithm of a Bayes factor of 20
-constexpr const char* none_name = "none of the catalogue";
-
-Cause cause_of(const Fit& fit, const Inference& inference) {
-    Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .model = fit.model, .draws = fit.draws};
-    const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior, bool at_end = false) {
-        cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high, at_end});
-    };
-    const bool newtonian = inference.forward().experiment().material.kind == MaterialKind::newtonian;
-    if (inference.shows_scale()) {
-        add(newtonian ? "viscosity" : "normal_stiffness", newtonian ? "Pa.s" : "N/m", fit.stiffness);
-    } else {
-        cause.draws = fit.draws.bottomRows(std::max<Index>(0, fit.draws.rows() - 1)).eval();
-    }
-    std::size_t next = 0;
-    for (const Mechanism* mechanism : fit.hypothesis) {
-        cause.words += (cause.words.empty() ? "" : "; ") + mechanism->term;
-        for (const MechanismParameter& parameter : mechanism->parameters) {
-            add(parameter.name, parameter.unit, fit.parameters[next], fit.active_end[next]);
-            ++next;
-        }
-    }
-    return cause;
-}
 
 /// The causes that the experiment can show and that are asked for.
 std::vector<const Mechanism*> possible_causes(const Experiment& experiment, const std::vector<std::string>& wanted) {
@@ -129,106 +103,11 @@ void keep_statistics(const Detection& detection, Diagnosis& diagnosis) {
     diagnosis.bootstrap = detection.bootstrap;
 }
 
-/// Whether a pair "a + b" has this member.
-bool contains(const std::string& pair, const std::string& member) {
-    const std::string joint = " + ";
-    return pair.starts_with(member + joint) || pair.ends_with(joint + member);
-}
-
-/// The fewest causes with 95 % of the posterior. A pair of which one member explains the data alone, and better, adds no cause, nor
-/// does one that leaves as much over.
-std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
-    std::vector<std::string> set;
-    double sum = 0;
-    for (auto cause = causes.begin(); cause != causes.end() && sum < certain; ++cause) {
-        const bool adds = std::none_of(causes.begin(), cause, [&](const Cause& better) {
-            return (!better.leaves_remainder || cause->leaves_remainder) && contains(cause->name, better.name);
-        });
-        if (adds) {
-            set.push_back(cause->name);
-        }
-        sum += cause->posterior;
-    }
-    return set;
-}
-
-/// Causes that every member of the set is or has.
-std::vector<std::string> common_causes(const std::vector<std::string>& set, const std::vector<const Mechanism*>& possible) {
-    std::vector<std::string> common;
-    for (const Mechanism* one : possible) {
-        const bool in_all = !set.empty() && std::all_of(set.begin(), set.end(), [&](const std::string& name) {
-            return name == one->name || contains(name, one->name);
-        });
-        if (in_all) {
-            common.push_back(one->name);
-        }
-    }
-    return common;
-}
-
-/// Whether the best cause with a smooth departure on top leaves more than half of what the base model leaves.
-bool leaves_most(const Comparison& comparison, const Inference& inference) {
-    const ErrorModel& errors = inference.errors();
-    const auto misfit = [&](const Fit& fit, const SmoothRemainder* on_top) {
-        Prediction prediction = inference.prediction(fit.model);
-        if (on_top != nullptr) {
-            prediction.values += on_top->departure;
-        }
-        const Eigen::VectorXd left = errors.residual(prediction);
-        return left.squaredNorm() - static_cast<double>(left.size());
-    };
-    const Compared& winner = comparison.all[comparison.winner];
-    const double left = winner.remainder ? misfit(winner.remainder->fit, &*winner.remainder) : misfit(winner.fit, nullptr);
-    const double chance = 3 * std::sqrt(2 * static_cast<double>(errors.data().values.size()));
-    return left > 0.5 * misfit(comparison.all.front().fit, nullptr) + chance;
-}
-
-/// Weight of "none of the catalogue": a smooth departure from the base model. A departure of the level alone has many causes, in
-/// the structure and in what is taken for known, and a value at the end of its range belongs to a cause that the catalogue does not
-/// have, as does most of the misfit where it is left: there it counts as much as the best cause.
-double log_weight_of_none(const Comparison& comparison, const Priors& priors, bool level_alone, bool most_is_left) {
-    const Compared& winner = comparison.all[comparison.winner];
-    const auto& ends = winner.fit.active_end;
-    const bool at_end = std::find(ends.begin(), ends.end(), true) != ends.end();
-    const double smooth = comparison.all.front().log_weight_with_remainder(priors);
-    return level_alone || at_end || most_is_left ? std::max(smooth, winner.log_total(priors)) : smooth;
-}
-
-/// Whether the base model with a stiffness that nobody knows explains as much as the best cause with the known one.
-bool is_level_alone(const Inference& inference, const Fit& winner) {
-    return std::isfinite(inference.stiffness_error()) &&
-           inference.density_of_free_level() > inference.errors().log_density(inference.prediction(winner.model)) - decisive;
-}
-
-void rank_causes(const Comparison& comparison, const Inference& inference, const Priors& priors, Diagnosis& diagnosis) {
-    const Compared& base = comparison.all.front();
-    std::vector<double> logarithms;
-    for (const Compared& one : comparison.all) {
-        logarithms.push_back(&one == &base ? one.log_weight() : one.log_total(priors));
-    }
-    logarithms.push_back(log_weight_of_none(comparison, priors, diagnosis.level_alone, diagnosis.remainder.most));
-    const std::vector<double> posterior = probabilities_of(std::move(logarithms));
-    for (std::size_t k = 0; k < comparison.all.size(); ++k) {
-        const Compared& one = comparison.all[k];
-        const bool leaves_remainder = one.log_weight_with_remainder(priors) > one.log_weight();
-        diagnosis.causes.push_back(cause_of(leaves_remainder ? one.remainder->fit : one.fit, inference));
-        diagnosis.causes.back().posterior = posterior[k];
-        diagnosis.causes.back().leaves_remainder = leaves_remainder;
-    }
-    diagnosis.causes.push_back({.name = none_name,
-                                .words = "a smooth deviation that no cause of the catalogue produces",
-                                .posterior = posterior.back(),
-                                .log_evidence = base.fit.log_evidence + base.remainder->log_factor});
-    std::stable_sort(diagnosis.causes.begin(), diagnosis.causes.end(),
-                     [](const Cause& a, const Cause& b) { return a.posterior > b.posterior; });
-    diagnosis.credible_set = credible_set(diagnosis.causes);
-}
-
 const Fit& fit_named(const std::vector<Compared>& all, const std::string& name) {
     return std::find_if(all.begin(), all.end(), [&](const Compared& one) { return name_of(one.fit.hypothesis) == name; })->fit;
 }
 
-/// What to measure next, to tell the causes of the credible set apart.
+/// What to measure next, to tell the causes of the credible set apart; one alone there from the next one.
 std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Compared>& all, const Inference& inference,
                                     Simulator& simulator, std::uint64_t seed) {
     std::vector<Fit> candidates;
@@ -236,7 +115,7 @@ std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vecto
     for (const Cause& cause : diagnosis.causes) {
         const bool in_set =
             std::find(diagnosis.credible_set.begin(), diagnosis.credible_set.end(), cause.name) != diagnosis.credible_set.end();
-        if (in_set && cause.name != none_name && cause.name != "base") {
+        if ((in_set || candidates.size() < 2) && cause.name != none_name && cause.name != "base") {
             candidates.push_back(fit_named(all, cause.name));
             weights.push_back(cause.posterior);
         }
@@ -244,21 +123,10 @@ std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vecto
     return propose(inference, simulator, candidates, weights, seed);
 }
 
-/// A cause that leaves something over is one if the remainder alone, without it, explains the data far worse.
-Verdict verdict_of(const Comparison& comparison, const Priors& priors, double level, const Diagnosis& diagnosis) {
-    const Compared& base = comparison.all.front();
-    const Compared& winner = comparison.all[comparison.winner];
-    const bool helps = winner.log_weight_with_remainder(priors) - base.log_weight_with_remainder(priors) > decisive;
-    if (diagnosis.causes.front().name == none_name || (comparison.p_value <= level && !helps)) {
-        return Verdict::none_of_catalogue;
-    }
-    return diagnosis.credible_set.size() == 1 ? Verdict::named : Verdict::tied;
-}
-
 }  // namespace
 
 const char* name_of(Verdict verdict) {
-    constexpr std::array<const char*, 4> names{"no-discrepancy", "named", "tied", "none-of-catalogue"};
+    constexpr std::array<const char*, 5> names{"no-discrepancy", "named", "tied", "kind-only", "none-of-catalogue"};
     return names.at(static_cast<std::size_t>(verdict));
 }
 
@@ -293,26 +161,14 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     }
     diagnosis.failures = localise(inference, base, detection);
 
-    const Priors priors = priors_of(options, possible.size());
     const Comparison comparison = compare(base, possible, inference, options, Effort::whole, progress);
     const Compared& winner = comparison.all[comparison.winner];
-    diagnosis.extended_p_value = comparison.p_value;
-    diagnosis.level_alone = is_level_alone(inference, winner.fit);
-    diagnosis.remainder.p_value = comparison.p_value;
-    diagnosis.remainder.detected = comparison.p_value <= options.level;
-    diagnosis.remainder.most = diagnosis.remainder.detected && leaves_most(comparison, inference);
-    rank_causes(comparison, inference, priors, diagnosis);
-    diagnosis.certain = common_causes(diagnosis.credible_set, possible);
-    diagnosis.verdict = verdict_of(comparison, priors, options.level, diagnosis);
-    if (diagnosis.remainder.detected) {
-        diagnosis.remainder.where =
-            place_of(*winner.remainder, data, inference.fitted(inference.prediction(winner.remainder->fit.model)));
-    }
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);
+    judge(comparison, inference, possible, options, diagnosis);
     predict_rows(data, inference, base.model, winner.fit.model, folds, diagnosis);
     predict_others(inference, name_of(winner.fit.hypothesis), diagnosis);
-    if (diagnosis.verdict == Verdict::tied) {
+    if (diagnosis.verdict == Verdict::tied || diagnosis.verdict == Verdict::kind_only) {
         diagnosis.proposals = proposals_for(diagnosis, comparison.all, inference, simulator, options.seed);
     }
     return diagnosis;

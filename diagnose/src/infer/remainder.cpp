@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -257,6 +258,26 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const
     found.directions = errors.data().noise.whitened(found.factor);
     found.departure = at_best.departure;
     return found;
+}
+
+DeparturesAlong departures_along(const Inference& inference, const Fit& fit, const std::vector<Eigen::MatrixXd>& directions) {
+    const ErrorModel& errors = inference.errors();
+    const Start start = start_of(inference, fit);
+    const double alone = density_alone(errors, start);
+    std::vector<double> all;
+    double best = -std::numeric_limits<double>::infinity();
+    Eigen::MatrixXd factor;
+    for (const Eigen::MatrixXd& one : directions) {
+        const std::vector<double> densities = densities_beside(inference, start, errors.data().noise.whitened(one));
+        for (std::size_t k = 0; k < densities.size(); ++k) {
+            all.push_back(densities[k] - alone);
+            if (all.back() > best) {
+                best = all.back();
+                factor = smooth_amplitudes[k] * one;
+            }
+        }
+    }
+    return {log_mean(all), best, followed(inference, start, factor).departure};
 }
 
 double log_factor_along(const Inference& inference, const Fit& fit, const Eigen::MatrixXd& directions) {

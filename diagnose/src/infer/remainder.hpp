@@ -25,6 +25,15 @@ struct SmoothRemainder {
 /// their prior stay.
 SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const SmoothDepartures& departures);
 
+/// What departures along some directions beside a fit explain.
+struct DeparturesAlong {
+    double log_factor;          ///< on the evidence of the fit, averaged over directions and amplitudes
+    double best;                ///< logarithm of the factor of the best of these
+    Eigen::VectorXd departure;  ///< most probable one along the best, of every number
+};
+/// @param directions sets of unit amplitude [unit of the numbers].
+DeparturesAlong departures_along(const Inference& inference, const Fit& fit, const std::vector<Eigen::MatrixXd>& directions);
+
 /// Factor on the evidence of the fit by a remainder along these directions alone, as a logarithm.
 double log_factor_along(const Inference& inference, const Fit& fit, const Eigen::MatrixXd& directions);
 

@@ -10,25 +10,6 @@ namespace coagula::diagnose {
 
 namespace {
 
-/// Ranks 0 .. 1 of a coordinate; 0 where it is unknown or does not vary.
-Eigen::VectorXd ranks(const std::vector<Observation>& observations, Coordinate coordinate) {
-    std::vector<double> values;
-    for (const Observation& observation : observations) {
-        values.push_back(coordinate_of(observation, coordinate));
-    }
-    std::vector<double> sorted;
-    std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double value) { return std::isfinite(value); });
-    std::sort(sorted.begin(), sorted.end());
-    sorted.erase(std::unique(sorted.begin(), sorted.end(), [](double a, double b) { return b <= a * 1.001; }), sorted.end());
-    Eigen::VectorXd rank = Eigen::VectorXd::Zero(static_cast<Index>(values.size()));
-    for (std::size_t k = 0; k < values.size() && sorted.size() > 1; ++k) {
-        const auto place = std::lower_bound(sorted.begin(), sorted.end(), values[k] * 0.9995) - sorted.begin();
-        rank[static_cast<Index>(k)] =
-            std::isfinite(values[k]) ? static_cast<double>(place) / static_cast<double>(sorted.size() - 1) : 0.0;
-    }
-    return rank;
-}
-
 bool takes_part(const Observation& one, Departing departing) {
     return departing == Departing::both || one.loss == (departing == Departing::loss);
 }
@@ -104,7 +85,7 @@ struct Varying {
 std::vector<Varying> varying_coordinates(const std::vector<Observation>& observations) {
     std::vector<Varying> varying;
     for (const Coordinate coordinate : all_coordinates()) {
-        Eigen::VectorXd rank = ranks(observations, coordinate);
+        Eigen::VectorXd rank = rank_along(observations, coordinate);
         if (rank.maxCoeff() > 0) {
             varying.push_back({coordinate, std::move(rank)});
         }
@@ -113,6 +94,29 @@ std::vector<Varying> varying_coordinates(const std::vector<Observation>& observa
 }
 
 }  // namespace
+
+Eigen::VectorXd rank_along(const std::vector<Observation>& observations, Coordinate coordinate) {
+    std::vector<double> values;
+    for (const Observation& observation : observations) {
+        values.push_back(coordinate_of(observation, coordinate));
+    }
+    std::vector<double> sorted;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double value) { return std::isfinite(value); });
+    std::sort(sorted.begin(), sorted.end());
+    sorted.erase(std::unique(sorted.begin(), sorted.end(), [](double a, double b) { return b <= a * 1.001; }), sorted.end());
+    Eigen::VectorXd rank = Eigen::VectorXd::Zero(static_cast<Index>(values.size()));
+    for (std::size_t k = 0; k < values.size() && sorted.size() > 1; ++k) {
+        const auto place = std::lower_bound(sorted.begin(), sorted.end(), values[k] * 0.9995) - sorted.begin();
+        rank[static_cast<Index>(k)] =
+            std::isfinite(values[k]) ? static_cast<double>(place) / static_cast<double>(sorted.size() - 1) : 0.0;
+    }
+    return rank;
+}
+
+Eigen::MatrixXd smooth_factor(const std::vector<Observation>& observations, Departing departing, std::vector<Eigen::VectorXd> ranks,
+                              bool together, double length) {
+    return SmoothCovariance(observations, departing, std::move(ranks), together, length).factor();
+}
 
 SmoothDepartures smooth_departures(const std::vector<Observation>& observations) {
     const std::vector<Varying> varying = varying_coordinates(observations);
@@ -123,7 +127,7 @@ SmoothDepartures smooth_departures(const std::vector<Observation>& observations)
             one.along.push_back(coordinate);
             own.push_back(rank);
         }
-        one.factor = SmoothCovariance(observations, departing, std::move(own), together, length).factor();
+        one.factor = smooth_factor(observations, departing, std::move(own), together, length);
         return one;
     };
     if (varying.empty()) {

@@ -28,6 +28,15 @@ struct SmoothDeparture {
     Eigen::MatrixXd factor;         ///< columns U with U U^T = its covariance over |G*|, as far as a ten-thousandth of it
 };
 
+/// Ranks 0 .. 1 of a coordinate among its values; 0 where it is unknown or does not vary.
+Eigen::VectorXd rank_along(const std::vector<Observation>& observations, Coordinate coordinate);
+
+/// Columns U with U U^T = the covariance of a departure of unit size, as far as a ten-thousandth of it: smooth along these ranks,
+/// the same everywhere where there are none. None where nothing departs.
+/// @param together the product of the correlations along all ranks, else their mean.
+Eigen::MatrixXd smooth_factor(const std::vector<Observation>& observations, Departing departing, std::vector<Eigen::VectorXd> ranks,
+                              bool together, double length);
+
 /// In groups that are equally probable, of every length; the level alone where no coordinate varies.
 using SmoothDepartures = std::vector<std::vector<SmoothDeparture>>;
 SmoothDepartures smooth_departures(const std::vector<Observation>& observations);

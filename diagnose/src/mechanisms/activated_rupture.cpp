@@ -25,6 +25,7 @@ Mechanism activated_rupture() {
             .signature =
                 "The bonds yield, at a strain that grows with the logarithm of the frequency. At one frequency this "
                 "looks like 'bond-strength'; a strain sweep at a second frequency separates the two.",
+            .kind = {Link::material, Axis::strain},
             .parameters = {{"activated_critical_strain", "1", 3e-6, 3e-2, true, strength_step},
                            {"strength_per_decade", "1", 0.03, 0.5, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) {

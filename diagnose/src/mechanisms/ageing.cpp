@@ -17,6 +17,7 @@ Mechanism ageing() {
             .signature =
                 "The moduli grow with the logarithm of the sample's age. They follow the time and the order of the "
                 "runs, not the strain.",
+            .kind = {Link::history, Axis::time},
             .parameters = {{"per_decade", "1", 0.02, 0.3, true}},
             .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample&) -> std::complex<double> {
                 return std::isfinite(row.age) ? 1 + values[0] * std::log10(1 + row.age / start) : 1;

@@ -11,6 +11,7 @@ Mechanism ageing_after_shear() {
                 "shear before the run destroyed structure, which builds up again: the stiffness grows as a power of "
                 "the time since then",
             .signature = "The moduli follow the time since the shear, not the strain, over orders of magnitude.",
+            .kind = {Link::history, Axis::age},
             .parameters = {{"build_up_exponent", "1", 0.1, 3, true}, {"build_up_time", "s", 1, 1000, true}},
             .effect = ScalesMaterial{power_of_age},
             .applies = [](const Knows& knows) { return knows.shear_before; }};

@@ -18,6 +18,7 @@ Mechanism ageing_power() {
             .signature =
                 "The moduli grow by more than a factor of two with the age of the sample, whatever the strain, and go "
                 "on growing. 'ageing-saturating' slows down and stops; only the latest times separate the two.",
+            .kind = {Link::history, Axis::time},
             .parameters = {{"power_of_age", "1", 0.3, 3, true}, {"power_time", "s", 1, 1e4, true}},
             .effect = ScalesMaterial{power_of_age},
             .applies = builds_up_unsheared};

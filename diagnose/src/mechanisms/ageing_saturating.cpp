@@ -18,6 +18,7 @@ Mechanism ageing_saturating() {
     return {.name = "ageing-saturating",
             .term = "the sample sets: its stiffness approaches a final value exponentially in its age",
             .signature = "The moduli grow with the age of the sample, whatever the strain, and reach a final value.",
+            .kind = {Link::history, Axis::time},
             .parameters = {{"growth", "1", 0.3, 1000, true}, {"setting_time", "s", 60, 1e5, true}},
             .effect = ScalesMaterial{saturating},
             .applies = [](const Knows& knows) { return knows.clock; }};

@@ -10,6 +10,7 @@ Mechanism bearing_damping() {
             .signature =
                 "The loss modulus gains a part that is proportional to the frequency, in an oil too. The storage "
                 "modulus does not change. The effect is smaller under a larger plate.",
+            .kind = {Link::tool, Axis::frequency},
             .parameters = {{"damping", "N.m.s", 1e-9, 1e-4, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 const double frequency = is_steady(row) ? 1 : row.angular_frequency;

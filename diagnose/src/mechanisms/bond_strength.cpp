@@ -9,6 +9,7 @@ Mechanism bond_strength() {
             .signature =
                 "Beyond a yield strain the storage modulus falls and the loss modulus rises. On the way down in "
                 "strain the moduli do not recover.",
+            .kind = {Link::material, Axis::strain},
             .parameters = {{"critical_strain", "1", 3e-6, 3e-2, true, strength_step}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) {
                 settings.critical_strain = std::min(settings.critical_strain, values[0]);

@@ -16,6 +16,7 @@ Mechanism contact_dashpot() {
                 "drag' raises the storage modulus with the frequency; 'bearing-damping' does not follow the stiffness "
                 "of the sample and falls with the plate's radius; 'contact-relaxation' levels off above one over its "
                 "relaxation time.",
+            .kind = {Link::material, Axis::frequency},
             .parameters = {{"dashpot_time", "s", 1e-6, 1, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.dashpot_time = values[0]; }},
             .applies = [](const Knows& knows) { return knows.frequency; },

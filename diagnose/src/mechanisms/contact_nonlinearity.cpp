@@ -9,6 +9,7 @@ Mechanism contact_nonlinearity() {
             .signature =
                 "The storage modulus rises as the square root of the strain once this exceeds the strain of the load "
                 "at rest. It is the same on the way down in strain as on the way up, whatever the age.",
+            .kind = {Link::material, Axis::strain},
             .parameters = {{"preload_overlap", "1", 1e-7, 3e-2, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.contact_preload = values[0]; }},
             .applies = [](const Knows& knows) { return knows.strain; },

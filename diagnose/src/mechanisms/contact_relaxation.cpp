@@ -12,6 +12,7 @@ Mechanism contact_relaxation() {
                 "The storage modulus rises by a step around one frequency, where the loss modulus has its maximum. "
                 "Far below that frequency this looks like 'contact-dashpot' and 'solvent-drag', and over a decade or "
                 "less like 'contact-loss'; higher and lower frequencies separate them.",
+            .kind = {Link::material, Axis::frequency},
             .parameters = {{"relaxing_over_spring", "1", 3e-3, 10, true}, {"contact_relaxation_time", "s", 1e-3, 1e3, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) {
                 settings.relaxing_ratio = values[0];

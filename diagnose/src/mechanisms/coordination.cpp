@@ -22,6 +22,7 @@ Mechanism coordination() {
             .signature =
                 "The contact peak of the pair correlation follows the coordination, while the pores hardly change. "
                 "All moduli are higher or lower by one factor.",
+            .kind = {Link::structure, Axis::coordination},
             .parameters = {{"coordination", "1", 4.3, 5.1, false}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.coordination = values[0]; }},
             .applies = can_be_aimed_at};

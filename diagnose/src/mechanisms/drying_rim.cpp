@@ -28,6 +28,7 @@ Mechanism drying_rim() {
             .signature =
                 "The storage modulus grows with time by the same amount at all frequencies, strains and gaps, and by "
                 "more under a smaller plate. The loss modulus does not change. A solvent trap prevents it.",
+            .kind = {Link::geometry, Axis::time},
             .parameters = {{"skin_growth", "N/(m.s)", 1e-7, 1, true}},
             .effect = ChangesGeometry{with_skin},
             .applies = has_open_rim};

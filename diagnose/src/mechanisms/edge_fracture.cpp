@@ -38,6 +38,7 @@ Mechanism edge_fracture() {
                 "Beyond a critical strain the torque falls, and it does not recover on the way down. The critical "
                 "strain falls as one over the square root of the gap; that of yielding bonds does not depend on the "
                 "gap.",
+            .kind = {Link::geometry, Axis::strain},
             .parameters = {{"fracture_strain", "1", 0.05, 20, true}, {"penetration", "1", 0.3, 6, true}},
             .effect = ChangesGeometry{fractured},
             .applies = strains_far};

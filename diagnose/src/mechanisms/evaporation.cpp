@@ -32,6 +32,7 @@ Mechanism evaporation() {
             .signature =
                 "All moduli grow faster and faster with the time since the filling, more under a smaller plate, at "
                 "every gap alike. A solvent trap prevents it.",
+            .kind = {Link::history, Axis::time},
             .parameters = {{"solvent_loss", "1/s", 1e-7, 1e-4, true}, {"modulus_exponent", "1", 2, 6, false}},
             .effect = ScalesMaterial{concentrated},
             .applies = dries};

@@ -17,6 +17,7 @@ Mechanism gap_error() {
             .signature =
                 "All moduli are lower by one factor where the true gap is larger, most at small gaps. A Newtonian oil "
                 "shows it too.",
+            .kind = {Link::geometry, Axis::gap},
             .parameters = {{"gap_error", "m", -5e-5, 5e-4, false, 0, 5e-5}},
             .effect = ChangesGeometry{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return std::isfinite(row.gap) ? modulus * row.gap / std::max(row.gap + values[0], narrowest * row.gap) : modulus;

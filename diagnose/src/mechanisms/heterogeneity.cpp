@@ -23,6 +23,7 @@ Mechanism heterogeneity() {
             .signature =
                 "With fewer voids per particle the pores are larger and more neighbours lie within two diameters, at "
                 "equal coordination.",
+            .kind = {Link::structure, Axis::heterogeneity},
             .parameters = {{"voids_per_particle", "1", 0.125, 1, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.voids = values[0]; }},
             .applies = can_have_other_voids};

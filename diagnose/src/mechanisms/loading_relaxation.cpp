@@ -25,6 +25,7 @@ Mechanism loading_relaxation() {
             .signature =
                 "All moduli of the sample fall with the time since the filling and level off; those of an oil do not. "
                 "A recorded normal force falls too.",
+            .kind = {Link::history, Axis::time},
             .parameters = {{"excess", "1", 0.01, 1, true}, {"relaxation_time", "s", 10, 1e4, true}},
             .effect = ScalesMaterial{relaxed},
             .applies = rests_after_filling};

@@ -19,6 +19,7 @@ Mechanism localisation_error() {
             .signature =
                 "Particles seem to overlap, the contact peak of the pair correlation is lower and wider, and the "
                 "coordination falls.",
+            .kind = {Link::errors, Axis::distance},
             .parameters = {{"sigma_plane", "m", 2e-9, 2e-7, true},
                            {"sigma_axis", "m", 2e-9, 2e-7, true},
                            {"missed_share", "1", 1e-3, 0.1, true},

@@ -7,6 +7,7 @@
 #include <coagula/common/spelling.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 // NOLINTBEGIN(cppcoreguidelines-macro-usage): no template makes declarations and calls of one list of names
@@ -69,6 +70,18 @@ COAGULA_CATALOGUE(COAGULA_DECLARED)
 #undef COAGULA_DECLARED
 
 }  // namespace mechanisms
+
+const char* name_of(Link link) {
+    constexpr std::array names{"structure", "material", "history", "geometry", "tool", "errors"};
+    return names.at(static_cast<std::size_t>(link));
+}
+
+const char* name_of(Axis axis) {
+    constexpr std::array names{"time",          "age",      "strain",       "frequency",       "shear_rate",
+                               "gap",           "radius",   "normal_force", "volume_fraction", "coordination",
+                               "heterogeneity", "distance", "pore_radius",  "sample",          "level"};
+    return names.at(static_cast<std::size_t>(axis));
+}
 
 double MechanismParameter::at(double place) const {
     if (small > 0) {

@@ -25,6 +25,7 @@ Mechanism missing_contacts() {
             "All moduli are lower by one factor, most where the coordination is low, until the network bears no "
             "load. In a single structure, softer particles or a lower volume fraction look the same; samples of "
             "several coordinations separate them.",
+        .kind = {Link::structure, Axis::coordination},
         .parameters = {{"missing_share", "1", 0, 0.3, false}},
         .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) -> std::complex<double> {
             return sample.exact ? exact_thinned_response(sample.simulator, sample.settings, values[0], row.structures)

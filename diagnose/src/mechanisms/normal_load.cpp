@@ -38,6 +38,7 @@ Mechanism normal_load() {
             .signature =
                 "All moduli follow the recorded normal force up and down, by the same factor at every strain and "
                 "frequency.",
+            .kind = {Link::history, Axis::normal_force},
             .parameters = {{"contact_pressure", "Pa", 100, 1e6, true}},
             .effect = ChangesGeometry{pressed},
             .applies = shows_load};

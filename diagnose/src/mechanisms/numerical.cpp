@@ -23,6 +23,7 @@ Mechanism numerical() {
         .signature =
             "The smaller the simulated structures are, the more the measured moduli deviate from theirs. With "
             "larger structures the deviation vanishes.",
+        .kind = {Link::errors, Axis::level},
         .parameters = {{"drift_at_thousand_particles", "1", -0.3, 1, false}},
         .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) -> std::complex<double> {
             return 1 + values[0] * std::cbrt(1000 / sample.simulator.particles(row.structures));

@@ -10,6 +10,7 @@ Mechanism phase_offset() {
             .signature =
                 "G'' of a stiff solid is a fixed fraction of G', positive or negative, at all frequencies, strains "
                 "and times.",
+            .kind = {Link::tool, Axis::level},
             .parameters = {{"phase", "rad", -0.02, 0.02, false}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return is_steady(row) ? modulus : modulus * std::polar(1.0, values[0]);

@@ -23,6 +23,7 @@ Mechanism plate_strain_field() {
                 "bonds break at a finite force, and they do so first at the rim of the plates, where the strain is "
                 "largest",
             .signature = "The bonds yield, as under 'bond-strength', but over a wider range of strain.",
+            .kind = {Link::geometry, Axis::strain},
             .parameters = {{"rim_critical_strain", "1", 3e-6, 3e-2, true, strength_step}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.rim_critical_strain = values[0]; }},
             .applies = sweeps_between_plates,

@@ -10,6 +10,7 @@ Mechanism polydispersity() {
             .signature =
                 "The contact peak of the pair correlation is lower and wider, and the pores change. The coordination "
                 "does not.",
+            .kind = {Link::structure, Axis::distance},
             .parameters = {{"relative_size_deviation", "1", 0.02, 0.4, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.size_deviation = values[0]; }},
             .applies = [](const Knows& knows) { return knows.recipe; }};

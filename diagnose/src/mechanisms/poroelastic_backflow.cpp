@@ -41,6 +41,7 @@ Mechanism poroelastic_backflow() {
             "All moduli grow with the time since the filling and level off, by the same factor at every gap. The "
             "time that this takes is proportional to the square of the gap over the modulus, whatever the plate's "
             "radius.",
+        .kind = {Link::history, Axis::time},
         .parameters = {{"drained_growth", "1", 0.02, 0.5, true}, {"permeability_over_viscosity", "m2/(Pa s)", 1e-16, 1e-10, true}},
         .effect = ChangesGeometry{drained},
         .applies = drains};

@@ -9,6 +9,7 @@ Mechanism prestress() {
     return {.name = "prestress",
             .term = "all contacts are under tension at rest, and this force resists sideways motion",
             .signature = "The moduli are higher, most where the coordination is low, at all strains and frequencies alike.",
+            .kind = {Link::material, Axis::coordination},
             .parameters = {{"tension_over_stiffness", "1", 1e-4, 1e-2, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.tension = values[0]; }},
             .applies = [](const Knows& knows) { return knows.moduli; },

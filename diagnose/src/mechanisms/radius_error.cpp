@@ -32,6 +32,7 @@ Mechanism radius_error() {
             .signature =
                 "All moduli are higher or lower by one factor, at every gap alike and more under a smaller plate. An "
                 "oil shows it too. The factor differs from filling to filling.",
+            .kind = {Link::geometry, Axis::radius},
             .parameters = {{"radius_error", "m", -1e-3, 1e-3, false}},
             .effect = ChangesGeometry{filled},
             .applies = shows_radius};

@@ -28,6 +28,7 @@ Mechanism reversible_softening() {
             .signature =
                 "Beyond a strain the storage modulus falls and the loss modulus has a maximum. Both are the same on "
                 "the way down in strain as on the way up.",
+            .kind = {Link::material, Axis::strain},
             .parameters = {{"softening_strain", "1", 1e-5, 10, true},
                            {"softening_exponent", "1", 0.3, 2, false},
                            {"loss_at_half", "1", 0.003, 1, true}},

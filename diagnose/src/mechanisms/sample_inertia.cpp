@@ -47,6 +47,7 @@ Mechanism sample_inertia() {
             .signature =
                 "The storage modulus changes in proportion to the square of the frequency and to the square of the "
                 "gap, under every plate alike.",
+            .kind = {Link::geometry, Axis::frequency},
             .parameters = {{"density", "kg/m3", 500, 8000, true}},
             .effect = ChangesGeometry{with_waves},
             .applies = shows_waves};

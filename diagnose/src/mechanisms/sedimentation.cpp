@@ -23,6 +23,7 @@ Mechanism sedimentation() {
             .signature =
                 "All moduli fall with the time since the filling and level off. The fall is proportional to the "
                 "square of the gap.",
+            .kind = {Link::history, Axis::time},
             .parameters = {{"settled_difference", "1", 0, 0.05, false}, {"sedimentation_time", "s", 300, 1e5, true}},
             .effect = ScalesMaterial{settling},
             .applies = settles_in_time};

@@ -20,6 +20,7 @@ Mechanism shear_thinning() {
             .signature =
                 "The viscosity rises towards low shear rates, more slowly than one over the rate, under all plates "
                 "alike.",
+            .kind = {Link::material, Axis::shear_rate},
             .parameters = {{"excess_at_1_per_s", "1", 1e-3, 10, true}, {"thinning_exponent", "1", 0.1, 0.9, false}},
             .effect = ScalesMaterial{thinning},
             .applies = flows_as_an_oil,

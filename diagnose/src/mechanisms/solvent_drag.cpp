@@ -13,6 +13,7 @@ Mechanism solvent_drag() {
                 "while the storage modulus rises towards its affine value. Over a narrow range of frequencies this "
                 "looks like 'contact-dashpot' and 'contact-relaxation'; a solvent of another viscosity separates "
                 "them.",
+            .kind = {Link::material, Axis::frequency},
             .parameters = {{"felt_viscosity", "Pa.s", 1e-3, 100, true}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.felt_viscosity = values[0]; }},
             .applies = [](const Knows& knows) { return knows.frequency; },

@@ -42,6 +42,7 @@ Mechanism sudden_loss() {
             .signature =
                 "From one row on, all moduli of one sample are lower by one factor, whatever is varied. Its later "
                 "runs show the same factor; other samples do not.",
+            .kind = {Link::geometry, Axis::time},
             .parameters = {{"place_of_loss", "1", 0, 1, false}, {"remaining_share", "1", 0.05, 0.99, false}},
             .effect = ChangesGeometry{lost},
             .applies = is_told_from_yielding};

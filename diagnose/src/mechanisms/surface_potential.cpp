@@ -27,6 +27,7 @@ Mechanism surface_potential() {
             .signature =
                 "Behind a barrier of some kT, structures of equal coordination are more heterogeneous: their pores "
                 "are larger, and more neighbours lie within two diameters.",
+            .kind = {Link::structure, Axis::heterogeneity},
             .parameters = {{"surface_potential", "V", 0, highest_potential, false}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.coagulation_potential = values[0]; }},
             .applies = coagulates};

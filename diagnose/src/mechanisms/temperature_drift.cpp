@@ -19,6 +19,7 @@ Mechanism temperature_drift() {
             .signature =
                 "All moduli begin higher or lower by one factor, which decays with the time since the filling. An oil "
                 "shows it too.",
+            .kind = {Link::history, Axis::time},
             .parameters = {{"start_difference", "1", -0.3, 0.3, false}, {"settling_time", "s", 60, 3000, true}},
             .effect = ScalesMaterial{drifting},
             .applies = [](const Knows& knows) { return knows.clock; },

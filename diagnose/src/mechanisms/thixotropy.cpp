@@ -57,6 +57,7 @@ Mechanism thixotropy() {
                 "with the time at rest. A single sweep upwards looks the same under 'bond-strength', which never "
                 "recovers, and 'reversible-softening', which recovers at once; a rest and a second sweep separate the "
                 "three.",
+            .kind = {Link::history, Axis::age},
             .parameters = {{"breakdown_per_strain", "1", 1e-4, 1e5, true}, {"rebuilding_time", "s", 10, 1e5, true}},
             .effect = ScalesMaterial{left_by_shear},
             .applies = shears_in_time};

@@ -7,6 +7,7 @@ Mechanism tool_compliance() {
     return {.name = "tool-compliance",
             .term = "the tool deforms more than the instrument corrects for",
             .signature = "The apparent storage modulus of a stiff sample approaches an upper limit.",
+            .kind = {Link::tool, Axis::radius},
             .parameters = {{"compliance", "rad/(N.m)", 5e-4, 1e-2, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 if (is_steady(row)) {

@@ -9,6 +9,7 @@ Mechanism tool_inertia() {
             .signature =
                 "The storage modulus changes in proportion to the square of the frequency. The loss modulus never "
                 "changes.",
+            .kind = {Link::tool, Axis::frequency},
             .parameters = {{"inertia", "kg.m2", 1e-9, 1e-3, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
                 const double frequency = row.angular_frequency;

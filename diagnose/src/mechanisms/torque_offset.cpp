@@ -28,6 +28,7 @@ Mechanism torque_offset() {
             .signature =
                 "Towards low shear rates the viscosity rises, or falls through zero, as one over the rate, most under "
                 "small plates.",
+            .kind = {Link::tool, Axis::strain},
             .parameters = {{"stress_offset", "Pa", -0.1, 0.1, false, 0, least_offset}},
             .effect = ChangesTool{with_offset},
             .applies = flows_as_an_oil};

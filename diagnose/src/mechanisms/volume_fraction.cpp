@@ -27,6 +27,7 @@ Mechanism volume_fraction() {
             .signature =
                 "The pores and the number of neighbours at all distances follow the volume fraction, while the "
                 "contacts do not. All moduli are higher or lower by one factor.",
+            .kind = {Link::structure, Axis::volume_fraction},
             .parameters = {{"volume_fraction_over_stated", "1", 0.85, 1.15, false}},
             .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.volume_fraction_change = values[0] - 1; }},
             .applies = can_be_diluted};

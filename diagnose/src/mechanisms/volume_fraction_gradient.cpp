@@ -35,6 +35,7 @@ Mechanism volume_fraction_gradient() {
             .signature =
                 "All moduli are lower by a factor that grows with the square of the gap. It is largest at wide gaps, "
                 "where slip and an error of the gap matter least.",
+            .kind = {Link::structure, Axis::gap},
             .parameters = {{"volume_fraction_difference", "1", 0, 0.05, false}},
             .effect = ScalesMaterial{[](const Observation& row, Values values, const SimulatedSample& sample) {
                 return settled_layers(row, values[0], sample);

@@ -41,6 +41,7 @@ Mechanism wall_slip() {
     return {.name = "wall-slip",
             .term = "the sample slips at the plates",
             .signature = "The apparent modulus is lower, the more so the stiffer the sample and the smaller the gap.",
+            .kind = {Link::geometry, Axis::gap},
             .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true}},
             .effect = ChangesGeometry{slipping},
             .applies = [](const Knows& knows) { return knows.walls && knows.geometry; }};

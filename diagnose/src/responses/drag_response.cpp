@@ -25,7 +25,7 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 
 /// Drag on a particle over its normal stiffness, times angular frequency.
-constexpr Axis drag_axis{1e-7, 100, 19};
+constexpr NodeAxis drag_axis{1e-7, 100, 19};
 
 /// Springs, their losses and drag alone: what acts at vanishing strain and age.
 ContactModel dragged_model(const Settings& settings, double radius) {

@@ -10,7 +10,7 @@ namespace coagula::diagnose {
 
 /// Nodes of the response of Hertz contacts: strain over the overlap at rest (over r0); the curve dips at 2 and then rises, which
 /// nodes half a decade apart would miss by 1 %.
-constexpr Axis hertz_axis{0.177827941, 100, 12};
+constexpr NodeAxis hertz_axis{0.177827941, 100, 12};
 
 /// Scatter of the logarithm of the secant modulus at the nodes of hertz_axis over that of small strains.
 struct HertzScatter {

@@ -13,7 +13,7 @@ namespace coagula::diagnose {
 namespace {
 
 /// Standard deviation over the diameter; below, no shell notices it.
-constexpr Axis error_axis{0.02, 0.9, 9};
+constexpr NodeAxis error_axis{0.02, 0.9, 9};
 
 /// Neighbours in every shell for errors in the plane and along z over the diameter.
 const std::vector<double>& shells(Simulator& simulator, double plane, double axis) {

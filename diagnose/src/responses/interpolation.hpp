@@ -9,7 +9,7 @@
 
 namespace coagula::diagnose {
 
-struct Axis {
+struct NodeAxis {
     double low;
     double high;
     int count;
@@ -62,7 +62,7 @@ auto interpolate_nodes(const AnyAxis& axis, double first, double second, const A
 
 /// The same for positive values that vary over decades, in their logarithms; `f` takes the value of a node.
 template <class Function>
-double interpolate(const Axis& axis, double value, const Function& f) {
+double interpolate(const NodeAxis& axis, double value, const Function& f) {
     return std::exp(interpolate_nodes(axis, value, [&](int k) { return std::log(std::max(f(axis.node(k)), 1e-300)); }));
 }
 

@@ -9,9 +9,9 @@
 namespace coagula::diagnose {
 
 /// Nodes, uniform in the logarithm. Bending below its lowest node is off.
-constexpr Axis ratio_axis{0.02, 2.0, 9};
-constexpr Axis bending_axis{1e-6, 0.2, 12};
-constexpr Axis tolerance_axis{5e-4, 0.08, 12};
+constexpr NodeAxis ratio_axis{0.02, 2.0, 9};
+constexpr NodeAxis bending_axis{1e-6, 0.2, 12};
+constexpr NodeAxis tolerance_axis{5e-4, 0.08, 12};
 
 /// A positive quantity of the network at these settings, between the nodes.
 /// @param at the quantity at a node, which has a stiffness ratio, a bending ratio and a bond tolerance of its own.

@@ -8,7 +8,7 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr Axis tension_axis{1e-4, 1e-2, 7};
+constexpr NodeAxis tension_axis{1e-4, 1e-2, 7};
 
 /// Modulus of one structure for unit stiffness [Pa].
 double prestressed_modulus(Simulator& simulator, std::size_t structure, const Settings& settings) {

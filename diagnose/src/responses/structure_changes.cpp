@@ -11,12 +11,12 @@ namespace coagula::diagnose {
 namespace {
 
 /// Where structures are made again; between these values what is measured of them is interpolated.
-constexpr Axis size_axis{0.03, 0.4, 7};  // at 0.03 no shell of neighbours notices
+constexpr NodeAxis size_axis{0.03, 0.4, 7};  // at 0.03 no shell of neighbours notices
 /// Below 11 mV particles of 0.25 um in water have no barrier, and coagulation hardly knows the potential.
 constexpr LinearAxis potential_axis{0.011, 0.015, 5};
 constexpr LinearAxis fraction_axis{-0.15, 0.15, 5};  // its middle is the structure as it is
 constexpr LinearAxis coordination_axis{4.3, 5.1, 5};
-constexpr Axis voids_axis{0.125, 1, 4};
+constexpr NodeAxis voids_axis{0.125, 1, 4};
 
 /// What is asked of structures with these changes, between the nodes of each; several changes add up.
 template <class Value>

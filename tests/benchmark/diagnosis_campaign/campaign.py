@@ -129,7 +129,7 @@ def run(row, number, program, folder):
     started = time.time()
     seed = ("--seed", str(number + 1))  # or all tests share the errors of one bootstrap
     found = diagnose(program, experiment, folder / "simulations.txt", *seed, *allowed_causes(row, program, session.hidden.name))
-    entry = {"row": row, "number": number, "truth": session.hidden.name, "hidden": vars(session.hidden), "stiffness": session.stiffness,
+    entry = {"row": row, "number": number, "truth": session.hidden.name, "hidden": {key: value for key, value in vars(session.hidden).items() if not callable(value)}, "stiffness": session.stiffness,
              "gain": session.gain(material), "wall": time.time() - started}
     keep = ("detected", "p_value", "verdict", "credible_set", "gain", "extended_p_value", "proposed_measurement", "seconds",
             "notes", "remainder", "level_alone", "follows", "conditions")

@@ -54,22 +54,70 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
         found.causes.push_back(cause);
     }
     found.credible_set = {"wall-slip", "gap-error"};
+    found.follows = {
+        .kind = {diagnose::Link::geometry, diagnose::Axis::gap}, .posterior = 0.99, .change = 0.4, .from = 5e-4, .to = 2e-3};
     found.remainder = {.detected = true, .where = "G' lies above the model by up to 9 % of |G*|"};
     found.proposals = {{.what = "an oil", .information = 1, .resolution = 0.9}};
     for (const diagnose::Verdict verdict :
          {diagnose::Verdict::tied, diagnose::Verdict::none_of_catalogue, diagnose::Verdict::named}) {
         found.verdict = verdict;
         const Names sentences = verdict_sentences(found);
-        ASSERT_EQ(sentences.size(), 3U);
+        const bool is_named = verdict == diagnose::Verdict::named;
+        ASSERT_EQ(sentences.size(), is_named ? 3U : 4U);
         EXPECT_EQ(sentences[0], verdict_sentence(found));
-        EXPECT_EQ(sentences[1], "The best cause, wall-slip, leaves a deviation: G' lies above the model by up to 9 % of |G*|.");
-        EXPECT_EQ(sentences[2], "To decide, measure an oil.");
+        if (!is_named) {
+            EXPECT_EQ(sentences[1],
+                      "What is certain: the deviation follows the gap, by +40 % of |G*| from 500\u00A0µm to 2\u00A0mm, and it acts like what "
+                      "plates do to the strain or to the rim. Causes of that kind: wall-slip or gap-error.");
+        }
+        EXPECT_EQ(sentences[sentences.size() - 2],
+                  "The best cause, wall-slip, leaves a deviation: G' lies above the model by up to 9 % of |G*|.");
+        EXPECT_EQ(sentences.back(), "To decide, measure an oil.");
     }
     found.remainder.most = true;
     EXPECT_NE(verdict_sentences(found)[1].find("leaves most of the misfit: "), std::string::npos);
     found.remainder.detected = false;
     found.proposals.clear();
     EXPECT_EQ(verdict_sentences(found).size(), 1U);
+    found.verdict = diagnose::Verdict::none_of_catalogue;
+    EXPECT_NE(verdict_sentences(found).back().find("an oil of known viscosity"), std::string::npos)
+        << "something is advised always";
+}
+
+TEST(VerdictSentence, WhatAKindWithoutANameLacks) {
+    diagnose::Diagnosis found;
+    found.detected = true;
+    found.p_value = 0.001;
+    found.base.name = "base";
+    diagnose::Cause cause;
+    cause.name = "ageing";
+    cause.parameters.emplace_back();
+    found.causes = {cause};
+    found.verdict = diagnose::Verdict::kind_only;
+    found.follows = {
+        .kind = {diagnose::Link::history, diagnose::Axis::time}, .posterior = 0.7, .change = -0.12, .from = 10, .to = 1200};
+    found.conditions = {{"inside-range", 1, 0, false}, {"beats-free-forms", 8, 3, true}, {"without-any-row", 2, 6, false}};
+    const Names sentences = verdict_sentences(found);
+    EXPECT_EQ(
+        sentences[0],
+        "The base model fails (p ≤ 0.001); no cause is certain. The most probable is ageing, but a value lies at the end of its "
+        "physical range, and it rests on a single row.");
+    EXPECT_EQ(sentences[1],
+              "The deviation probably follows the time since the sample was loaded, by −12 % of |G*| from 10\u00A0s to 1200\u00A0s, and "
+              "it acts "
+              "like a change of the sample with its history (probability 70 %). Causes of that kind: ageing.");
+}
+
+TEST(VerdictSentence, ACauseOrOneThatNobodyKnows) {
+    diagnose::Diagnosis found;
+    found.detected = true;
+    found.p_value = 0.001;
+    found.verdict = diagnose::Verdict::tied;
+    found.credible_set = {"contact-loss", "none of the catalogue"};
+    found.conditions = {{"separated", 0, 1, false}};
+    EXPECT_EQ(verdict_sentence(found),
+              "The base model fails (p ≤ 0.001); contact-loss explains the data, but nothing that was measured tells it from "
+              "look-alikes outside the catalogue. The cause may be another one, which the catalogue does not have.");
 }
 
 }  // namespace

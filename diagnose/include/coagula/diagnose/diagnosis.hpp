@@ -4,6 +4,7 @@
 
 #include <coagula/common/progress.hpp>
 #include <coagula/diagnose/measurement.hpp>
+#include <coagula/diagnose/mechanism.hpp>
 #include <coagula/diagnose/model.hpp>
 #include <coagula/diagnose/noise.hpp>
 #include <coagula/diagnose/simulator.hpp>
@@ -32,9 +33,10 @@ enum class Verdict {
     no_discrepancy,     ///< the base model explains the data
     named,              ///< one cause (or pair) stands out
     tied,               ///< several causes explain the data about equally
+    kind_only,          ///< what the data follow is known, but of no cause all holds that a name needs
     none_of_catalogue,  ///< something is wrong that no cause explains
 };
-/// "no-discrepancy", "named", "tied", "none-of-catalogue".
+/// "no-discrepancy", "named", "tied", "kind-only", "none-of-catalogue".
 const char* name_of(Verdict verdict);
 
 /// A value with its 90 % interval.
@@ -66,6 +68,32 @@ struct TestedStatistic {
     std::string measure;     ///< "chi-square", "smooth components" or "neighbours"
     double value = 0;
     double score = 0;  ///< standardised
+};
+
+/// A kind of departure, and how probable it is that the data follow it.
+struct FollowedKind {
+    Kind kind;
+    double posterior = 0;       ///< of its causes and its free form together
+    double log_factor = unset;  ///< of its free form on the evidence of the base model; NaN where it has none
+};
+
+/// What the data follow, whatever the cause.
+struct Follows {
+    Kind kind{};
+    double posterior = 0;   ///< of this kind
+    double change = unset;  ///< mean departure over |G*| at the upper end of the axis less that at the lower one; of the sample
+                            ///< that departs most, and along no axis, the mean one
+    double from = unset;  ///< lowest and highest value of the axis
+    double to = unset;
+    std::string sample = {};  ///< that departs most, where that is the axis
+};
+
+/// What a name needs, and whether it has it.
+struct Condition {
+    std::string name;
+    double value = 0;  ///< NaN where nothing is known of it
+    double limit = 0;
+    bool holds = false;
 };
 
 /// Where the base model fails.
@@ -149,6 +177,9 @@ struct Diagnosis {
     std::vector<Cause> causes;              ///< all that were compared, most probable first
     std::vector<std::string> credible_set;  ///< smallest set with 95 % of the posterior; pairs with a member of the set left out
     std::vector<std::string> certain;       ///< causes that all of the credible set have, alone or in a pair
+    Follows follows;                        ///< where something was detected
+    std::vector<FollowedKind> kinds;        ///< of departure, most probable first
+    std::vector<Condition> conditions;      ///< of the name of the best cause
     std::vector<Failure> failures;          ///< strongest first
     double extended_p_value = 1;            ///< of the test, applied to the best cause
     Remainder remainder;                    ///< that the best cause leaves over

@@ -7,6 +7,7 @@
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/settings.hpp>
 
+#include <compare>
 #include <complex>
 #include <span>
 #include <string>
@@ -74,11 +75,46 @@ struct ChangesTool {
 
 using Effect = std::variant<ChangesSimulation, ScalesMaterial, ChangesGeometry, ChangesTool>;
 
+/// The link of the chain from the structures to the numbers that an instrument shows.
+enum class Link { structure, material, history, geometry, tool, errors };
+/// "structure", "material", "history", "geometry", "tool", "errors".
+const char* name_of(Link link);
+
+/// What a departure follows.
+enum class Axis {
+    time,
+    age,
+    strain,
+    frequency,
+    shear_rate,
+    gap,
+    radius,
+    normal_force,
+    volume_fraction,
+    coordination,
+    heterogeneity,
+    distance,
+    pore_radius,
+    sample,
+    level  ///< none: it is the same in every row
+};
+/// "time", "age", "strain", "frequency", ...
+const char* name_of(Axis axis);
+
+/// A kind of departure: where it acts and what it follows.
+struct Kind {
+    Link link;
+    Axis axis;
+
+    auto operator<=>(const Kind&) const = default;
+};
+
 /// One cause.
 struct Mechanism {
     std::string name;       ///< "bond-bending"
     std::string term;       ///< what it changes, in words
     std::string signature;  ///< what it does to the data, in words
+    Kind kind;
     std::vector<MechanismParameter> parameters;
     Effect effect;
     /// Whether an experiment says what the mechanism needs (a gap, a plate radius), so that it can be a cause at all.

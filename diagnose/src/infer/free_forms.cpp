@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "free_forms.hpp"
+
+#include "remainder.hpp"
+#include "smooth.hpp"
+
+#include <coagula/common/log_probability.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace coagula::diagnose {
+
+namespace {
+
+using Directions = std::vector<Eigen::MatrixXd>;  ///< of unit amplitude [unit of the numbers], equally probable
+
+constexpr std::array<std::pair<Coordinate, Kind>, 11> factors_on_modulus{
+    {{Coordinate::strain, {Link::material, Axis::strain}},
+     {Coordinate::angular_frequency, {Link::material, Axis::frequency}},
+     {Coordinate::shear_rate, {Link::material, Axis::shear_rate}},
+     {Coordinate::time, {Link::history, Axis::time}},
+     {Coordinate::gap, {Link::geometry, Axis::gap}},
+     {Coordinate::plate_radius, {Link::geometry, Axis::radius}},
+     {Coordinate::heterogeneity, {Link::structure, Axis::heterogeneity}},
+     {Coordinate::coordination, {Link::structure, Axis::coordination}},
+     {Coordinate::volume_fraction, {Link::structure, Axis::volume_fraction}},
+     {Coordinate::distance, {Link::structure, Axis::distance}},
+     {Coordinate::pore_radius, {Link::structure, Axis::pore_radius}}}};
+
+bool is_known(double value) {
+    return value > 0 && std::isfinite(value);
+}
+
+double geometric_mean(const Eigen::VectorXd& values) {
+    double sum = 0;
+    double count = 0;
+    for (const double value : values) {
+        sum += is_known(value) ? std::log(value) : 0;
+        count += is_known(value) ? 1 : 0;
+    }
+    return count > 0 ? std::exp(sum / count) : 1;
+}
+
+bool varies(const Eigen::VectorXd& scale) {
+    return scale.maxCoeff() > 1.05 * scale.minCoeff();
+}
+
+/// Finds the directions of every kind.
+class AllDirections {
+public:
+    AllDirections(const DataSet& data, Eigen::VectorXd level) : data_(data), level_(std::move(level)) {}
+
+    std::map<Kind, Directions> find() && {
+        for (const auto& [coordinate, kind] : factors_on_modulus) {
+            add_smooth(kind, level_, coordinate);
+        }
+        add_plates();
+        add_tool();
+        for (Index sample = 0; data_.samples() > 1 && sample < data_.samples(); ++sample) {
+            add_sample(sample);
+        }
+        return std::move(found_);
+    }
+
+private:
+    /// A quantity of each number over its geometric mean; 0 where it is not known.
+    template <class Quantity>
+    Eigen::VectorXd relative(const Quantity& quantity) const {
+        Eigen::VectorXd values(level_.size());
+        std::transform(data_.observations.begin(), data_.observations.end(), values.begin(), quantity);
+        const double mean = geometric_mean(values);
+        return values.unaryExpr([mean](double value) { return is_known(value) ? value / mean : 0.0; });
+    }
+
+    bool goes_along(Coordinate coordinate) const { return rank_along(data_.observations, coordinate).maxCoeff() > 0; }
+
+    void add(Kind kind, const Eigen::VectorXd& scale, const std::vector<Eigen::VectorXd>& ranks, double length) {
+        for (const Departing departing : {Departing::storage, Departing::loss, Departing::both}) {
+            const Eigen::MatrixXd factor = smooth_factor(data_.observations, departing, ranks, false, length);
+            if (factor.cols() > 0 && !scale.isZero(0)) {
+                found_[kind].emplace_back(scale.asDiagonal() * factor);
+            }
+        }
+    }
+
+    /// Smooth along a coordinate, of G', of G'' or of both apart.
+    void add_smooth(Kind kind, const Eigen::VectorXd& scale, Coordinate coordinate) {
+        if (goes_along(coordinate)) {
+            for (const double length : smooth_lengths) {
+                add(kind, scale, {rank_along(data_.observations, coordinate)}, length);
+            }
+        }
+    }
+
+    void add_constant(Kind kind, const Eigen::VectorXd& scale) { add(kind, scale, {}, 1); }
+
+    /// Plates that take a part of the strain, move, or let the rim dry: the more, the smaller they are or the closer.
+    void add_plates() {
+        for (const Eigen::VectorXd& part : {relative([](const Observation& one) { return 1 / one.gap; }),
+                                            relative([](const Observation& one) { return 1 / one.plate_radius; })}) {
+            if (varies(part)) {
+                const Eigen::VectorXd scale = level_.cwiseProduct(part);
+                add_smooth({Link::geometry, Axis::strain}, scale, Coordinate::strain);
+                add_smooth({Link::geometry, Axis::time}, scale, Coordinate::time);
+            }
+        }
+    }
+
+    /// A torque beside that of the sample, also one that does not grow with the angle; a tool that gives way; a phase that is off.
+    void add_tool() {
+        const double mean_level = geometric_mean(level_);
+        const auto per_torque = [](const Observation& one) { return 1 / one.torque_per_modulus; };
+        const Eigen::VectorXd torque = mean_level * relative(per_torque);
+        const Eigen::VectorXd offset = mean_level * relative([&](const Observation& one) { return per_torque(one) / one.strain; });
+        add_smooth({Link::tool, Axis::frequency}, torque, Coordinate::angular_frequency);
+        if (goes_along(Coordinate::strain)) {
+            add_constant({Link::tool, Axis::strain}, offset);
+            add_smooth({Link::tool, Axis::strain}, torque, Coordinate::strain);
+            add_smooth({Link::tool, Axis::time}, offset, Coordinate::time);
+        }
+        if (varies(torque)) {
+            const Kind still{Link::tool, goes_along(Coordinate::plate_radius) ? Axis::radius : Axis::gap};
+            const Eigen::VectorXd given_way = relative([](const Observation& one) { return one.torque_per_modulus; });
+            add_constant(still, torque);
+            add_constant(still, level_.cwiseAbs2().cwiseProduct(given_way) / mean_level);
+        }
+        const Eigen::MatrixXd turned = smooth_factor(data_.observations, Departing::loss, {}, false, 1);
+        if (turned.cols() > 0) {
+            found_[{Link::tool, Axis::level}].emplace_back(level_.asDiagonal() * turned);
+        }
+    }
+
+    /// One sample that goes its own way, as a whole or along a coordinate.
+    void add_sample(Index sample) {
+        Eigen::VectorXd scale = level_;
+        for (Index row = 0; row < scale.size(); ++row) {
+            scale[row] *= data_.sample[static_cast<std::size_t>(row)] == sample ? 1.0 : 0.0;
+        }
+        const Kind kind{Link::errors, Axis::sample};
+        add_constant(kind, scale);
+        for (const Coordinate coordinate : {Coordinate::time, Coordinate::strain, Coordinate::angular_frequency}) {
+            add_smooth(kind, scale, coordinate);
+        }
+    }
+
+    const DataSet& data_;
+    Eigen::VectorXd level_;  ///< |G*| of each number
+    std::map<Kind, Directions> found_;
+};
+
+/// The sample that departs most, as the mean of its numbers, and by how much.
+std::pair<std::string, double> most_apart(const DataSet& data, const Eigen::ArrayXd& share) {
+    std::pair<std::string, double> found{"", 0};
+    for (Index sample = 0; sample < data.samples(); ++sample) {
+        double sum = 0;
+        double count = 0;
+        for (Index row = 0; row < share.size(); ++row) {
+            const bool own = data.sample[static_cast<std::size_t>(row)] == sample && share[row] != 0;
+            sum += own ? share[row] : 0;
+            count += own ? 1 : 0;
+        }
+        const double mean = sum / std::max(count, 1.0);
+        if (std::abs(mean) >= std::abs(found.second)) {
+            found = {data.sample_names[static_cast<std::size_t>(sample)], mean};
+        }
+    }
+    return found;
+}
+
+/// Mean of the share of those numbers that depart at least half as much as the one that departs most.
+double mean_of_largest(const Eigen::ArrayXd& share) {
+    Index most = 0;
+    const double largest = share.abs().maxCoeff(&most);
+    double sum = 0;
+    double count = 0;
+    for (const double one : share) {
+        const bool alike = one * share[most] > 0 && std::abs(one) >= 0.5 * largest;
+        sum += alike ? one : 0;
+        count += alike ? 1 : 0;
+    }
+    return sum / std::max(count, 1.0);
+}
+
+std::pair<double, double> ends_of(const std::vector<Observation>& observations, Coordinate coordinate) {
+    std::pair<double, double> ends{unset, unset};
+    for (const Observation& one : observations) {
+        const double value = coordinate_of(one, coordinate);
+        ends = std::isfinite(value) ? std::pair{std::fmin(ends.first, value), std::fmax(ends.second, value)} : ends;
+    }
+    return ends;
+}
+
+/// Mean share at the upper tenth of an axis less that at its lower tenth, of the observable that changes more.
+double change_along(const Eigen::VectorXd& rank, const std::vector<Observation>& observations, const Eigen::ArrayXd& share) {
+    double found = 0;
+    for (const bool loss : {false, true}) {
+        Eigen::Array2d sums{0, 0};
+        Eigen::Array2d counts{0, 0};
+        for (Index row = 0; row < rank.size(); ++row) {
+            if (observations[static_cast<std::size_t>(row)].loss == loss && (rank[row] <= 0.1 || rank[row] >= 0.9)) {
+                const Index end = rank[row] <= 0.1 ? 0 : 1;
+                sums[end] += share[row];
+                counts[end] += 1;
+            }
+        }
+        const Eigen::Array2d means = sums / counts.max(1.0);
+        const double change = means[1] - means[0];
+        found = std::abs(change) > std::abs(found) ? change : found;
+    }
+    return found;
+}
+
+}  // namespace
+
+Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::VectorXd& prediction) {
+    const Eigen::ArrayXd share = form.departure.array() / complex_moduli(data.observations, prediction).max(1e-300);
+    Follows follows{.kind = form.kind};
+    if (form.kind.axis == Axis::sample) {
+        std::tie(follows.sample, follows.change) = most_apart(data, share);
+        return follows;
+    }
+    const auto known = std::find_if(factors_on_modulus.begin(), factors_on_modulus.end(),
+                                    [&](const auto& one) { return one.second.axis == form.kind.axis; });
+    if (known == factors_on_modulus.end()) {
+        follows.change = mean_of_largest(share);
+        return follows;
+    }
+    std::tie(follows.from, follows.to) = ends_of(data.observations, known->first);
+    follows.change = change_along(rank_along(data.observations, known->first), data.observations, share);
+    return follows;
+}
+
+std::vector<FreeForm> free_forms(const Inference& inference, const Fit& base) {
+    const DataSet& data = inference.errors().data();
+    const Eigen::VectorXd level = complex_moduli(data.observations, inference.fitted(inference.prediction(base.model)));
+    std::vector<FreeForm> forms;
+    for (const auto& [kind, directions] : AllDirections(data, level).find()) {
+        const DeparturesAlong along = departures_along(inference, base, directions);
+        forms.push_back({kind, along.log_factor, along.best, along.departure});
+    }
+    std::sort(forms.begin(), forms.end(), [](const FreeForm& a, const FreeForm& b) { return a.log_factor > b.log_factor; });
+    return forms;
+}
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Free forms: what a link of the chain may do that no cause of the catalogue says, as a smooth departure along an axis that acts
+// where the link acts. A material, its history, plates and structures scale G*, plates by what they take of the strain; a tool adds
+// a torque or turns the phase; errors belong to one sample.
+#pragma once
+
+#include "hypothesis.hpp"
+
+#include <coagula/diagnose/diagnosis.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// The free form of a kind of departure, at a fit of the base model.
+struct FreeForm {
+    Kind kind;
+    double log_factor = 0;           ///< on the evidence of the base model, averaged over amplitudes, lengths and shapes
+    double best = 0;                 ///< logarithm of the factor of the best of these
+    Eigen::VectorXd departure = {};  ///< most probable one of the best, of every number [its unit]
+};
+
+/// What data follow that depart from a prediction so: the size and the ends of the axis.
+/// @param prediction of the base model, of every number.
+Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::VectorXd& prediction);
+
+/// Those of all links along all axes that these data vary.
+std::vector<FreeForm> free_forms(const Inference& inference, const Fit& base);
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The verdict in words: whether the base model fails and which cause is named, then what is certain without a cause, what is left
+// over and what to measure next.
+#include "verdict_sentences.hpp"
+
+#include "html.hpp"
+
+#include <coagula/report/diagnosis_page.hpp>
+#include <coagula/report/diagnosis_results.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace coagula::report {
+
+namespace {
+
+using diagnose::Axis;
+using diagnose::Cause;
+using diagnose::Diagnosis;
+using diagnose::Link;
+using diagnose::Verdict;
+
+std::string print_number(double value) {
+    return printed(value);
+}
+
+std::string gained(const diagnose::Gain& gain) {
+    return gain.held_out == 0 ? std::string{}
+                              : " On rows held out from the fit its error is " + percent(gain.rmse_extended) + " instead of " +
+                                    percent(gain.rmse_base) + "; the log predictive density changes by " +
+                                    change_of_density(gain, print_number) + ".";
+}
+
+/// Of a member "a + b" of the credible set, what is none of these causes.
+std::string without(std::string member, const std::vector<std::string>& causes) {
+    const std::string joint = " + ";
+    for (const std::string& cause : causes) {
+        member = member == cause                     ? std::string{}
+                 : member.starts_with(cause + joint) ? member.substr(cause.size() + joint.size())
+                 : member.ends_with(joint + cause)   ? member.substr(0, member.size() - cause.size() - joint.size())
+                                                     : member;
+    }
+    return member;
+}
+
+struct AxisWords {
+    Axis axis;
+    const char* words;
+    const char* unit;
+};
+
+constexpr std::array axis_words{AxisWords{Axis::time, "the time since the sample was loaded", "s"},
+                                AxisWords{Axis::age, "the time since the last shear that destroyed the structure", "s"},
+                                AxisWords{Axis::strain, "the strain amplitude", "1"},
+                                AxisWords{Axis::frequency, "the frequency", "rad/s"},
+                                AxisWords{Axis::shear_rate, "the shear rate", "1/s"},
+                                AxisWords{Axis::gap, "the gap", "m"},
+                                AxisWords{Axis::radius, "the radius of the plates", "m"},
+                                AxisWords{Axis::normal_force, "the normal force", "N"},
+                                AxisWords{Axis::volume_fraction, "the volume fraction", "1"},
+                                AxisWords{Axis::coordination, "the coordination", "1"},
+                                AxisWords{Axis::heterogeneity, "the heterogeneity of the structures", "1"},
+                                AxisWords{Axis::distance, "the distance between particles in diameters", "1"},
+                                AxisWords{Axis::pore_radius, "the radius of the pores", "m"},
+                                AxisWords{Axis::sample, "the sample", "1"},
+                                AxisWords{Axis::level, "no axis: it is the same everywhere", "1"}};
+
+const AxisWords& words_of(Axis axis) {
+    return *std::find_if(axis_words.begin(), axis_words.end(), [axis](const AxisWords& one) { return one.axis == axis; });
+}
+
+/// What a link does, to go on after "it acts like".
+const char* acts_like(Link link) {
+    switch (link) {
+        case Link::structure:
+            return "another structure";
+        case Link::material:
+            return "a property of the material";
+        case Link::history:
+            return "a change of the sample with its history";
+        case Link::geometry:
+            return "what plates do to the strain or to the rim";
+        case Link::tool:
+            return "a tool that adds a torque, gives way or turns the phase";
+        default:
+            return "an error of measurement or of one sample";
+    }
+}
+
+/// What a condition of a name says of the best cause where it does not hold.
+const std::array<std::pair<const char*, const char*>, 10> failed_conditions{
+    {{"beats-free-forms", "a smooth departure without any cause explains the data as well"},
+     {"beats-other-axes", "a departure along another axis explains the data as well"},
+     {"every-cause-counts", "one of its two causes explains the data about as well alone"},
+     {"inside-range", "a value lies at the end of its physical range"},
+     {"narrower-than-prior", "the data leave its value as open as it was"},
+     {"little-left", "it leaves over a part of the misfit"},
+     {"predicts-held-out", "it does not predict rows that were held out better than the base model"},
+     {"predicts-like-smooth", "a smooth correction predicts rows that were held out better"},
+     {"without-any-row", "it rests on a single row"},
+     {"separated", "nothing that was measured tells it from look-alikes outside the catalogue"}}};
+
+/// Why the best cause has no name.
+std::string reasons(const Diagnosis& found) {
+    std::string text;
+    for (const diagnose::Condition& condition : found.conditions) {
+        const auto known = std::find_if(failed_conditions.begin(), failed_conditions.end(),
+                                        [&](const auto& one) { return condition.name == one.first; });
+        if (!condition.holds && known != failed_conditions.end()) {
+            text += (text.empty() ? "" : ", and ") + std::string(known->second);
+        }
+    }
+    return text;
+}
+
+/// What data tell that leave several causes: goes on after "The base model fails".
+std::string tied_sentence(const Diagnosis& found) {
+    const std::string unknown = "hese data cannot tell whether ";
+    if (found.credible_set.size() == 2 && found.credible_set.back() == "none of the catalogue") {
+        const std::string why = reasons(found);
+        return "; " + found.credible_set.front() + " explains the data" + (why.empty() ? "" : ", but " + why) +
+               ". The cause may be another one, which the catalogue does not have.";
+    }
+    if (found.certain.empty()) {
+        return "; t" + unknown + "the cause is " + joined(found.credible_set) + ".";
+    }
+    std::vector<std::string> others;
+    for (const std::string& member : found.credible_set) {
+        others.push_back(without(member, found.certain));
+    }
+    const bool alone = std::erase(others, "") > 0;
+    const std::string certain = joined(found.certain);
+    return alone ? ", and " + certain + " is a cause. T" + unknown + joined(others) + " is another."
+                 : ", and " + certain + " is one cause. There is another; t" + unknown + "that is " + joined(others) + ".";
+}
+
+std::string kind_only_sentence(const Diagnosis& found) {
+    const Cause* best = extended_cause(found);
+    const std::string why = reasons(found);
+    return "; no cause is certain. The most probable is " + (best == nullptr ? "none" : best->name) +
+           (why.empty() ? "." : ", but " + why + ".");
+}
+
+/// The causes of the kind that the data follow, the most probable ones first.
+std::vector<std::string> causes_of_kind(const Diagnosis& found) {
+    constexpr std::size_t most = 4;
+    std::vector<std::string> names;
+    for (const Cause& cause : found.causes) {
+        const diagnose::Mechanism* mechanism = diagnose::find_mechanism(cause.name);
+        if (mechanism != nullptr && mechanism->kind == found.follows.kind && names.size() < most) {
+            names.push_back(cause.name);
+        }
+    }
+    return names;
+}
+
+/// What to measure where no candidate measurement is likely to decide: a way to take this link and axis apart from others.
+const char* advice(const diagnose::Kind& kind) {
+    switch (kind.link) {
+        case Link::history:
+            return "Measure one point again and again on a fresh sample, under a solvent trap and between plates of another "
+                   "radius: "
+                   "what the clock does alone shows there, and what dries or creeps depends on the plates.";
+        case Link::geometry:
+            return "Measure at two more gaps, with rough plates and with an oil of known viscosity: the plates act on the oil, "
+                   "too.";
+        case Link::tool:
+            return "Measure an oil of known viscosity, the empty tool, and the sample between plates of another radius: what the "
+                   "tool "
+                   "adds does not change with the sample.";
+        case Link::structure:
+            return "Measure a second sample of another volume fraction, or image the structure.";
+        case Link::errors:
+            return "Repeat the measurement on two more fresh samples: what belongs to one sample does not come back.";
+        default:
+            return kind.axis == Axis::strain
+                       ? "Sweep the strain down again, at another frequency and at another gap: the material "
+                         "shows the same there, a slip or a torque does not."
+                       : "Repeat the sweep on a fresh sample in the opposite order and between plates of another "
+                         "radius: the material shows the same there.";
+    }
+}
+
+}  // namespace
+
+std::string chance_text(const Diagnosis& found) {
+    return (is_least_p(found) ? "p ≤ " : "p = ") + print_number(found.p_value);
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        text += (k == 0 ? "" : k + 1 == names.size() ? " or " : ", ") + names[k];
+    }
+    return text;
+}
+
+std::string follows_sentence(const Diagnosis& found) {
+    constexpr double sure = 0.9;
+    const diagnose::Follows& follows = found.follows;
+    const AxisWords& axis = words_of(follows.kind.axis);
+    const bool is_sure = follows.posterior >= sure;
+    std::string text = is_sure ? "What is certain: the deviation follows " : "The deviation probably follows ";
+    text += axis.words;
+    if (!follows.sample.empty()) {
+        text += " '" + follows.sample + "'";
+    }
+    if (std::isfinite(follows.change) && std::isfinite(follows.from)) {
+        text += ", by " + signed_percent(follows.change) + " of |G*| from " + printed(follows.from, axis.unit) + " to " +
+                printed(follows.to, axis.unit);
+    } else if (std::isfinite(follows.change)) {
+        text += ", by " + signed_percent(follows.change) + " of |G*|";
+    }
+    text += std::string(", and it acts like ") + acts_like(follows.kind.link);
+    text += is_sure ? "." : " (probability " + probability_text(follows.posterior) + ").";
+    const std::vector<std::string> causes = causes_of_kind(found);
+    return text + (causes.empty() ? " The catalogue has no cause of that kind." : " Causes of that kind: " + joined(causes) + ".");
+}
+
+std::string verdict_sentence(const Diagnosis& found) {
+    const std::string chance = " (" + chance_text(found) + ")";
+    if (found.verdict == Verdict::no_discrepancy) {
+        return "The base model explains the data: these " + std::to_string(found.observations) +
+               " moduli show no deviation from it" + chance + ".";
+    }
+    const std::string fails = "The base model fails" + chance;
+    if (found.verdict == Verdict::none_of_catalogue) {
+        const Cause* best = extended_cause(found);
+        return fails + (best == &found.causes.front() ? ", and so does the best cause of the catalogue, " + best->name +
+                                                            " (p = " + print_number(found.extended_p_value) + ")."
+                                                      : ", and no cause of the catalogue explains the deviation.");
+    }
+    if (found.verdict == Verdict::tied) {
+        return fails + tied_sentence(found);
+    }
+    if (found.verdict == Verdict::kind_only) {
+        return fails + kind_only_sentence(found);
+    }
+    const Cause& cause = found.causes.front();
+    return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + probability_text(cause.posterior) +
+           ")." + gained(found.gain);
+}
+
+std::vector<std::string> verdict_sentences(const Diagnosis& found) {
+    constexpr double likely = 0.5;
+    std::vector<std::string> sentences{verdict_sentence(found)};
+    if (found.detected && found.verdict != Verdict::named) {
+        sentences.push_back(follows_sentence(found));
+    }
+    if (const Cause* best = extended_cause(found); best != nullptr && found.remainder.detected) {
+        sentences.push_back("The best cause, " + best->name + ", leaves " +
+                            (found.remainder.most ? "most of the misfit: " : "a deviation: ") + found.remainder.where + ".");
+    }
+    if (!found.proposals.empty() && found.proposals.front().resolution >= likely) {
+        sentences.push_back("To decide, measure " + found.proposals.front().what + ".");
+    } else if (found.detected && found.verdict != Verdict::named) {
+        sentences.emplace_back(advice(found.follows.kind));
+    }
+    return sentences;
+}
+
+}  // namespace coagula::report

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Parts of the verdict in words.
+#pragma once
+
+#include <coagula/diagnose/diagnosis.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coagula::report {
+
+/// "p = 0.3", or "p ≤ 0.001" where no data set drawn from the base model had as large a misfit.
+std::string chance_text(const diagnose::Diagnosis& found);
+
+/// "a, b or c".
+std::string joined(const std::vector<std::string>& names);
+
+/// What the deviation follows, whatever its cause, and the causes of that kind.
+std::string follows_sentence(const diagnose::Diagnosis& found);
+
+}  // namespace coagula::report
