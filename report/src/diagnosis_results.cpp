@@ -108,6 +108,28 @@ std::string describe(const Cause& cause) {
     return text;
 }
 
+std::string describe(const diagnose::Follows& follows) {
+    std::string text = std::string(diagnose::name_of(follows.kind.link)) + " along " + diagnose::name_of(follows.kind.axis) +
+                       (follows.sample.empty() ? "" : " '" + follows.sample + "'") + ", probability " +
+                       probability_text(follows.posterior);
+    if (std::isfinite(follows.change)) {
+        text +=
+            "; " + with_unit(100 * follows.change, "1") + " % of |G*|" + (std::isfinite(follows.from) ? " from end to end" : "");
+    }
+    return text;
+}
+
+/// Names of the conditions of a name that do not hold.
+std::string missing_conditions(const std::vector<diagnose::Condition>& conditions) {
+    std::vector<std::string> missing;
+    for (const diagnose::Condition& one : conditions) {
+        if (!one.holds) {
+            missing.push_back(one.name);
+        }
+    }
+    return list_of(missing);
+}
+
 Json estimate_json(const diagnose::Estimate& estimate, const std::string& unit) {
     return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}, {"unit", unit}};
 }
@@ -236,6 +258,7 @@ Table table_of(const Diagnosis& diagnosis) {
     for (const diagnose::Failure& failure : diagnosis.failures) {
         lines.emplace_back("where", failure.sentence);
     }
+    lines.emplace_back("follows", describe(diagnosis.follows));
     lines.emplace_back("95 % set of causes", list_of(diagnosis.credible_set));
     if (diagnosis.credible_set.size() > 1 && !diagnosis.certain.empty()) {
         lines.emplace_back("in every member of that set", list_of(diagnosis.certain));
@@ -244,6 +267,9 @@ Table table_of(const Diagnosis& diagnosis) {
         if (cause.posterior > 0.01) {
             lines.emplace_back("  " + cause.name, describe(cause));
         }
+    }
+    if (const std::string missing = missing_conditions(diagnosis.conditions); !missing.empty()) {
+        lines.emplace_back("missing to a name", missing);
     }
     if (diagnosis.remainder.detected) {
         lines.emplace_back("remaining deviation",

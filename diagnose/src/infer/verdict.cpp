@@ -165,13 +165,14 @@ Kind told_kind(Kind kind, const Experiment& experiment) {
     return kind == Kind{Link::geometry, Axis::strain} && !plates ? Kind{Link::material, Axis::strain} : kind;
 }
 
-/// The kinds of departure, most probable first: by the causes of each, without what they leave over, and by its free form.
-std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Experiment& experiment, const Priors& priors) {
+/// The kinds of departure, most probable first: by the causes of each, without what they leave over, and by its free form, which
+/// counts as much as a cause.
+std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Experiment& experiment) {
     std::map<Kind, std::vector<double>> weights;
     std::map<Kind, const FreeForm*> forms;
     const double base = comparison.all.front().fit.log_evidence;
     for (const FreeForm& form : comparison.forms) {
-        weights[form.kind].push_back(base + priors.none + form.log_factor);
+        weights[form.kind].push_back(base + form.log_factor);
         forms[form.kind] = &form;
     }
     for (auto one = comparison.all.begin() + 1; one != comparison.all.end(); ++one) {
@@ -355,7 +356,7 @@ void judge(const Comparison& comparison, const Inference& inference, const Hypot
         diagnosis.remainder.where = place_of(*winner.remainder, inference.errors().data(),
                                              inference.fitted(inference.prediction(winner.remainder->fit.model)));
     }
-    diagnosis.kinds = kinds_of(comparison, inference.forward().experiment(), priors);
+    diagnosis.kinds = kinds_of(comparison, inference.forward().experiment());
     diagnosis.follows = follows_of(diagnosis.kinds, comparison, inference);
     diagnosis.conditions = conditions_of(comparison, inference, priors, options, diagnosis.gain);
     rank_causes(comparison, inference, priors, diagnosis);
