@@ -290,7 +290,10 @@ std::vector<Condition> conditions_of(const Comparison& comparison, const Inferen
         return is_separated(one->kind, inference.forward().experiment());
     });
     const double over_members = over_one_member(winner, comparison.all);
-    const double over_smooth = gain.rmse_flexible / gain.rmse_extended;
+    // What was counted of structures differs from one to the next by more than a smooth curve that was seen in the other.
+    const auto& observations = inference.errors().data().observations;
+    const bool of_moduli = std::all_of(observations.begin(), observations.end(), is_modulus);
+    const double over_smooth = of_moduli ? gain.rmse_flexible / gain.rmse_extended : unset;
     return {{"beats-free-forms", over_forms, decisive, over_forms > decisive},
             {"beats-other-axes", over_other_axes, favoured, over_other_axes > favoured},
             {"every-cause-counts", over_members, decisive, over_members > decisive},

@@ -2,6 +2,7 @@
 // Third harmonics of the stress: what the terms of the simulation make of them, against closed form and explicit steps, and what
 // waveforms tell that moduli do not.
 #include "chain/forward.hpp"
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 
 #include <coagula/diagnose/model.hpp>
@@ -285,14 +286,16 @@ TEST(ThirdHarmonic, NothingInTheWaveformsLeavesAge) {
     ASSERT_NE(proposed, without.proposals.end());
     // All that is open between the two.
     double entropy = 0;
+    double both = 0;
     for (const Cause& one : without.causes) {
         const bool tied = std::find(alike.begin(), alike.end(), one.name) != alike.end();
         entropy -= tied ? one.posterior * std::log2(one.posterior) : 0;
+        both += tied ? one.posterior : 0;
     }
+    entropy = entropy / both + std::log2(both);
     EXPECT_GT(proposed->information, 0.9 * entropy);
     const Diagnosis with = diagnosed(sweep(strains, moduli, linear_waveforms(strains, moduli, 50), 0.1, 10), alike);
-    EXPECT_EQ(with.verdict, Verdict::named);
-    EXPECT_EQ(with.credible_set, std::vector<std::string>{"ageing"});
+    EXPECT_EQ(with.credible_set, (std::vector<std::string>{"ageing", "none of the catalogue"})) << missing_to_a_name(with);
 }
 
 /// Hertz contacts in explicit steps of a structure that the diagnosis does not know.
