@@ -33,7 +33,7 @@ set(coagula_slow_tests
   "ThirdHarmonic[.](Of|Hertz).*"
   "Thixotropy[.].*"
   "VolumeFractionGradient[.].*"
-  "cli[.]diagnosis[.]Diagnosis[.](a_hidden_loss_is_named|nothing_of_the_folder_is_lost)"
+  "cli[.]diagnosis[.]Diagnosis[.](a_hidden_loss_is_found|nothing_of_the_folder_is_lost)"
   "cli[.](diagnosis_tables|raw_columns|setting_samples)[.].*"
   "cli[.]diagnose[.]CementPaste[.].*"
   "cli[.]measured_data[.]ReferenceStructure[.].*"

@@ -176,11 +176,21 @@ const char* advice(const diagnose::Kind& kind) {
         case Link::errors:
             return "Repeat the measurement on two more fresh samples: what belongs to one sample does not come back.";
         default:
-            return kind.axis == Axis::strain
-                       ? "Sweep the strain down again, at another frequency and at another gap: the material "
-                         "shows the same there, a slip or a torque does not."
-                       : "Repeat the sweep on a fresh sample in the opposite order and between plates of another "
-                         "radius: the material shows the same there.";
+            break;
+    }
+    switch (kind.axis) {
+        case Axis::frequency:
+            return "Measure an oil of known viscosity, and repeat the sweep on a fresh sample in the opposite order: an error of "
+                   "the phase "
+                   "or of the tool shows in the oil, too.";
+        case Axis::strain:
+            return "Sweep the strain down again, at another frequency and at another gap: the material shows the same there, a "
+                   "slip or a "
+                   "torque does not.";
+        default:
+            return "Repeat the measurement on a fresh sample in the opposite order and between plates of another radius: the "
+                   "material "
+                   "shows the same there.";
     }
 }
 

@@ -107,7 +107,7 @@ const Fit& fit_named(const std::vector<Compared>& all, const std::string& name) 
     return std::find_if(all.begin(), all.end(), [&](const Compared& one) { return name_of(one.fit.hypothesis) == name; })->fit;
 }
 
-/// What to measure next, to tell the causes of the credible set apart; one alone there from the next one.
+/// What to measure next, to tell the causes of the credible set apart; nothing tells one alone from what nobody knows.
 std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Compared>& all, const Inference& inference,
                                     Simulator& simulator, std::uint64_t seed) {
     std::vector<Fit> candidates;
@@ -115,12 +115,12 @@ std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vecto
     for (const Cause& cause : diagnosis.causes) {
         const bool in_set =
             std::find(diagnosis.credible_set.begin(), diagnosis.credible_set.end(), cause.name) != diagnosis.credible_set.end();
-        if ((in_set || candidates.size() < 2) && cause.name != none_name && cause.name != "base") {
+        if (in_set && cause.name != none_name && cause.name != "base") {
             candidates.push_back(fit_named(all, cause.name));
             weights.push_back(cause.posterior);
         }
     }
-    return propose(inference, simulator, candidates, weights, seed);
+    return candidates.size() < 2 ? std::vector<Proposal>{} : propose(inference, simulator, candidates, weights, seed);
 }
 
 }  // namespace
