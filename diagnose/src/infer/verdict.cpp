@@ -198,13 +198,15 @@ std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Experimen
 /// The most probable kind, with what its free form at the base model says of it.
 Follows follows_of(const std::vector<FollowedKind>& kinds, const Comparison& comparison, const Inference& inference) {
     const FollowedKind& first = kinds.front();
+    const Kind shown = first.kind.axis == Axis::age ? Kind{Link::history, Axis::time} : first.kind;
     const auto form =
-        std::find_if(comparison.forms.begin(), comparison.forms.end(), [&](const FreeForm& one) { return one.kind == first.kind; });
+        std::find_if(comparison.forms.begin(), comparison.forms.end(), [&](const FreeForm& one) { return one.kind == shown; });
     Follows follows{.kind = first.kind};
     if (form != comparison.forms.end()) {
         const Prediction base = inference.prediction(comparison.all.front().fit.model);
         follows = followed_by(*form, inference.errors().data(), inference.fitted(base));
     }
+    follows.kind = first.kind;
     follows.posterior = first.posterior;
     return follows;
 }
