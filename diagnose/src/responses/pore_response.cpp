@@ -17,8 +17,8 @@ namespace coagula::diagnose {
 
 namespace {
 
-constexpr Index least_particles_of_pores = 1000;  ///< so that what is drawn scatters less than the structures
-constexpr NodeAxis pore_error_axis{0.02, 0.9, 5};     ///< standard deviation over the diameter
+constexpr Index least_particles_of_pores = 1000;   ///< so that what is drawn scatters less than the structures
+constexpr NodeAxis pore_error_axis{0.02, 0.9, 5};  ///< standard deviation over the diameter
 constexpr LinearAxis share_axis{0, 0.1, 5};
 constexpr int radii = 201;
 constexpr double largest_pore = 4;  ///< in particle radii, where a curve ends; it is compared down to 0.01

@@ -67,7 +67,8 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
         EXPECT_EQ(sentences[0], verdict_sentence(found));
         if (!is_named) {
             EXPECT_EQ(sentences[1],
-                      "What is certain: the deviation follows the gap, by +40 % of |G*| from 500\u00A0µm to 2\u00A0mm, and it acts like what "
+                      "What is certain: the deviation follows the gap, by +40 % of |G*| from 500\u00A0µm to 2\u00A0mm, and it acts "
+                      "like what "
                       "plates do to the strain or to the rim. Causes of that kind: wall-slip or gap-error.");
         }
         EXPECT_EQ(sentences[sentences.size() - 2],
@@ -102,10 +103,11 @@ TEST(VerdictSentence, WhatAKindWithoutANameLacks) {
         sentences[0],
         "The base model fails (p ≤ 0.001); no cause is certain. The most probable is ageing, but a value lies at the end of its "
         "physical range, and it rests on a single row.");
-    EXPECT_EQ(sentences[1],
-              "The deviation probably follows the time since the sample was loaded, by −12 % of |G*| from 10\u00A0s to 1200\u00A0s, and "
-              "it acts "
-              "like a change of the sample with its history (probability 70 %). Causes of that kind: ageing.");
+    EXPECT_EQ(
+        sentences[1],
+        "The deviation probably follows the time since the sample was loaded, by −12 % of |G*| from 10\u00A0s to 1200\u00A0s, and "
+        "it acts "
+        "like a change of the sample with its history (probability 70 %). Causes of that kind: ageing.");
 }
 
 TEST(VerdictSentence, ACauseOrOneThatNobodyKnows) {
