@@ -85,6 +85,7 @@ Json follows_json(const diagnose::Follows& follows) {
             {"axis", diagnose::name_of(follows.kind.axis)},
             {"posterior", follows.posterior},
             {"change", number(follows.change)},
+            {"largest", number(follows.largest)},
             {"from", number(follows.from)},
             {"to", number(follows.to)},
             {"sample", follows.sample.empty() ? Json(nullptr) : Json(follows.sample)}};
@@ -112,9 +113,11 @@ std::string describe(const diagnose::Follows& follows) {
     std::string text = std::string(diagnose::name_of(follows.kind.link)) + " along " + diagnose::name_of(follows.kind.axis) +
                        (follows.sample.empty() ? "" : " '" + follows.sample + "'") + ", probability " +
                        probability_text(follows.posterior);
-    if (std::isfinite(follows.change)) {
-        text +=
-            "; " + with_unit(100 * follows.change, "1") + " % of |G*|" + (std::isfinite(follows.from) ? " from end to end" : "");
+    if (std::isfinite(follows.largest)) {
+        text += "; up to " + with_unit(100 * follows.largest, "1") + " % of |G*|";
+    }
+    if (std::isfinite(follows.change) && std::isfinite(follows.from)) {
+        text += ", " + with_unit(100 * follows.change, "1") + " % from end to end";
     }
     return text;
 }

@@ -105,15 +105,15 @@ const std::array<std::pair<const char*, const char*>, 10> failed_conditions{
 
 /// Why the best cause has no name.
 std::string reasons(const Diagnosis& found) {
-    std::string text;
+    std::vector<std::string> missing;
     for (const diagnose::Condition& condition : found.conditions) {
         const auto known = std::find_if(failed_conditions.begin(), failed_conditions.end(),
                                         [&](const auto& one) { return condition.name == one.first; });
         if (!condition.holds && known != failed_conditions.end()) {
-            text += (text.empty() ? "" : ", and ") + std::string(known->second);
+            missing.emplace_back(known->second);
         }
     }
-    return text;
+    return joined(missing, " and ");
 }
 
 /// What data tell that leave several causes: goes on after "The base model fails".
@@ -162,15 +162,13 @@ const char* advice(const diagnose::Kind& kind) {
     switch (kind.link) {
         case Link::history:
             return "Measure one point again and again on a fresh sample, under a solvent trap and between plates of another "
-                   "radius: "
-                   "what the clock does alone shows there, and what dries or creeps depends on the plates.";
+                   "radius: what the clock does alone shows there, and what dries or creeps depends on the plates.";
         case Link::geometry:
-            return "Measure at two more gaps, with rough plates and with an oil of known viscosity: the plates act on the oil, "
-                   "too.";
+            return "Measure at two more gaps, with rough plates and with an oil of known viscosity: the plates act on the "
+                   "oil, too.";
         case Link::tool:
-            return "Measure an oil of known viscosity, the empty tool, and the sample between plates of another radius: what the "
-                   "tool "
-                   "adds does not change with the sample.";
+            return "Measure an oil of known viscosity, the empty tool, and the sample between plates of another radius: what "
+                   "the tool adds does not change with the sample.";
         case Link::structure:
             return "Measure a second sample of another volume fraction, or image the structure.";
         case Link::errors:
@@ -180,18 +178,25 @@ const char* advice(const diagnose::Kind& kind) {
     }
     switch (kind.axis) {
         case Axis::frequency:
-            return "Measure an oil of known viscosity, and repeat the sweep on a fresh sample in the opposite order: an error of "
-                   "the phase "
-                   "or of the tool shows in the oil, too.";
+            return "Measure an oil of known viscosity, and repeat the sweep on a fresh sample in the opposite order: the oil "
+                   "shows an error of the phase or of the tool, too.";
         case Axis::strain:
-            return "Sweep the strain down again, at another frequency and at another gap: the material shows the same there, a "
-                   "slip or a "
-                   "torque does not.";
+            return "Sweep the strain down again, at another frequency and at another gap: the material shows the same there, "
+                   "and a slip or a torque does not.";
         default:
-            return "Repeat the measurement on a fresh sample in the opposite order and between plates of another radius: the "
-                   "material "
-                   "shows the same there.";
+            return "Repeat the measurement on a fresh sample, in the opposite order and between plates of another radius: the"
+                   " material shows the same there.";
     }
+}
+
+/// How large what the data follow is: from end to end of the axis, or where it is largest.
+std::string size_text(const diagnose::Follows& follows, const std::string& unit) {
+    const bool has_ends = std::isfinite(follows.from);
+    const std::string ends = has_ends ? " from " + printed(follows.from, unit) + " to " + printed(follows.to, unit) : "";
+    if (std::isfinite(follows.change) && std::abs(follows.change) >= 0.5 * std::abs(follows.largest)) {
+        return ", by " + signed_percent(follows.change) + " of |G*|" + ends;
+    }
+    return std::isfinite(follows.largest) ? ", by up to " + signed_percent(follows.largest) + " of |G*|" + ends : "";
 }
 
 }  // namespace
@@ -200,10 +205,10 @@ std::string chance_text(const Diagnosis& found) {
     return (is_least_p(found) ? "p ≤ " : "p = ") + print_number(found.p_value);
 }
 
-std::string joined(const std::vector<std::string>& names) {
+std::string joined(const std::vector<std::string>& names, const std::string& last) {
     std::string text;
     for (std::size_t k = 0; k < names.size(); ++k) {
-        text += (k == 0 ? "" : k + 1 == names.size() ? " or " : ", ") + names[k];
+        text += (k == 0 ? "" : k + 1 == names.size() ? last : ", ") + names[k];
     }
     return text;
 }
@@ -218,12 +223,7 @@ std::string follows_sentence(const Diagnosis& found) {
     if (!follows.sample.empty()) {
         text += " '" + follows.sample + "'";
     }
-    if (std::isfinite(follows.change) && std::isfinite(follows.from)) {
-        text += ", by " + signed_percent(follows.change) + " of |G*| from " + printed(follows.from, axis.unit) + " to " +
-                printed(follows.to, axis.unit);
-    } else if (std::isfinite(follows.change)) {
-        text += ", by " + signed_percent(follows.change) + " of |G*|";
-    }
+    text += size_text(follows, axis.unit);
     text += std::string(", and it acts like ") + acts_like(follows.kind.link);
     text += is_sure ? "." : " (probability " + probability_text(follows.posterior) + ").";
     const std::vector<std::string> causes = causes_of_kind(found);

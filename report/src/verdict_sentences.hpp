@@ -12,8 +12,8 @@ namespace coagula::report {
 /// "p = 0.3", or "p ≤ 0.001" where no data set drawn from the base model had as large a misfit.
 std::string chance_text(const diagnose::Diagnosis& found);
 
-/// "a, b or c".
-std::string joined(const std::vector<std::string>& names);
+/// "a, b or c". @param last between the last two.
+std::string joined(const std::vector<std::string>& names, const std::string& last = " or ");
 
 /// What the deviation follows, whatever its cause, and the causes of that kind.
 std::string follows_sentence(const diagnose::Diagnosis& found);

@@ -219,7 +219,7 @@ double change_along(const Eigen::VectorXd& rank, const std::vector<Observation>&
 
 Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::VectorXd& prediction) {
     const Eigen::ArrayXd share = form.departure.array() / complex_moduli(data.observations, prediction).max(1e-300);
-    Follows follows{.kind = form.kind};
+    Follows follows{.kind = form.kind, .largest = mean_of_largest(share)};
     if (form.kind.axis == Axis::sample) {
         std::tie(follows.sample, follows.change) = most_apart(data, share);
         return follows;
@@ -227,7 +227,7 @@ Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::Vect
     const auto known = std::find_if(factors_on_modulus.begin(), factors_on_modulus.end(),
                                     [&](const auto& one) { return one.second.axis == form.kind.axis; });
     if (known == factors_on_modulus.end()) {
-        follows.change = mean_of_largest(share);
+        follows.change = follows.largest;
         return follows;
     }
     std::tie(follows.from, follows.to) = ends_of(data.observations, known->first);

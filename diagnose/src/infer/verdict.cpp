@@ -158,11 +158,29 @@ double over_one_member(const Compared& pair, const std::vector<Compared>& all) {
     return pair.log_weight() - best;
 }
 
-/// The kind as far as an experiment tells it: without other gaps or plates, what these do to a material that may soften in any way
-/// is that.
+template <class OfTable>
+bool any_table(const Experiment& experiment, const OfTable& has) {
+    return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), has);
+}
+
+/// Whether gaps or plates differ.
+bool plates_differ(const Experiment& experiment) {
+    const auto column_differs = [&](const char* column) {
+        return differs(experiment, [&](const Measurement& table, std::size_t row) { return cell(table, column, row); });
+    };
+    return column_differs("gap") || column_differs("plate_radius");
+}
+
+/// The kind as far as an experiment tells it. Without other gaps or plates, what these do in time is a change of the sample, and
+/// what they do along the strain to a material that may soften in any way is that.
 Kind told_kind(Kind kind, const Experiment& experiment) {
-    const bool plates = knowledge_of(experiment).geometry;
-    return kind == Kind{Link::geometry, Axis::strain} && !plates ? Kind{Link::material, Axis::strain} : kind;
+    const bool is_smooth = experiment.material.kind == MaterialKind::smooth;
+    if (kind.link != Link::geometry || plates_differ(experiment)) {
+        return kind;
+    }
+    return kind.axis == Axis::time                  ? Kind{Link::history, Axis::time}
+           : kind.axis == Axis::strain && is_smooth ? Kind{Link::material, Axis::strain}
+                                                    : kind;
 }
 
 /// The kinds of departure, most probable first: by the causes of each, without what they leave over, and by its free form, which
@@ -256,10 +274,7 @@ double best_along_other_axes(const std::vector<FreeForm>& forms, Axis own) {
 /// have: an oil shows an error of phase and not a loss in the contacts; what the clock does alone does not depend on gap, plates,
 /// trap or force, and begins anew after a pause that shears.
 bool is_separated(Kind kind, const Experiment& experiment) {
-    const Knows knows = knowledge_of(experiment);
-    const auto& tables = experiment.measurements;
-    const auto any = [&](const auto& has) { return std::any_of(tables.begin(), tables.end(), has); };
-    const bool oil = any([](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
+    const bool oil = any_table(experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
     if (experiment.material.kind == MaterialKind::network &&
         (kind == Kind{Link::material, Axis::frequency} || kind == Kind{Link::tool, Axis::level})) {
         return oil;
@@ -267,11 +282,9 @@ bool is_separated(Kind kind, const Experiment& experiment) {
     if (kind.axis != Axis::time) {
         return told_kind(kind, experiment) == kind;
     }
-    const auto differ = [&](const char* column) {
-        return differs(experiment, [&](const Measurement& table, std::size_t row) { return cell(table, column, row); });
-    };
-    const bool trap = any([](const Measurement& table) { return table.solvent_trap; });
-    return oil || trap || knows.load || knows.shear_before || differ("gap") || differ("plate_radius");
+    const Knows knows = knowledge_of(experiment);
+    const bool trap = any_table(experiment, [](const Measurement& table) { return table.solvent_trap; });
+    return oil || trap || knows.load || knows.shear_before || plates_differ(experiment);
 }
 
 /// What a name needs beside a probability of 95 %.
@@ -319,6 +332,12 @@ Verdict verdict_of(const Diagnosis& diagnosis) {
     return none_leads ? Verdict::none_of_catalogue : diagnosis.credible_set.size() == 1 ? Verdict::named : Verdict::tied;
 }
 
+/// Whether the base model with a stiffness that nobody knows explains as much as the best cause with the known one.
+bool is_level_alone(const Inference& inference, const Fit& winner) {
+    return std::isfinite(inference.stiffness_error()) &&
+           inference.density_of_free_level() > inference.errors().log_density(inference.prediction(winner.model)) - decisive;
+}
+
 }  // namespace
 
 Cause cause_of(const Fit& fit, const Inference& inference) {
@@ -341,11 +360,6 @@ Cause cause_of(const Fit& fit, const Inference& inference) {
         }
     }
     return cause;
-}
-
-bool is_level_alone(const Inference& inference, const Fit& winner) {
-    return std::isfinite(inference.stiffness_error()) &&
-           inference.density_of_free_level() > inference.errors().log_density(inference.prediction(winner.model)) - decisive;
 }
 
 void judge(const Comparison& comparison, const Inference& inference, const Hypothesis& possible, const DiagnosisOptions& options,

@@ -17,9 +17,6 @@ inline constexpr const char* none_name = "none of the catalogue";
 /// A fit as what a diagnosis tells of it.
 Cause cause_of(const Fit& fit, const Inference& inference);
 
-/// Whether the base model with a stiffness that nobody knows explains as much as the best cause with the known one.
-bool is_level_alone(const Inference& inference, const Fit& winner);
-
 /// Fills in what the winner leaves over, the causes by their probability, the credible set, what the data follow and which
 /// conditions of a name hold; the verdict follows from these. The gain has been measured.
 void judge(const Comparison& comparison, const Inference& inference, const Hypothesis& possible, const DiagnosisOptions& options,

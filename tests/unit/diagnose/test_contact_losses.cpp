@@ -121,8 +121,9 @@ const Packing& hidden() {
     return made;
 }
 
-/// One plate: the bearing brakes as the contacts do. Another plate shows whose loss it is.
-TEST(ContactLosses, ADashpotIsNamedOnceAnotherPlateWasTried) {
+/// One plate: the bearing brakes as the contacts do. Another plate shows that it does not; only an oil would tell the contacts from
+/// a phase that is read late, which the catalogue does not have.
+TEST(ContactLosses, ADashpotIsAloneOnceAnotherPlateWasTried) {
     const std::vector<double> frequencies = logarithmic_steps(0.1, 100, 20);
     const auto moduli = moduli_of(hidden(), with_dashpots(1e-3), frequencies);
     const Measurement one = sweep(frequencies, moduli, 0.02, 4);
@@ -135,8 +136,8 @@ TEST(ContactLosses, ADashpotIsNamedOnceAnotherPlateWasTried) {
     Measurement wide = sweep(frequencies, moduli, 0.02, 5);
     wide.columns.push_back({"plate_radius", "m", std::vector<double>(frequencies.size(), 0.025)});
     const Diagnosis found = diagnosis_of({one, wide});
-    EXPECT_EQ(found.verdict, Verdict::named);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"contact-dashpot"});
+    EXPECT_EQ(found.verdict, Verdict::tied);
+    EXPECT_EQ(found.credible_set, (std::vector<std::string>{"contact-dashpot", "none of the catalogue"}));
     const EstimatedParameter& time = found.causes.front().parameters[1];
     EXPECT_LT(time.low, 1e-3);
     EXPECT_GT(time.high, 1e-3);
@@ -153,13 +154,13 @@ TEST(ContactLosses, LowFrequenciesTieThem) {
     ASSERT_FALSE(found.proposals.empty());
 }
 
-TEST(ContactLosses, ARelaxationIsNamedWhereItsTimeIsPassed) {
+TEST(ContactLosses, ARelaxationIsFoundWhereItsTimeIsPassed) {
     const std::vector<double> frequencies = logarithmic_steps(0.1, 100, 20);
     const Diagnosis found =
         diagnosis_of({sweep(frequencies, moduli_of(hidden(), with_relaxation(0.5, 0.05), frequencies), 0.02, 7)});
     EXPECT_TRUE(found.detected);
-    EXPECT_EQ(found.verdict, Verdict::named);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"contact-relaxation"});
+    EXPECT_EQ(found.verdict, Verdict::tied);
+    EXPECT_EQ(found.credible_set, (std::vector<std::string>{"contact-relaxation", "none of the catalogue"}));
     ASSERT_EQ(found.causes.front().parameters.size(), 3U);
     for (const auto& [number, truth] : {std::pair{1U, 0.5}, std::pair{2U, 0.05}}) {
         const EstimatedParameter& one = found.causes.front().parameters[number];

@@ -54,8 +54,12 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
         found.causes.push_back(cause);
     }
     found.credible_set = {"wall-slip", "gap-error"};
-    found.follows = {
-        .kind = {diagnose::Link::geometry, diagnose::Axis::gap}, .posterior = 0.99, .change = 0.4, .from = 5e-4, .to = 2e-3};
+    found.follows = {.kind = {diagnose::Link::geometry, diagnose::Axis::gap},
+                     .posterior = 0.99,
+                     .change = 0.4,
+                     .largest = 0.3,
+                     .from = 5e-4,
+                     .to = 2e-3};
     found.remainder = {.detected = true, .where = "G' lies above the model by up to 9 % of |G*|"};
     found.proposals = {{.what = "an oil", .information = 1, .resolution = 0.9}};
     for (const diagnose::Verdict verdict :
@@ -95,14 +99,18 @@ TEST(VerdictSentence, WhatAKindWithoutANameLacks) {
     cause.parameters.emplace_back();
     found.causes = {cause};
     found.verdict = diagnose::Verdict::kind_only;
-    found.follows = {
-        .kind = {diagnose::Link::history, diagnose::Axis::time}, .posterior = 0.7, .change = -0.12, .from = 10, .to = 1200};
+    found.follows = {.kind = {diagnose::Link::history, diagnose::Axis::time},
+                     .posterior = 0.7,
+                     .change = -0.12,
+                     .largest = -0.08,
+                     .from = 10,
+                     .to = 1200};
     found.conditions = {{"inside-range", 1, 0, false}, {"beats-free-forms", 8, 3, true}, {"without-any-row", 2, 6, false}};
     const Names sentences = verdict_sentences(found);
     EXPECT_EQ(
         sentences[0],
         "The base model fails (p ≤ 0.001); no cause is certain. The most probable is ageing, but a value lies at the end of its "
-        "physical range, and it rests on a single row.");
+        "physical range and it rests on a single row.");
     EXPECT_EQ(
         sentences[1],
         "The deviation probably follows the time since the sample was loaded, by −12 % of |G*| from 10\u00A0s to 1200\u00A0s, and "
