@@ -2,6 +2,7 @@
 #include <coagula/report/diagnosis_results.hpp>
 
 #include "html.hpp"
+#include "verdict_sentences.hpp"
 
 #include <cmath>
 
@@ -84,6 +85,7 @@ Json follows_json(const diagnose::Follows& follows) {
     return {{"link", diagnose::name_of(follows.kind.link)},
             {"axis", diagnose::name_of(follows.kind.axis)},
             {"posterior", follows.posterior},
+            {"link_is_told", follows.link_is_told},
             {"change", number(follows.change)},
             {"largest", number(follows.largest)},
             {"from", number(follows.from)},
@@ -110,9 +112,8 @@ std::string describe(const Cause& cause) {
 }
 
 std::string describe(const diagnose::Follows& follows) {
-    std::string text = std::string(diagnose::name_of(follows.kind.link)) + " along " + diagnose::name_of(follows.kind.axis) +
-                       (follows.sample.empty() ? "" : " '" + follows.sample + "'") + ", probability " +
-                       probability_text(follows.posterior);
+    std::string text = axis_in_words(follows) + " (link: " + diagnose::name_of(follows.kind.link) +
+                       (follows.link_is_told ? "" : " or another one") + "), probability " + probability_text(follows.posterior);
     if (std::isfinite(follows.largest)) {
         text += "; up to " + with_unit(100 * follows.largest, "1") + " % of |G*|";
     }

@@ -66,7 +66,7 @@ constexpr std::array axis_words{AxisWords{Axis::time, "the time since the sample
                                 AxisWords{Axis::distance, "the distance between particles in diameters", "1"},
                                 AxisWords{Axis::pore_radius, "the radius of the pores", "m"},
                                 AxisWords{Axis::sample, "the sample", "1"},
-                                AxisWords{Axis::level, "no axis: it is the same everywhere", "1"}};
+                                AxisWords{Axis::level, "no single axis that was varied", "1"}};
 
 const AxisWords& words_of(Axis axis) {
     return *std::find_if(axis_words.begin(), axis_words.end(), [axis](const AxisWords& one) { return one.axis == axis; });
@@ -158,7 +158,11 @@ std::vector<std::string> causes_of_kind(const Diagnosis& found) {
 }
 
 /// What to measure where no candidate measurement is likely to decide: a way to take this link and axis apart from others.
-const char* advice(const diagnose::Kind& kind) {
+const char* advice(const diagnose::Kind& kind, bool of_oil) {
+    if (of_oil && kind.link != Link::history && kind.link != Link::errors) {
+        return "Measure another oil of known viscosity, at two more gaps and between plates of another radius: what the instrument "
+               "does is the same there.";
+    }
     switch (kind.link) {
         case Link::history:
             return "Measure one point again and again on a fresh sample, under a solvent trap and between plates of another "
@@ -213,19 +217,22 @@ std::string joined(const std::vector<std::string>& names, const std::string& las
     return text;
 }
 
+std::string axis_in_words(const diagnose::Follows& follows) {
+    return words_of(follows.kind.axis).words + (follows.sample.empty() ? "" : " '" + follows.sample + "'");
+}
+
 std::string follows_sentence(const Diagnosis& found) {
     constexpr double sure = 0.9;
+    constexpr double likely = 0.5;
     const diagnose::Follows& follows = found.follows;
-    const AxisWords& axis = words_of(follows.kind.axis);
-    const bool is_sure = follows.posterior >= sure;
-    std::string text = is_sure ? "What is certain: the deviation follows " : "The deviation probably follows ";
-    text += axis.words;
-    if (!follows.sample.empty()) {
-        text += " '" + follows.sample + "'";
-    }
-    text += size_text(follows, axis.unit);
-    text += std::string(", and it acts like ") + acts_like(follows.kind.link);
-    text += is_sure ? "." : " (probability " + probability_text(follows.posterior) + ").";
+    const std::string chance = " (probability " + probability_text(follows.posterior) + ")";
+    std::string text = follows.posterior >= sure     ? "What is certain: the deviation follows "
+                       : follows.posterior >= likely ? "The deviation probably follows "
+                                                     : "It is open what the deviation follows. The most probable is ";
+    text += axis_in_words(follows) + size_text(follows, words_of(follows.kind.axis).unit);
+    text += follows.posterior >= sure ? "" : chance;
+    text += std::string(". It acts like ") + acts_like(follows.kind.link) +
+            (follows.link_is_told ? "." : ", but nothing that was measured tells that from what else follows the same.");
     const std::vector<std::string> causes = causes_of_kind(found);
     return text + (causes.empty() ? " The catalogue has no cause of that kind." : " Causes of that kind: " + joined(causes) + ".");
 }
@@ -239,9 +246,12 @@ std::string verdict_sentence(const Diagnosis& found) {
     const std::string fails = "The base model fails" + chance;
     if (found.verdict == Verdict::none_of_catalogue) {
         const Cause* best = extended_cause(found);
-        return fails + (best == &found.causes.front() ? ", and so does the best cause of the catalogue, " + best->name +
-                                                            " (p = " + print_number(found.extended_p_value) + ")."
-                                                      : ", and no cause of the catalogue explains the deviation.");
+        if (best != &found.causes.front()) {
+            return fails + ", and no cause of the catalogue explains the deviation.";
+        }
+        const std::string why = reasons(found);
+        return fails + ". No cause of the catalogue is enough: the best is " + best->name +
+               (why.empty() ? "." : ", but " + why + ".");
     }
     if (found.verdict == Verdict::tied) {
         return fails + tied_sentence(found);
@@ -267,7 +277,9 @@ std::vector<std::string> verdict_sentences(const Diagnosis& found) {
     if (!found.proposals.empty() && found.proposals.front().resolution >= likely) {
         sentences.push_back("To decide, measure " + found.proposals.front().what + ".");
     } else if (found.detected && found.verdict != Verdict::named) {
-        sentences.emplace_back(advice(found.follows.kind));
+        const auto& of_base = found.base.parameters;
+        const bool of_oil = !of_base.empty() && of_base.front().name == "viscosity";
+        sentences.emplace_back(advice(found.follows.kind, of_oil));
     }
     return sentences;
 }

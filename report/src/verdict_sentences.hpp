@@ -15,6 +15,9 @@ std::string chance_text(const diagnose::Diagnosis& found);
 /// "a, b or c". @param last between the last two.
 std::string joined(const std::vector<std::string>& names, const std::string& last = " or ");
 
+/// "the time since the sample was loaded", "the sample 'B'".
+std::string axis_in_words(const diagnose::Follows& follows);
+
 /// What the deviation follows, whatever its cause, and the causes of that kind.
 std::string follows_sentence(const diagnose::Diagnosis& found);
 

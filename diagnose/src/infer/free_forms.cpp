@@ -50,10 +50,24 @@ bool varies(const Eigen::VectorXd& scale) {
     return scale.maxCoeff() > 1.05 * scale.minCoeff();
 }
 
+/// G' loses what G'' gains when the phase grows; each other number stays.
+Eigen::VectorXd turned(const DataSet& data, const Eigen::VectorXd& prediction) {
+    const Eigen::ArrayXd level = complex_moduli(data.observations, prediction);
+    Eigen::VectorXd change = (level.square() - prediction.array().square()).max(0).sqrt().matrix();
+    for (Index row = 0; row < change.size(); ++row) {
+        const Observation& one = data.observations[static_cast<std::size_t>(row)];
+        const bool oscillates = is_modulus(one) && !one.third_harmonic && !is_steady(one);
+        change[row] *= !oscillates ? 0.0 : one.loss ? 1.0 : -1.0;
+    }
+    return change;
+}
+
 /// Finds the directions of every kind.
 class AllDirections {
 public:
-    AllDirections(const DataSet& data, Eigen::VectorXd level) : data_(data), level_(std::move(level)) {}
+    /// @param prediction of the base model.
+    AllDirections(const DataSet& data, const Eigen::VectorXd& prediction)
+        : data_(data), level_(complex_moduli(data.observations, prediction)), turned_(turned(data, prediction)) {}
 
     std::map<Kind, Directions> find() && {
         for (const auto& [coordinate, kind] : factors_on_modulus) {
@@ -129,9 +143,9 @@ private:
             add_constant(still, torque);
             add_constant(still, level_.cwiseAbs2().cwiseProduct(given_way) / mean_level);
         }
-        const Eigen::MatrixXd turned = smooth_factor(data_.observations, Departing::loss, {}, false, 1);
-        if (turned.cols() > 0) {
-            found_[{Link::tool, Axis::level}].emplace_back(level_.asDiagonal() * turned);
+        if (!turned_.isZero(0)) {
+            found_[{Link::tool, Axis::level}].emplace_back(turned_);
+            add_smooth({Link::tool, Axis::frequency}, turned_, Coordinate::angular_frequency);
         }
     }
 
@@ -149,7 +163,8 @@ private:
     }
 
     const DataSet& data_;
-    Eigen::VectorXd level_;  ///< |G*| of each number
+    Eigen::VectorXd level_;   ///< |G*| of each number
+    Eigen::VectorXd turned_;  ///< what a small angle between stress and strain does to it
     std::map<Kind, Directions> found_;
 };
 
@@ -237,9 +252,9 @@ Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::Vect
 
 std::vector<FreeForm> free_forms(const Inference& inference, const Fit& base) {
     const DataSet& data = inference.errors().data();
-    const Eigen::VectorXd level = complex_moduli(data.observations, inference.fitted(inference.prediction(base.model)));
+    const Eigen::VectorXd prediction = inference.fitted(inference.prediction(base.model));
     std::vector<FreeForm> forms;
-    for (const auto& [kind, directions] : AllDirections(data, level).find()) {
+    for (const auto& [kind, directions] : AllDirections(data, prediction).find()) {
         const DeparturesAlong along = departures_along(inference, base, directions);
         forms.push_back({kind, along.log_factor, along.best, along.departure});
     }

@@ -84,12 +84,12 @@ std::size_t change_point(const std::vector<Index>& rows, const Eigen::VectorXd& 
 
 /// Mean of measured less predicted over the size of the prediction of |G*|; of a probability as it stands.
 double mean_departure(const std::vector<Observation>& observations, const Eigen::VectorXd& prediction,
-                      const std::vector<Index>& rows, std::size_t from, std::size_t to, bool loss, double scale) {
+                      const std::vector<Index>& rows, std::size_t from, std::size_t to, bool of_scale, double scale) {
     double sum = 0;
     for (std::size_t k = from; k < to; ++k) {
         const double expected = prediction[rows[k]];
         const Observation& one = observations[static_cast<std::size_t>(rows[k])];
-        sum += (one.value - expected) / (loss ? scale : relative_to(one, expected));
+        sum += (one.value - expected) / (of_scale ? scale : relative_to(one, expected));
     }
     return sum / static_cast<double>(std::max<std::size_t>(1, to - from));
 }
@@ -204,17 +204,18 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
                         const std::vector<Observation>& observations, const Eigen::VectorXd& residual,
                         const Eigen::VectorXd& prediction) {
     const double scale = prediction.cwiseAbs().maxCoeff();
-    const bool loss = statistic.observable == "loss_modulus";
     const bool third_harmonic = statistic.observable.starts_with("third_harmonic");
     const bool of_base_zero =
         std::all_of(statistic.rows.begin(), statistic.rows.end(), [&](Index row) { return prediction[row] == 0; });
+    const bool of_modulus = statistic.observable.ends_with("_modulus");
+    const bool of_scale = statistic.observable == "loss_modulus" || (of_modulus && of_base_zero);
     std::vector<double> places;
     for (const Index row : statistic.rows) {
         places.push_back(coordinate_of(observations[static_cast<std::size_t>(row)], statistic.coordinate));
     }
     const std::size_t place = change_point(statistic.rows, residual, places);
-    const double early = mean_departure(observations, prediction, statistic.rows, 0, place, loss, scale);
-    const double late = mean_departure(observations, prediction, statistic.rows, place, statistic.rows.size(), loss, scale);
+    const double early = mean_departure(observations, prediction, statistic.rows, 0, place, of_scale, scale);
+    const double late = mean_departure(observations, prediction, statistic.rows, place, statistic.rows.size(), of_scale, scale);
     Failure failure;
     failure.observable = statistic.observable;
     failure.axis = name_of(statistic.coordinate);
@@ -223,7 +224,7 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
     failure.from = places[place];
     failure.departure = late;
     const std::string axis = spoken_axis(statistic, is_clocked(statistic, experiment, observations));
-    const std::string of = loss                                              ? " (of the largest predicted modulus)"
+    const std::string of = of_scale                                          ? " (of the largest predicted modulus)"
                            : third_harmonic                                  ? " (of the first)"
                            : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
                                                                              : "";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verdict.hpp"
 
-#include "data/knows.hpp"
 #include "departures.hpp"
+#include "kinds.hpp"
 #include "localise.hpp"
 
 #include <coagula/common/log_probability.hpp>
@@ -44,15 +44,15 @@ bool fits(const std::vector<Condition>& conditions) {
     return holds(conditions, "beats-free-forms") && holds(conditions, "inside-range") && holds(conditions, "little-left");
 }
 
-/// The fewest causes with 95 % of the posterior. A pair of which one member explains the data alone, and better, adds no cause, nor
-/// does one that leaves as much over.
+/// The fewest causes with 95 % of the posterior; the base model, which fails, is none. A pair of which one member explains the data
+/// alone, and better, adds no cause, nor does one that leaves as much over.
 std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
     std::vector<std::string> set;
     double sum = 0;
     for (auto cause = causes.begin(); cause != causes.end() && sum < credible; ++cause) {
-        const bool adds = std::none_of(causes.begin(), cause, [&](const Cause& better) {
-            return (!better.leaves_remainder || cause->leaves_remainder) && contains(cause->name, better.name);
-        });
+        const bool adds = cause->name != "base" && std::none_of(causes.begin(), cause, [&](const Cause& better) {
+                              return (!better.leaves_remainder || cause->leaves_remainder) && contains(cause->name, better.name);
+                          });
         if (adds) {
             set.push_back(cause->name);
         }
@@ -101,11 +101,23 @@ double share_left(const Comparison& comparison, const Inference& inference) {
     return base > 0 ? std::clamp(left / base, 0.0, 1.0) : 1.0;
 }
 
+/// Whether a cause adds to a remainder that explains the data without it.
+bool adds_to_remainder(const Compared& one, const Comparison& comparison, const Priors& priors) {
+    constexpr double noticeable = 1;  // logarithms
+    const double none = comparison.all.front().log_weight_with_remainder(priors) - priors.none;
+    return one.log_weight_with_remainder(priors) - priors.beside > none + noticeable;
+}
+
+/// Weight of a cause, alone and with a remainder to which it adds.
+double log_weight_of(const Compared& one, const Comparison& comparison, const Priors& priors) {
+    return adds_to_remainder(one, comparison, priors) ? one.log_total(priors) : one.log_weight();
+}
+
 /// Weight of "none of the catalogue": a smooth departure from the base model, or the free form of a link. Where the best cause
 /// does not fit, or where the level of the moduli alone departs, which many causes in the structure and in what is taken for known
 /// change, it counts as much as that cause; where something else is missing to a name, a quarter.
 double log_weight_of_none(const Comparison& comparison, const Priors& priors, const Diagnosis& diagnosis) {
-    const double best = comparison.all[comparison.winner].log_total(priors);
+    const double best = log_weight_of(comparison.all[comparison.winner], comparison, priors);
     const double smooth = comparison.log_weight_of_none(priors);
     if (diagnosis.level_alone || !fits(diagnosis.conditions)) {
         return std::max(smooth, best);
@@ -117,13 +129,14 @@ void rank_causes(const Comparison& comparison, const Inference& inference, const
     const Compared& base = comparison.all.front();
     std::vector<double> logarithms;
     for (const Compared& one : comparison.all) {
-        logarithms.push_back(&one == &base ? one.log_weight() : one.log_total(priors));
+        logarithms.push_back(&one == &base ? one.log_weight() : log_weight_of(one, comparison, priors));
     }
     logarithms.push_back(log_weight_of_none(comparison, priors, diagnosis));
     const std::vector<double> posterior = probabilities_of(std::move(logarithms));
     for (std::size_t k = 0; k < comparison.all.size(); ++k) {
         const Compared& one = comparison.all[k];
-        const bool leaves_remainder = one.log_weight_with_remainder(priors) > one.log_weight();
+        const bool leaves_remainder =
+            adds_to_remainder(one, comparison, priors) && one.log_weight_with_remainder(priors) > one.log_weight();
         diagnosis.causes.push_back(cause_of(leaves_remainder ? one.remainder->fit : one.fit, inference));
         diagnosis.causes.back().posterior = posterior[k];
         diagnosis.causes.back().leaves_remainder = leaves_remainder;
@@ -137,18 +150,6 @@ void rank_causes(const Comparison& comparison, const Inference& inference, const
     diagnosis.credible_set = credible_set(diagnosis.causes);
 }
 
-double weight_alone(const Mechanism* one, const std::vector<Compared>& all) {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Compared& each) { return each.fit.hypothesis == Hypothesis{one}; });
-    return found == all.end() ? -std::numeric_limits<double>::infinity() : found->log_weight();
-}
-
-/// The member of a pair that explains more alone.
-const Mechanism* leading_member(const Hypothesis& hypothesis, const std::vector<Compared>& all) {
-    return *std::max_element(hypothesis.begin(), hypothesis.end(),
-                             [&](const Mechanism* a, const Mechanism* b) { return weight_alone(a, all) < weight_alone(b, all); });
-}
-
 /// Evidence of a pair over that of its better member alone; over nothing, without limit, of a single cause.
 double over_one_member(const Compared& pair, const std::vector<Compared>& all) {
     double best = -std::numeric_limits<double>::infinity();
@@ -156,77 +157,6 @@ double over_one_member(const Compared& pair, const std::vector<Compared>& all) {
         best = pair.fit.hypothesis.size() > 1 ? std::max(best, weight_alone(one, all)) : best;
     }
     return pair.log_weight() - best;
-}
-
-template <class OfTable>
-bool any_table(const Experiment& experiment, const OfTable& has) {
-    return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), has);
-}
-
-/// Whether gaps or plates differ.
-bool plates_differ(const Experiment& experiment) {
-    const auto column_differs = [&](const char* column) {
-        return differs(experiment, [&](const Measurement& table, std::size_t row) { return cell(table, column, row); });
-    };
-    return column_differs("gap") || column_differs("plate_radius");
-}
-
-/// The kind as far as an experiment tells it. Without other gaps or plates, what these do in time is a change of the sample, and
-/// what they do along the strain to a material that may soften in any way is that.
-Kind told_kind(Kind kind, const Experiment& experiment) {
-    const bool is_smooth = experiment.material.kind == MaterialKind::smooth;
-    if (kind.link != Link::geometry || plates_differ(experiment)) {
-        return kind;
-    }
-    return kind.axis == Axis::time                  ? Kind{Link::history, Axis::time}
-           : kind.axis == Axis::strain && is_smooth ? Kind{Link::material, Axis::strain}
-                                                    : kind;
-}
-
-/// The kinds of departure, most probable first: by the causes of each, without what they leave over, and by its free form, which
-/// counts as much as a cause.
-std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Experiment& experiment) {
-    std::map<Kind, std::vector<double>> weights;
-    std::map<Kind, const FreeForm*> forms;
-    const double base = comparison.all.front().fit.log_evidence;
-    for (const FreeForm& form : comparison.forms) {
-        weights[form.kind].push_back(base + form.log_factor);
-        forms[form.kind] = &form;
-    }
-    for (auto one = comparison.all.begin() + 1; one != comparison.all.end(); ++one) {
-        const Kind kind = leading_member(one->fit.hypothesis, comparison.all)->kind;
-        weights[told_kind(kind, experiment)].push_back(one->log_weight());
-    }
-    std::vector<double> logarithms;
-    std::vector<FollowedKind> kinds;
-    for (const auto& [kind, own] : weights) {
-        logarithms.push_back(log_sum(own));
-        const auto form = forms.find(kind);
-        kinds.push_back({.kind = kind, .log_factor = form == forms.end() ? unset : form->second->log_factor});
-    }
-    const std::vector<double> posterior = probabilities_of(std::move(logarithms));
-    for (std::size_t k = 0; k < kinds.size(); ++k) {
-        kinds[k].posterior = posterior[k];
-    }
-    std::stable_sort(kinds.begin(), kinds.end(),
-                     [](const FollowedKind& a, const FollowedKind& b) { return a.posterior > b.posterior; });
-    return kinds;
-}
-
-/// The most probable kind, with what its free form at the base model says of it.
-Follows follows_of(const std::vector<FollowedKind>& kinds, const Comparison& comparison, const Inference& inference) {
-    const FollowedKind& first = kinds.front();
-    const Kind shown = first.kind.axis == Axis::age ? Kind{Link::history, Axis::time} : first.kind;
-    const auto form =
-        std::find_if(comparison.forms.begin(), comparison.forms.end(), [&](const FreeForm& one) { return one.kind == shown; });
-    Follows follows{.kind = first.kind};
-    if (form != comparison.forms.end()) {
-        const Prediction base = inference.prediction(comparison.all.front().fit.model);
-        follows = followed_by(*form, inference.errors().data(), inference.fitted(base));
-    }
-    follows.kind = first.kind;
-    follows.posterior = first.posterior;
-    return follows;
 }
 
 /// 90 % interval over that of the prior, of the parameter that is known best; of the cause of a pair where that is widest.
@@ -268,23 +198,6 @@ double best_along_other_axes(const std::vector<FreeForm>& forms, Axis own) {
         best = form.kind.axis == own ? best : std::max(best, form.log_factor);
     }
     return best;
-}
-
-/// Whether the experiment holds what tells causes of this kind from their look-alikes, also from those that the catalogue does not
-/// have: an oil shows an error of phase and not a loss in the contacts; what the clock does alone does not depend on gap, plates,
-/// trap or force, and begins anew after a pause that shears.
-bool is_separated(Kind kind, const Experiment& experiment) {
-    const bool oil = any_table(experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
-    if (experiment.material.kind == MaterialKind::network &&
-        (kind == Kind{Link::material, Axis::frequency} || kind == Kind{Link::tool, Axis::level})) {
-        return oil;
-    }
-    if (kind.axis != Axis::time) {
-        return told_kind(kind, experiment) == kind;
-    }
-    const Knows knows = knowledge_of(experiment);
-    const bool trap = any_table(experiment, [](const Measurement& table) { return table.solvent_trap; });
-    return oil || trap || knows.load || knows.shear_before || plates_differ(experiment);
 }
 
 /// What a name needs beside a probability of 95 %.
@@ -377,6 +290,7 @@ void judge(const Comparison& comparison, const Inference& inference, const Hypot
     }
     diagnosis.kinds = kinds_of(comparison, inference.forward().experiment());
     diagnosis.follows = follows_of(diagnosis.kinds, comparison, inference);
+    diagnosis.follows.link_is_told = is_separated(diagnosis.follows.kind, inference.forward().experiment());
     diagnosis.conditions = conditions_of(comparison, inference, priors, options, diagnosis.gain);
     rank_causes(comparison, inference, priors, diagnosis);
     diagnosis.certain = common_causes(diagnosis.credible_set, possible);

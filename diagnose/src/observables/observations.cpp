@@ -283,6 +283,16 @@ struct Runs {
     std::vector<RunPlace> places;
 };
 
+/// Whether the table states gap or plates in other rows and not in this one: those of the instrument would be wrong here.
+bool lacks_geometry(const Measurement& table, std::size_t row) {
+    const auto is_lost = [&](const char* name) {
+        const Column* column = find_column(table, name);
+        return column != nullptr && !std::isfinite(column->values[row]) &&
+               std::any_of(column->values.begin(), column->values.end(), [](double value) { return std::isfinite(value); });
+    };
+    return is_lost("gap") || is_lost("plate_radius");
+}
+
 /// What a table shows of a response to shear.
 void add_sheared(std::vector<Observation>& all, const Experiment& experiment, const Runs& runs, std::size_t run) {
     const Measurement& table = experiment.measurements[run];
@@ -298,7 +308,7 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
         const bool takes_part = column != nullptr && (!fluid || (what.loss && !what.third_harmonic));
         for (std::size_t row = 0; takes_part && row < table.rows(); ++row) {
             if (!std::isfinite(column->values[row]) || (fluid && !flows && std::isnan(angular_frequency(table, row))) ||
-                (flows && std::isnan(cell(table, "shear_rate", row)))) {
+                (flows && std::isnan(cell(table, "shear_rate", row))) || lacks_geometry(table, row)) {
                 continue;
             }
             all.push_back(observation_at(experiment, run, row, what));

@@ -56,6 +56,7 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
     found.credible_set = {"wall-slip", "gap-error"};
     found.follows = {.kind = {diagnose::Link::geometry, diagnose::Axis::gap},
                      .posterior = 0.99,
+                     .link_is_told = true,
                      .change = 0.4,
                      .largest = 0.3,
                      .from = 5e-4,
@@ -70,10 +71,10 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
         ASSERT_EQ(sentences.size(), is_named ? 3U : 4U);
         EXPECT_EQ(sentences[0], verdict_sentence(found));
         if (!is_named) {
-            EXPECT_EQ(sentences[1],
-                      "What is certain: the deviation follows the gap, by +40 % of |G*| from 500\u00A0µm to 2\u00A0mm, and it acts "
-                      "like what "
-                      "plates do to the strain or to the rim. Causes of that kind: wall-slip or gap-error.");
+            EXPECT_EQ(
+                sentences[1],
+                "What is certain: the deviation follows the gap, by +40 % of |G*| from 500\u00A0µm to 2\u00A0mm. It acts like "
+                "what plates do to the strain or to the rim. Causes of that kind: wall-slip or gap-error.");
         }
         EXPECT_EQ(sentences[sentences.size() - 2],
                   "The best cause, wall-slip, leaves a deviation: G' lies above the model by up to 9 % of |G*|.");
@@ -111,11 +112,10 @@ TEST(VerdictSentence, WhatAKindWithoutANameLacks) {
         sentences[0],
         "The base model fails (p ≤ 0.001); no cause is certain. The most probable is ageing, but a value lies at the end of its "
         "physical range and it rests on a single row.");
-    EXPECT_EQ(
-        sentences[1],
-        "The deviation probably follows the time since the sample was loaded, by −12 % of |G*| from 10\u00A0s to 1200\u00A0s, and "
-        "it acts "
-        "like a change of the sample with its history (probability 70 %). Causes of that kind: ageing.");
+    EXPECT_EQ(sentences[1],
+              "The deviation probably follows the time since the sample was loaded, by −12 % of |G*| from 10\u00A0s to 1200\u00A0s "
+              "(probability 70 %). It acts like a change of the sample with its history, but nothing that was measured tells that "
+              "from what else follows the same. Causes of that kind: ageing.");
 }
 
 TEST(VerdictSentence, ACauseOrOneThatNobodyKnows) {

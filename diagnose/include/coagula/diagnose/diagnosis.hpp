@@ -80,11 +80,12 @@ struct FollowedKind {
 /// What the data follow, whatever the cause.
 struct Follows {
     Kind kind{};
-    double posterior = 0;    ///< of this kind
-    double change = unset;   ///< mean departure over |G*| at the upper end of the axis less that at the lower one; of the sample
-                             ///< that departs most, and along no axis, the mean one
-    double largest = unset;  ///< mean of those departures that are half as large as the largest or larger
-    double from = unset;     ///< lowest and highest value of the axis
+    double posterior = 0;       ///< of this kind
+    bool link_is_told = false;  ///< something was measured that tells this link from others that follow the same axis
+    double change = unset;      ///< mean departure over |G*| at the upper end of the axis less that at the lower one; of the sample
+                                ///< that departs most, and along no axis, the mean one
+    double largest = unset;     ///< mean of those departures that are half as large as the largest or larger
+    double from = unset;        ///< lowest and highest value of the axis
     double to = unset;
     std::string sample = {};  ///< that departs most, where that is the axis
 };
