@@ -280,7 +280,7 @@ class RealExports(Tables):
         sucrose = haake("Sac50-2 conj   09.13.48 2018-03-14.txt", 28)
         self.assertEqual((sucrose["verdict"], sucrose["credible_set"]), ("named", ["tool-inertia"]))
         urea = haake("Ur5-2 conjunto   20.45.21 2018-02-28.txt", 37)
-        self.assertEqual(urea["credible_set"][:2], ["tool-inertia", "none of the catalogue"])
+        self.assertIn("none of the catalogue", urea["credible_set"])  # the inertia leaves a part of it
         self.assertEqual((urea["follows"]["link"], urea["follows"]["axis"]), ("tool", "frequency"))
         self.assertIn("to 62.8 rad/s", urea["remainder"]["where"])
         water = haake("Agua3 Conj   13.38.27 2018-03-01.txt", 28)  # no cause makes G' jump up and down again

@@ -30,9 +30,9 @@ struct Scatter {
 
 /// A factor on the linear modulus.
 struct Response {
-    bool (*acts)(const Settings& settings, const Conditions& at);
+    bool (*acts)(const Settings& settings, const Conditions& at) = nullptr;
     /// @param exact run the solver at the settings themselves instead of between the nodes of a grid.
-    std::complex<double> (*factor)(Simulator& simulator, const Settings& settings, const Conditions& at, bool exact);
+    std::complex<double> (*factor)(Simulator& simulator, const Settings& settings, const Conditions& at, bool exact) = nullptr;
     Scatter (*scatter)(Simulator& simulator, const Settings& settings, const Conditions& at) = nullptr;  ///< null: known
     double (*degrees)(Simulator& simulator) = nullptr;  ///< of freedom from which the scale of the scatter is known
 };

@@ -175,14 +175,24 @@ Printed printed(const std::vector<SetRow>& rows, const std::map<std::string, Set
     return {std::move(json), std::move(table)};
 }
 
+/// Also what a killed run was about to write.
 void remove_parts(const std::vector<SetRow>& rows, const SetParts& parts) {
     for (const SetRow& row : rows) {
         std::error_code ignored;
         fs::remove(parts.structure(row.id), ignored);
         fs::remove(parts.folder() / (row.id + ".json"), ignored);
     }
-    std::error_code not_empty;
-    fs::remove(parts.folder(), not_empty);
+    std::error_code none;
+    std::vector<fs::path> unfinished;
+    for (const fs::directory_entry& entry : fs::directory_iterator(parts.folder(), none)) {
+        if (entry.path().extension() == ".tmp") {
+            unfinished.push_back(entry.path());
+        }
+    }
+    for (const fs::path& path : unfinished) {
+        fs::remove(path, none);
+    }
+    fs::remove(parts.folder(), none);  // unless others are in it
 }
 
 }  // namespace

@@ -197,5 +197,53 @@ TEST(Verdict, IsNoDiscrepancyWhereNothingIsHidden) {
     EXPECT_TRUE(found.kinds.empty());
 }
 
+/// Three sweeps of an oil of 5 Pa.s at these gaps, whose phase is off by a constant angle.
+Experiment oil(double angle, const std::vector<double>& gaps) {
+    Experiment experiment = sweeps(MeasurementKind::frequency_sweep, [angle](const Row& row) {
+        return std::complex<double>(0, 5 * row.angular_frequency) * std::exp(std::complex<double>(0, angle));
+    });
+    experiment.material.kind = MaterialKind::newtonian;
+    for (Measurement& table : experiment.measurements) {
+        table.columns.push_back({"gap", "m", gaps});
+    }
+    return experiment;
+}
+
+/// In an oil G' takes what a wrong phase leaves of G'': the size that is stated is the angle, and no sentence divides by the base
+/// model's G' = 0.
+TEST(Verdict, StatesTheAngleOfAPhaseThatIsOff) {
+    const Diagnosis found = verdict_on(oil(0.06, std::vector<double>(12, gap)));
+    expect_consistent(found);
+    EXPECT_EQ(kind_of(found), "tool along level");
+    EXPECT_NEAR(std::abs(found.follows.largest), 0.06, 0.01);
+    ASSERT_FALSE(found.failures.empty());
+    for (const Failure& failure : found.failures) {
+        EXPECT_EQ(failure.sentence.find("nan"), std::string::npos) << failure.sentence;
+        EXPECT_EQ(failure.sentence.find("inf"), std::string::npos) << failure.sentence;
+    }
+}
+
+/// A row that lost its gap is not compared at the gap of the instrument.
+TEST(Verdict, RowsThatLostTheirGapTakeNoPart) {
+    std::vector<double> gaps(12, gap);
+    const std::size_t all = verdict_on(oil(0, gaps)).observations;
+    gaps[2] = unset;
+    EXPECT_EQ(verdict_on(oil(0, gaps)).observations, all - 6);
+    EXPECT_EQ(verdict_on(oil(0, std::vector<double>(12, unset))).observations, all) << "no row states it";
+}
+
+/// Causes that explain nothing share no probability with a departure that no cause makes.
+TEST(Verdict, CausesThatExplainNothingAreNotInTheSet) {
+    const Diagnosis found = verdict_on(sweeps(MeasurementKind::frequency_sweep, [](const Row& row) {
+        const double ratio = std::pow(row.angular_frequency / 300, 2);  // of a resonance of the tool
+        return gel * (1.0 + 0.4 * ratio / (1.0 - ratio + std::complex<double>(0, 0.1) * std::sqrt(ratio)));
+    }));
+    expect_consistent(found);
+    for (const Cause& cause : found.causes) {
+        const bool helps = cause.log_evidence > found.base.log_evidence + 1 || cause.leaves_remainder;
+        EXPECT_TRUE(!in_set(found, cause.name) || helps || cause.name == "none of the catalogue") << cause.name;
+    }
+}
+
 }  // namespace
 }  // namespace coagula::diagnose

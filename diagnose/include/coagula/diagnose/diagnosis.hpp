@@ -72,7 +72,7 @@ struct TestedStatistic {
 
 /// A kind of departure, and how probable it is that the data follow it.
 struct FollowedKind {
-    Kind kind;
+    Kind kind{};
     double posterior = 0;       ///< of its causes and its free form together
     double log_factor = unset;  ///< of its free form on the evidence of the base model; NaN where it has none
 };

@@ -106,7 +106,7 @@ struct Kind {
     Link link;
     Axis axis;
 
-    auto operator<=>(const Kind&) const = default;
+    auto operator<=>(const Kind&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm of clang-tidy 14
 };
 
 /// One cause.
