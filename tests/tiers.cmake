@@ -38,7 +38,7 @@ set(coagula_slow_tests
   "python[.]pip[.].*"
   "cli[.]diagnosis[.]Diagnosis[.](a_hidden_loss_is_found|nothing_of_the_folder_is_lost)"
   "cli[.](diagnosis_tables|raw_columns|setting_samples)[.].*"
-  "cli[.]diagnose[.]CementPaste[.].*"
+  "cli[.]cement_paste[.]CementPaste[.].*"
   "cli[.]measured_data[.]ReferenceStructure[.].*"
   "cli[.]power[.].*"
   "cli[.]dataset[.]Runs[.].*"

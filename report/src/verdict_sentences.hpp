@@ -18,7 +18,7 @@ std::string joined(const std::vector<std::string>& names, const std::string& las
 /// "the time since the sample was loaded", "the sample 'B'".
 std::string axis_in_words(const diagnose::Follows& follows);
 
-/// What the deviation follows, whatever its cause, and the causes of that kind.
+/// Says what the deviation follows, whatever its cause, and which causes are of that kind.
 std::string follows_sentence(const diagnose::Diagnosis& found);
 
 }  // namespace coagula::report

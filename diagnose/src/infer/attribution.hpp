@@ -41,7 +41,7 @@ struct Comparison {
     double p_value = 1;                ///< of the test, applied to the winner
     std::vector<FreeForm> forms = {};  ///< of each kind of departure; none in brief
 
-    /// Of a departure that no cause explains: smooth along the coordinates, or the free form of a link.
+    /// Returns the weight of a departure that no cause explains: smooth along the coordinates, or the free form of a link.
     double log_weight_of_none(const Priors& priors) const;
 };
 

@@ -107,7 +107,8 @@ const Fit& fit_named(const std::vector<Compared>& all, const std::string& name) 
     return std::find_if(all.begin(), all.end(), [&](const Compared& one) { return name_of(one.fit.hypothesis) == name; })->fit;
 }
 
-/// What to measure next, to tell the causes of the credible set apart; nothing tells one alone from what nobody knows.
+/// Proposes measurements that tell the causes of the credible set apart; no measurement is known that tells a single one from what
+/// nobody knows.
 std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vector<Compared>& all, const Inference& inference,
                                     Simulator& simulator, std::uint64_t seed) {
     std::vector<Fit> candidates;

@@ -104,9 +104,10 @@ private:
 
     /// Smooth along a coordinate, of G', of G'' or of both apart.
     void add_smooth(Kind kind, const Eigen::VectorXd& scale, Coordinate coordinate) {
-        if (goes_along(coordinate)) {
-            for (const double length : smooth_lengths) {
-                add(kind, scale, {rank_along(data_.observations, coordinate)}, length);
+        const Eigen::VectorXd rank = rank_along(data_.observations, coordinate);
+        for (const double length : smooth_lengths) {
+            if (rank.maxCoeff() > 0) {
+                add(kind, scale, {rank}, length);
             }
         }
     }
@@ -256,7 +257,7 @@ std::vector<FreeForm> free_forms(const Inference& inference, const Fit& base) {
     std::vector<FreeForm> forms;
     for (const auto& [kind, directions] : AllDirections(data, prediction).find()) {
         const DeparturesAlong along = departures_along(inference, base, directions);
-        forms.push_back({kind, along.log_factor, along.best, along.departure});
+        forms.push_back({kind, along.log_factor, along.departure});
     }
     std::sort(forms.begin(), forms.end(), [](const FreeForm& a, const FreeForm& b) { return a.log_factor > b.log_factor; });
     return forms;

@@ -18,15 +18,14 @@ namespace coagula::diagnose {
 struct FreeForm {
     Kind kind;
     double log_factor = 0;           ///< on the evidence of the base model, averaged over amplitudes, lengths and shapes
-    double best = 0;                 ///< logarithm of the factor of the best of these
     Eigen::VectorXd departure = {};  ///< most probable one of the best, of every number [its unit]
 };
 
-/// What data follow that depart from a prediction so: the size and the ends of the axis.
+/// States how large a departure of this form is, and the ends of its axis.
 /// @param prediction of the base model, of every number.
 Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::VectorXd& prediction);
 
-/// Those of all links along all axes that these data vary.
+/// Finds the free forms of all links along all axes that these data vary.
 std::vector<FreeForm> free_forms(const Inference& inference, const Fit& base);
 
 }  // namespace coagula::diagnose

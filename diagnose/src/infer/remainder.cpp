@@ -277,7 +277,7 @@ DeparturesAlong departures_along(const Inference& inference, const Fit& fit, con
             }
         }
     }
-    return {log_mean(all), best, followed(inference, start, factor).departure};
+    return {log_mean(all), followed(inference, start, factor).departure};
 }
 
 double log_factor_along(const Inference& inference, const Fit& fit, const Eigen::MatrixXd& directions) {

@@ -28,8 +28,7 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const
 /// What departures along some directions beside a fit explain.
 struct DeparturesAlong {
     double log_factor;          ///< on the evidence of the fit, averaged over directions and amplitudes
-    double best;                ///< logarithm of the factor of the best of these
-    Eigen::VectorXd departure;  ///< most probable one along the best, of every number
+    Eigen::VectorXd departure;  ///< most probable one along the best of these, of every number
 };
 /// @param directions sets of unit amplitude [unit of the numbers].
 DeparturesAlong departures_along(const Inference& inference, const Fit& fit, const std::vector<Eigen::MatrixXd>& directions);

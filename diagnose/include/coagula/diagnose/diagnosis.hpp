@@ -77,7 +77,7 @@ struct FollowedKind {
     double log_factor = unset;  ///< of its free form on the evidence of the base model; NaN where it has none
 };
 
-/// What the data follow, whatever the cause.
+/// This says what the data follow, whatever the cause is.
 struct Follows {
     Kind kind{};
     double posterior = 0;       ///< of this kind
@@ -90,7 +90,7 @@ struct Follows {
     std::string sample = {};  ///< that departs most, where that is the axis
 };
 
-/// What a name needs, and whether it has it.
+/// A condition says what a name needs, and whether the best cause has it.
 struct Condition {
     std::string name;
     double value = 0;  ///< NaN where nothing is known of it

@@ -80,7 +80,7 @@ enum class Link { structure, material, history, geometry, tool, errors };
 /// "structure", "material", "history", "geometry", "tool", "errors".
 const char* name_of(Link link);
 
-/// What a departure follows.
+/// A departure follows one of these.
 enum class Axis {
     time,
     age,

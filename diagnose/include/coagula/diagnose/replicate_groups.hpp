@@ -10,7 +10,7 @@
 
 namespace coagula::diagnose {
 
-/// What tells the groups apart.
+/// Groups differ in one of these.
 enum class GroupedBy { instrument, day, sample, single_sample };
 
 struct ReplicateGroups {
