@@ -213,6 +213,18 @@ class Runs(ProgramTest):
         self.assertEqual(values(self.folder / "set.h5"), values(self.folder / "whole.h5"))
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if not name.startswith(".")), ["set.h5", "sweep.toml", "whole.h5"])
 
+    def test_what_killed_runs_leave_behind_goes(self):
+        parts = self.folder / "set.h5.parts"
+        parts.mkdir()
+        for name in (".0123.json.lock", ".0123.h5.lock", ".0123.h5.a1b2c3.tmp"):
+            (parts / name).write_text("")
+        self.run_set()
+        self.assertFalse(parts.exists())
+        parts.mkdir()
+        (parts / "notes.txt").write_text("not ours")
+        self.run_set()
+        self.assertEqual(os.listdir(parts), ["notes.txt"])
+
     def test_finished_structures_are_kept(self):
         self.run_set()
         before = (self.folder / "set.h5").read_bytes()

@@ -175,24 +175,27 @@ Printed printed(const std::vector<SetRow>& rows, const std::map<std::string, Set
     return {std::move(json), std::move(table)};
 }
 
-/// Also what a killed run was about to write.
+/// Whether a process that was killed left it: temporary files and locks are hidden.
+bool is_left_over(const fs::path& path) {
+    return path.filename().string().starts_with('.') && (path.extension() == ".tmp" || path.extension() == ".lock");
+}
+
 void remove_parts(const std::vector<SetRow>& rows, const SetParts& parts) {
+    std::vector<fs::path> finished;
     for (const SetRow& row : rows) {
-        std::error_code ignored;
-        fs::remove(parts.structure(row.id), ignored);
-        fs::remove(parts.folder() / (row.id + ".json"), ignored);
+        finished.push_back(parts.structure(row.id));
+        finished.push_back(parts.folder() / (row.id + ".json"));
     }
-    std::error_code none;
-    std::vector<fs::path> unfinished;
-    for (const fs::directory_entry& entry : fs::directory_iterator(parts.folder(), none)) {
-        if (entry.path().extension() == ".tmp") {
-            unfinished.push_back(entry.path());
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(parts.folder(), ignored)) {
+        if (is_left_over(entry.path())) {
+            finished.push_back(entry.path());
         }
     }
-    for (const fs::path& path : unfinished) {
-        fs::remove(path, none);
+    for (const fs::path& path : finished) {
+        fs::remove(path, ignored);
     }
-    fs::remove(parts.folder(), none);  // unless others are in it
+    fs::remove(parts.folder(), ignored);  // unless others are in it
 }
 
 }  // namespace
