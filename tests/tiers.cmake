@@ -33,7 +33,7 @@ set(coagula_slow_tests
   "ThirdHarmonic[.](Of|Hertz).*"
   "Thixotropy[.].*"
   "VolumeFractionGradient[.].*"
-  "Verdict[.](OneRowTenTimesTooLargeIsNoName|CausesThatExplainNothingAreNotInTheSet)"
+  "Verdict[.]OneRowTenTimesTooLargeIsNoName"
   "BrownianDepletion[.]PairsHaveTheirBoltzmannDistribution"
   "python[.]pip[.].*"
   "cli[.]diagnosis[.]Diagnosis[.](a_hidden_loss_is_found|nothing_of_the_folder_is_lost)"
