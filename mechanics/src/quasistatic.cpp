@@ -40,8 +40,7 @@ void check_input(const Packing& packing, const ContactNetwork& bonds, const Cont
                                                    " particles, the packing has " + std::to_string(packing.size()));
     require(packing.cell.is_periodic(), "the packing has a free surface: quasi-static shear needs a periodic cell");
     const auto [normal, direction] = options.orientation;
-    require(normal >= 0 && normal < 3 && direction >= 0 && direction < 3 && normal != direction,
-            "a shear orientation is named by two different axes of 0, 1, 2");
+    require(normal >= 0 && normal < 3 && direction >= 0 && direction < 3, "an orientation is named by two axes of 0, 1, 2");
     require_positive(options.tolerance, "the tolerance of the equilibrium");
     require_positive(options.balance_tolerance, "the tolerance of the energy balance");
     require_positive(options.event_tolerance, "the tolerance of the strain at which a bond breaks");
@@ -52,7 +51,14 @@ bool is_ageing(const ContactModel& model) {
     return !std::isnan(model.ageing_rate) && model.ageing_rate > 0;
 }
 
-double shear_stress(const StrainPoint& point, const ShearOrientation& orientation) {
+/// Uniaxial strain of -1 would press the cell flat.
+void check_height(const ShearOrientation& orientation, double lowest_strain) {
+    require(!orientation.is_uniaxial() || lowest_strain > -1,
+            "the uniaxial strain is " + to_text(lowest_strain) + ", but must be above -1, where the cell has no height left");
+}
+
+/// That on the plates: the normal stress where the strain is uniaxial.
+double plate_stress(const StrainPoint& point, const ShearOrientation& orientation) {
     return point.stress(orientation.normal, orientation.direction);
 }
 
@@ -60,10 +66,10 @@ double shear_stress(const StrainPoint& point, const ShearOrientation& orientatio
 std::optional<NetworkFailure> loss_of_load(const RampResponse& ramp, const ShearOrientation& orientation) {
     double peak = 0;
     for (const StrainPoint& point : ramp.points) {
-        peak = std::max(peak, std::abs(shear_stress(point, orientation)));
+        peak = std::max(peak, std::abs(plate_stress(point, orientation)));
     }
     std::size_t first = ramp.points.size();
-    while (first > 0 && std::abs(shear_stress(ramp.points[first - 1], orientation)) < load_lost * peak) {
+    while (first > 0 && std::abs(plate_stress(ramp.points[first - 1], orientation)) < load_lost * peak) {
         --first;
     }
     if (first == ramp.points.size() || ramp.broken.empty()) {
@@ -102,7 +108,7 @@ AmplitudeResponse analyse(Loop loop, double amplitude, const ShearOrientation& o
     AmplitudeResponse response;
     std::vector<double> stress;
     for (const StrainPoint& point : loop.points) {
-        stress.push_back(shear_stress(point, orientation));
+        stress.push_back(plate_stress(point, orientation));
         response.peak_stress = std::max(response.peak_stress, std::abs(stress.back()));
     }
     const Harmonics harmonics = analyse_loop(amplitude, loop.phase, stress);
@@ -147,7 +153,7 @@ double StrainPoint::imbalance(const StrainPoint& start) const {
 }
 
 double RampResponse::secant_modulus(std::size_t point, const ShearOrientation& orientation) const {
-    return (shear_stress(points.at(point), orientation) - shear_stress(points.front(), orientation)) / points[point].strain;
+    return (plate_stress(points.at(point), orientation) - plate_stress(points.front(), orientation)) / points[point].strain;
 }
 
 RampResponse shear_to(const Packing& packing, const ContactNetwork& bonds, const ContactModel& model, const RampOptions& options,
@@ -155,6 +161,7 @@ RampResponse shear_to(const Packing& packing, const ContactNetwork& bonds, const
     check_input(packing, bonds, model, options.solver);
     require(std::isfinite(options.strain) && options.strain != 0,
             "the strain of a ramp is " + to_text(options.strain) + ", but must be finite and not 0");
+    check_height(options.solver.orientation, options.strain);
     require(options.steps >= 1, "the number of steps is " + std::to_string(options.steps) + ", but must be at least 1");
     StrainPath path(packing, bonds, model, options.solver, std::abs(options.strain), progress);
     path.expect(options.steps);
@@ -187,6 +194,7 @@ SweepResponse sweep_amplitudes(const Packing& packing, const ContactNetwork& bon
     check_input(packing, bonds, model, options.solver);
     check_sweep(options, model);
     const double largest = *std::max_element(options.amplitudes.begin(), options.amplitudes.end());
+    check_height(options.solver.orientation, -largest);
     StrainPath path(packing, bonds, model, options.solver, largest, progress);
     const std::size_t sections = options.amplitudes.size();
     path.expect(static_cast<Index>(sections) * options.cycles * options.steps_per_cycle);

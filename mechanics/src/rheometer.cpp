@@ -205,6 +205,10 @@ double deviation_of(const std::vector<RheometerRun>& runs, Value value) {
 
 }  // namespace
 
+std::vector<ShearOrientation> uniaxial_orientations() {
+    return {{0, 0}, {1, 1}, {2, 2}};
+}
+
 std::vector<ShearOrientation> all_orientations() {
     return {{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}};
 }

@@ -16,10 +16,6 @@ using Eigen::Vector3d;
 
 /// Neighbours are pairs nearer than (1 + list_skin) times the sum of their radii.
 constexpr double list_skin = 0.15;
-/// Steps of the difference quotients of the contact law, in mean radii and radians: small where the law has kinks.
-constexpr double largest_difference = 1e-5;
-constexpr double smallest_difference = 1e-8;  // of a bond; the largest of a contact without one
-constexpr double least_difference = 1e-13;    // of that: distances are rounded
 
 /// Stiffness of a contact of two mean particles at a small overlap, the unit in which residuals are measured.
 double typical_stiffness(const GeneralContact& law, double radius) {
@@ -51,20 +47,21 @@ ShearedNetwork::ShearedNetwork(const Packing& packing, const ContactNetwork& bon
     find_neighbours();
 }
 
-Vector3d ShearedNetwork::sheared(const Vector3d& branch, double strain) const {
+Vector3d ShearedNetwork::strained(const Vector3d& branch, double from, double increment) const {
     Vector3d moved = branch;
-    moved[orientation_.direction] += strain * branch[orientation_.normal];
+    moved[orientation_.direction] += increment / relative_height(from) * branch[orientation_.normal];
     return moved;
 }
 
 Vector3d ShearedNetwork::strain_rate(const ContactMemory& memory) const {
-    return memory.branch[orientation_.normal] / length_ * Vector3d::Unit(orientation_.direction);
+    return memory.branch[orientation_.normal] / relative_height(strain_) / length_ * Vector3d::Unit(orientation_.direction);
 }
 
 PairMotion ShearedNetwork::pair_motion(const ShearedContact& contact, double strain_increment, const Motion& motion) const {
     const Index first = 6 * contact.first;
     const Index second = 6 * contact.second;
-    return {sheared(contact.memory.branch, strain_increment) + length_ * (motion.segment<3>(second) - motion.segment<3>(first)),
+    return {strained(contact.memory.branch, strain_, strain_increment) +
+                length_ * (motion.segment<3>(second) - motion.segment<3>(first)),
             motion.segment<3>(first + 3), motion.segment<3>(second + 3), radii_[contact.first], radii_[contact.second]};
 }
 
@@ -129,68 +126,6 @@ void ShearedNetwork::gather(Trial& trial) const {
     trial.rms_residual = trial.residual.norm() / std::sqrt(static_cast<double>(particles()));
 }
 
-/// Bonds with linear springs are smooth; Hertz's law is over distances of the order of the overlap; contacts may slip, and must not
-/// open on the way.
-double ShearedNetwork::difference_step(const ContactMemory& memory) const {
-    const double overlap = std::abs(memory.rest_length - memory.branch.norm()) / length_;
-    if (!memory.bonded) {
-        return std::clamp(0.5 * overlap, least_difference, smallest_difference);
-    }
-    if (std::isnan(law_.model().young_modulus)) {
-        return largest_difference;
-    }
-    return std::clamp(0.01 * overlap, smallest_difference, largest_difference);
-}
-
-std::vector<Slope> ShearedNetwork::linearise(const Trial& trial) const {
-    std::vector<Slope> slopes(contacts_.size());
-    const auto count = static_cast<Index>(contacts_.size());
-#pragma omp parallel for schedule(static)
-    for (Index k = 0; k < count; ++k) {
-        slopes[static_cast<std::size_t>(k)] = slope_of(k, trial);
-    }
-    return slopes;
-}
-
-Slope ShearedNetwork::slope_of(Index k, const Trial& trial) const {
-    const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
-    const ContactMemory& moved_memory = trial.memory[static_cast<std::size_t>(k)];
-    const PairMotion base = pair_motion(contact, trial.strain_increment, trial.motion);
-    Slope slope = Slope::Zero();
-    if (!GeneralContact::touches(moved_memory, base.first_radius, base.second_radius)) {
-        return slope;
-    }
-    const double difference = difference_step(moved_memory);
-    const auto moved = [&](int column, double step) {
-        PairMotion motion = base;
-        Vector3d& part = column < 3 ? motion.branch : (column < 6 ? motion.first_turn : motion.second_turn);
-        part[column % 3] += step * (column < 3 ? length_ : 1.0);
-        ContactMemory memory = contact.memory;
-        const ContactForce force = law_.update(memory, motion, 0.0);
-        return wrench(memory, force, contact);
-    };
-    for (int column = 0; column < 9; ++column) {
-        slope.col(column) = (moved(column, difference) - moved(column, -difference)) / (2 * difference);
-    }
-    slope.bottomRows<6>() *= -1;
-    return slope;
-}
-
-ContactModes ShearedNetwork::modes_of(Index k, const Trial& trial, bool turns) const {
-    const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
-    const Vector3d branch = trial.memory[static_cast<std::size_t>(k)].branch / length_;
-    const double share = radii_[contact.first] / (radii_[contact.first] + radii_[contact.second]);
-    Eigen::Matrix3d turn;  // branch x
-    turn << 0, -branch.z(), branch.y(), branch.z(), 0, -branch.x(), -branch.y(), branch.x(), 0;
-    ContactModes modes = ContactModes::Zero(9, turns ? 6 : 3);
-    modes.leftCols<3>() << Eigen::Matrix3d::Identity(), -share * turn, (share - 1) * turn;
-    if (turns) {
-        modes.block<3, 3>(3, 3) = -Eigen::Matrix3d::Identity();
-        modes.block<3, 3>(6, 3) = Eigen::Matrix3d::Identity();
-    }
-    return modes;
-}
-
 double ShearedNetwork::reach_used(double strain_increment, const Motion& motion) const {
     double farthest = 0;
     for (Index particle = 0; particle < particles(); ++particle) {
@@ -199,7 +134,8 @@ double ShearedNetwork::reach_used(double strain_increment, const Motion& motion)
     }
     const double reach = 2 * radii_.minCoeff() / length_ * list_skin;
     const double pair = 2 * radii_.maxCoeff() / length_ * (1 + list_skin);
-    return (2 * std::sqrt(farthest) + std::abs(strain_ + strain_increment - strain_at_search_) * pair) / reach;
+    const double strain = std::abs(strain_ + strain_increment - strain_at_search_) / relative_height(strain_at_search_);
+    return (2 * std::sqrt(farthest) + strain * pair) / reach;
 }
 
 bool ShearedNetwork::commit(const Trial& trial) {
@@ -212,7 +148,7 @@ bool ShearedNetwork::commit(const Trial& trial) {
     }
     for (Index particle = 0; particle < particles(); ++particle) {
         const Vector3d moved = trial.motion.segment<3>(6 * particle) - drift;
-        positions_.col(particle) = sheared(positions_.col(particle), trial.strain_increment) + length_ * moved;
+        positions_.col(particle) = strained(positions_.col(particle), strain_, trial.strain_increment) + length_ * moved;
         moved_.col(particle) += moved;
     }
     strain_ += trial.strain_increment;
@@ -224,27 +160,30 @@ bool ShearedNetwork::commit(const Trial& trial) {
     return touching_contacts() > before;
 }
 
-/// The particles where they are in the cell before a shear by `strain`.
-Packing ShearedNetwork::before_shear(double strain) const {
+/// The particles where they are in the cell before a strain.
+Packing ShearedNetwork::before_strain(double strain) const {
     Packing flat{cell_, positions_, radii_};
     for (Index particle = 0; particle < particles(); ++particle) {
-        flat.positions.col(particle) = cell_.wrap(sheared(positions_.col(particle), -strain));
+        flat.positions.col(particle) = cell_.wrap(strained(positions_.col(particle), strain, -strain));
     }
     return flat;
 }
 
-/// Neighbours are looked for in the cell before the shear, whose points and pairs map one to one onto those of the sheared cell:
-/// in a rectangular box, a strain is the same lattice as one that differs by whole edges. Distances there are at most `stretch`
-/// times as large.
+double ShearedNetwork::stretch_of_distances(double strain) const {
+    return orientation_.is_uniaxial() ? std::max(1.0, 1 / (1 + strain))
+                                      : 0.5 * std::abs(strain) + std::sqrt(1 + 0.25 * strain * strain);
+}
+
+/// Neighbours are looked for in the cell before the strain, whose points and pairs map one to one onto those of the strained cell:
+/// in a rectangular box, a shear strain is the same lattice as one that differs by whole edges.
 void ShearedNetwork::find_neighbours() {
     double strain = strain_;
-    if (cell_.is_rectangular()) {
+    if (cell_.is_rectangular() && !orientation_.is_uniaxial()) {
         const double turn = cell_.lengths()[orientation_.direction] / cell_.lengths()[orientation_.normal];
         strain -= turn * std::nearbyint(strain_ / turn);
     }
-    const double stretch = 0.5 * std::abs(strain) + std::sqrt(1 + 0.25 * strain * strain);
-    const Packing flat = before_shear(strain);
-    const ContactNetwork near = find_pairs(flat, 2 * radii_.maxCoeff() * (1 + list_skin) * stretch);
+    const Packing flat = before_strain(strain);
+    const ContactNetwork near = find_pairs(flat, 2 * radii_.maxCoeff() * (1 + list_skin) * stretch_of_distances(strain));
     if (!contacts_.empty() && groups_.start.empty()) {
         group_contacts();
     }
@@ -252,7 +191,7 @@ void ShearedNetwork::find_neighbours() {
     for (Index pair = 0; pair < near.size(); ++pair) {
         const Index first = near.ends(0, pair);
         const Index second = near.ends(1, pair);
-        const Vector3d branch = sheared(near.branch.col(pair), strain);
+        const Vector3d branch = strained(near.branch.col(pair), 0, strain);
         if (branch.norm() >= (1 + list_skin) * (radii_[first] + radii_[second])) {
             continue;
         }
@@ -355,7 +294,7 @@ Eigen::Matrix3d ShearedNetwork::stress(const Trial& trial) const {
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
         sum += trial.memory[k].branch * trial.wrench[k].head<3>().transpose();
     }
-    return stiffness_ * length_ / volume_ * sum;
+    return stiffness_ * length_ / (volume_ * relative_height(strain_ + trial.strain_increment)) * sum;
 }
 
 Index ShearedNetwork::intact_bonds() const {
@@ -371,12 +310,12 @@ bool ShearedNetwork::spans() const {
     for (const ShearedContact& contact : contacts_) {
         if (GeneralContact::touches(contact.memory, radii_[contact.first], radii_[contact.second])) {
             network.ends.col(count) << static_cast<std::int32_t>(contact.first), static_cast<std::int32_t>(contact.second);
-            network.branch.col(count++) = sheared(contact.memory.branch, -strain_);
+            network.branch.col(count++) = strained(contact.memory.branch, strain_, -strain_);
         }
     }
     network.ends.conservativeResize(2, count);
     network.branch.conservativeResize(3, count);
-    const std::vector<Cluster> clusters = find_clusters(before_shear(strain_), network);
+    const std::vector<Cluster> clusters = find_clusters(before_strain(strain_), network);
     return std::any_of(clusters.begin(), clusters.end(), [&](const Cluster& each) { return each.percolates(orientation_.normal); });
 }
 

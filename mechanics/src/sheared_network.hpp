@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts of a packing in a periodic cell under simple shear, with their memories: forces, stress and energy for a trial motion.
-// Motions are in reduced units: six numbers per particle, displacement beyond the affine one in mean radii, then rotation.
+// Contacts of a packing in a periodic cell under simple shear or uniaxial strain, with their memories: forces, stress and energy
+// for a trial motion. Motions are in reduced units: six numbers per particle, displacement beyond the affine one in mean radii,
+// then rotation.
 #pragma once
 
 #include "stiffness.hpp"
@@ -55,6 +56,8 @@ public:
     Index particles() const { return positions_.cols(); }
     const std::vector<ShearedContact>& contacts() const { return contacts_; }
     double strain() const { return strain_; }
+    /// Before the strain [m^3]. Times the Cauchy stress it is the work per strain: shear keeps the volume, and uniaxial strain the
+    /// area of the plates.
     double volume() const { return volume_; }
 
     /// Forces after a strain increment and a motion since the committed state.
@@ -101,7 +104,7 @@ public:
     Eigen::Matrix3d stress(const Trial& trial) const;
     Index intact_bonds() const;
     /// Whether bonds and touching contacts reach around the cell along the plate normal. If not, a plane parallel to the plates can
-    /// be bent so that nothing crosses it, and there is no shear stress.
+    /// be bent so that nothing crosses it, and there is no stress on the plates.
     bool spans() const;
     Index touching_contacts() const;
 
@@ -113,15 +116,20 @@ private:
     Wrench wrench(const ContactMemory& memory, const ContactForce& force, const ShearedContact& contact) const;
     double difference_step(const ContactMemory& memory) const;
     void gather(Trial& trial) const;
-    Packing before_shear(double strain) const;
+    Packing before_strain(double strain) const;
     void find_neighbours();
     const ShearedContact* find_contact(Index first, Index second, const Eigen::Vector3d& branch) const;
     void group_contacts();
-    Eigen::Vector3d sheared(const Eigen::Vector3d& branch, double strain) const;
+    /// A branch at the strain `from` after an increment more.
+    Eigen::Vector3d strained(const Eigen::Vector3d& branch, double from, double increment) const;
+    /// How many times as large distances may be before a strain as after it.
+    double stretch_of_distances(double strain) const;
+    /// Height of the cell along the normal over that before the strain.
+    double relative_height(double strain) const { return orientation_.is_uniaxial() ? 1 + strain : 1.0; }
 
     GeneralContact law_;
     ShearOrientation orientation_;
-    Cell cell_;  ///< before the shear
+    Cell cell_;  ///< before the strain
     double volume_;
     double length_;     ///< unit of length: mean radius [m]
     double stiffness_;  ///< unit of stiffness [N/m]

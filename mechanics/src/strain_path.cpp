@@ -226,7 +226,8 @@ void StrainPath::break_overloaded(const Record& record) {
         record(point_);
         follows = true;
     }
-    if (follows && !network_.spans()) {
+    const bool pressed = options_.orientation.is_uniaxial() && network_.strain() < 0;  // the parts come together again
+    if (follows && !pressed && !network_.spans()) {
         failure_ = NetworkFailure{network_.strain(), static_cast<Index>(broken_.size())};
     }
 }

@@ -83,7 +83,7 @@ private:
     std::optional<NetworkFailure> failure_;
     Index section_ = 0;
     double amplitude_ = 0;
-    double peak_stress_ = 0;  ///< largest shear stress so far [Pa], what is expected at this amplitude after a larger one
+    double peak_stress_ = 0;  ///< largest stress on the plates so far [Pa], what is expected at this amplitude after a larger one
     double step_;             ///< of strain that went well
     Motion velocity_;         ///< motion per strain in the last step, empty: unknown
 };

@@ -18,7 +18,7 @@ from support import SMALL, ProgramTest
 MEASURES = ["pore-curve", "contacts", "pair-correlation", "structure-factor", "neighbour-distances", "bond-angles", "bond-order", "rings",
             "local-redundancy", "voronoi", "density-fluctuations", "void-chords", "solid-chords", "surface", "mean-curvature",
             "euler-characteristic"]
-FIGURES = [*MEASURES, "bond-forces", "frequency", "amplitude", "stress-strain", "oscillations", "modulus-stiffness",
+FIGURES = [*MEASURES, "bond-forces", "frequency", "amplitude", "stress-strain", "compression", "oscillations", "modulus-stiffness",
            "modulus-heterogeneity", "critical-value", "heterogeneity-coordination", "modulus-volume-fraction", "packing", "rheometer",
            "overview"]
 
@@ -171,7 +171,7 @@ class Plot(ProgramTest):
     def test_missing_results_name_the_verb(self):
         path = self.copy_of_packing()
         for figure, command in (("pore-curve", "coagula characterize packing.h5"), ("bond-forces", "coagula shear packing.h5"),
-                                ("frequency", "--frequency-sweep"), ("amplitude", "--amplitudes"), ("stress-strain", "--ramp"),
+                                ("frequency", "--frequency-sweep"), ("amplitude", "--amplitudes"), ("stress-strain", "--ramp"), ("compression", "--strain uniaxial"),
                                 ("oscillations", "--method dem")):
             self.fail_with(2, "plot", path.name, "--figure", figure, "-o", "a.svg", says=["packing.h5", command])
         self.succeed("characterize", path, "--only", "coordination")

@@ -63,6 +63,33 @@ class Quasistatic(ProgramTest):
             self.assertAlmostEqual(found["sweep"]["zx"]["loop_area"][k] / (math.pi * amplitude ** 2), loss, delta=1e-6 * storage)
             self.assertLess(found["sweep"]["zx"]["balance_error"][k], 1e-5)
 
+    def test_uniaxial_compression(self):
+        linear = self.succeed_json("shear", "packing.h5", "-o", "linear.h5")
+        found = self.shear("--strain", "uniaxial", "--ramp", "1e-6", "--ramp-steps", "1")
+        for axis, name in enumerate(("xx", "yy", "zz")):
+            expected = linear["elastic_tensor"][axis][axis]
+            self.assertAlmostEqual(found["longitudinal_modulus"][name] / expected, 1, delta=1e-3)
+            self.assertAlmostEqual(found["ramp"][name]["stress"][-1] / (1e-6 * expected), 1, delta=1e-3)
+        self.assertNotIn("storage_modulus", found)
+        self.write("model.toml", MODEL + 'shear_strength = "6 nN"\n')
+        self.succeed("generate", "vem", "--particles", "60", "--volume-fraction", "0.4", "--radius", "0.25um", "-o", "small.h5")
+        words = ("shear", "small.h5", "--method", "quasistatic", "--strain", "uniaxial", "--ramp", "0.006", "--orientation", "zz", "--model", "model.toml")
+        pressed = self.succeed_json(*words, "--ramp-steps", "6", "-o", "pressed.h5")["ramp"]["zz"]
+        fraction = self.succeed_json("info", "small.h5")["volume_fraction"]
+        self.assertEqual(pressed["strain"][-1], 0.006)
+        for strain, there in zip(pressed["strain"], pressed["volume_fraction"]):
+            self.assertAlmostEqual(there / (fraction / (1 - strain)), 1, delta=1e-12)
+        self.assertGreater(pressed["broken_bonds"], 0)
+        self.assertTrue(all(strain > 0 for strain in pressed["broken"]["strain"]))
+        self.assertGreater(pressed["work"][-1], 0)
+        self.assertEqual(pressed["peak_stress"], max(pressed["stress"]))
+        secant = 0.9 * pressed["stress"][1] / pressed["strain"][1] * pressed["yield_strain"]
+        self.assertAlmostEqual(pressed["yield_stress"] / secant, 1, delta=1e-9)
+        self.assertAlmostEqual(pressed["yield_volume_fraction"] / (fraction / (1 - pressed["yield_strain"])), 1, delta=1e-9)
+        self.assertLess(pressed["plateau_stress"], pressed["peak_stress"])
+        self.assertRegex(self.succeed(*words, "--ramp-steps", "1", "-o", "again.h5"),
+                         "zz, compression 0.006 +normal stress .*Pa, [0-9]+ bonds broken")
+
     def test_every_broken_bond_says_why(self):
         self.write("model.toml", MODEL.replace("12 nN", "5 uN") + 'shear_strength = "2 nN"\n')
         found = self.shear("--ramp", "1e-3", "--ramp-steps", "4", "--orientation", "zx", "--model", "model.toml")
@@ -95,6 +122,10 @@ class Quasistatic(ProgramTest):
             self.fail_with(2, "shear", "packing.h5", "--method", "quasistatic", *words, says=says)
 
         refuse("exclude", "--amplitudes", "1e-3", "--ramp", "1e-3")
+        refuse(["--ramp is 1", "below 1"], "--ramp", "1", "--strain", "uniaxial")
+        refuse("--strain is read only with --ramp", "--strain", "uniaxial")
+        refuse("'zx' is not one of xx, yy, zz (axis of the compression) or all", "--ramp", "0.1", "--strain", "uniaxial", "--orientation", "zx")
+        refuse("'zz' is not one of xy", "--ramp", "0.1", "--orientation", "zz")
         refuse("--amplitudes", "--amplitudes", "1e-3:1e-2")
         refuse("--amplitudes", "--amplitudes", "-1")
         refuse("--amplitudes: '10x' is not a number", "--amplitudes", "1e-3:1e-2:10x")

@@ -22,6 +22,7 @@ Drawing draw_bond_forces(const Sources& sources);
 Drawing draw_frequency_response(const Sources& sources);
 Drawing draw_amplitude_response(const Sources& sources);
 Drawing draw_stress_strain(const Sources& sources);
+Drawing draw_compression(const Sources& sources);
 Drawing draw_oscillations(const Sources& sources);
 Drawing draw_modulus_volume_fraction(const Sources& sources);
 Drawing draw_heterogeneity_coordination(const Sources& sources);

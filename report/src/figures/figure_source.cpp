@@ -15,13 +15,15 @@ struct Maker {
     const char* group;
     const char* command;
 };
-constexpr std::array<Maker, 8> makers{
+constexpr std::array<Maker, 9> makers{
     {{"/characterization/rigidity", "coagula characterize FILE --only rigidity"},
      {"/characterization", "coagula characterize FILE"},
      {"/mechanics/linear", "coagula shear FILE"},
      {"/mechanics/frequency", "coagula shear FILE --frequency-sweep 0.1Hz:1kHz:20 --model MODEL.toml"},
      {"/mechanics/quasistatic/ramp", "coagula shear FILE --method quasistatic --ramp 0.01 --orientation zx"},
      {"/mechanics/quasistatic", "coagula shear FILE --method quasistatic --amplitudes 1e-4:1e-2:10 --orientation zx"},
+     {"/mechanics/compression",
+      "coagula shear FILE --method quasistatic --strain uniaxial --ramp 0.1 --orientation zz --model MODEL.toml"},
      {"/mechanics/dem", "coagula shear FILE --method dem"},
      {"/", "coagula info FILE"}}};
 

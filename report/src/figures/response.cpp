@@ -11,6 +11,7 @@ namespace {
 
 const std::string frequency_group = "/mechanics/frequency/";
 const std::string quasistatic_group = "/mechanics/quasistatic/";
+const std::string compression_group = "/mechanics/compression/";
 const std::string dem_group = "/mechanics/dem/";
 
 ChartAxis logarithmic_moduli() {
@@ -76,9 +77,9 @@ void add_amplitudes(Chart& chart, const FigureSource& source, const std::string&
                source.numbers(group + "loss_modulus/std"));
 }
 
-/// Orientations of the ramps of a file, such as "zx".
-std::vector<std::string> ramps_of(const FigureSource& source) {
-    const std::string begin = quasistatic_group + "ramp/";
+/// Orientations of the ramps of a file, such as "zx". @param usual is returned, so that its absence is told, where there are none.
+std::vector<std::string> ramps_of(const FigureSource& source, const std::string& group, const std::string& usual) {
+    const std::string begin = group + "ramp/";
     const std::string end = "/stress";
     std::vector<std::string> orientations;
     for (const io::Dataset& dataset : source.structure().results) {
@@ -87,9 +88,24 @@ std::vector<std::string> ramps_of(const FigureSource& source) {
         }
     }
     if (orientations.empty()) {
-        orientations.emplace_back("zx");  // whose absence is told
+        orientations.push_back(usual);
     }
     return orientations;
+}
+
+/// Stress of each ramp over another of its data sets.
+void add_ramps(Chart& chart, const Sources& sources, const std::string& group, const std::string& usual, const std::string& over) {
+    int colour = 0;
+    for (std::size_t k = 0; k < sources.size(); ++k) {
+        for (const std::string& orientation : ramps_of(sources[k], group, usual)) {
+            const std::string path = group + "ramp/" + orientation + "/";
+            const std::string name = legend_name(sources, k);
+            Series series{.name = name.empty() ? orientation : name + ", " + orientation, .colour = colour++};
+            series.x = sources[k].numbers(path + over);
+            series.y = sources[k].numbers(path + "stress");
+            chart.series.push_back(std::move(series));
+        }
+    }
 }
 
 }  // namespace
@@ -128,18 +144,18 @@ Drawing draw_stress_strain(const Sources& sources) {
     Chart chart{.x = {.name = "shear strain {/Symbol g}", .plain = "shear strain"},
                 .y = {.name = "shear stress {/Symbol s}", .plain = "shear stress", .unit = "Pa"},
                 .legend = Legend::bottom_right};
-    int colour = 0;
-    for (std::size_t k = 0; k < sources.size(); ++k) {
-        for (const std::string& orientation : ramps_of(sources[k])) {
-            const std::string path = quasistatic_group + "ramp/" + orientation + "/";
-            const std::string name = legend_name(sources, k);
-            Series series{.name = name.empty() ? orientation : name + ", " + orientation, .colour = colour++};
-            series.x = sources[k].numbers(path + "strain");
-            series.y = sources[k].numbers(path + "stress");
-            chart.series.push_back(std::move(series));
-        }
-    }
+    add_ramps(chart, sources, quasistatic_group, "zx", "strain");
     return {.panels = {chart}, .caption = "Shear stress against shear strain in quasi-static equilibria."};
+}
+
+Drawing draw_compression(const Sources& sources) {
+    Chart chart{.x = {.name = "volume fraction {/Symbol f}", .plain = "volume fraction"},
+                .y = {.name = "normal stress {/Symbol s}", .plain = "normal stress", .unit = "Pa"},
+                .legend = Legend::top_left};
+    add_ramps(chart, sources, compression_group, "zz", "volume_fraction");
+    return {.panels = {chart},
+            .caption =
+                "Normal stress along the axis of a uniaxial compression against the volume fraction, in quasi-static equilibria."};
 }
 
 Drawing draw_oscillations(const Sources& sources) {

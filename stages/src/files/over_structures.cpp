@@ -47,7 +47,10 @@ Json to_json(const MeanWithError& found) {
 
 Json over_structures(const std::vector<Json>& structures) {
     Json json = {{"structures", structures.size()}};
-    for (const std::string modulus : {"storage_modulus", "loss_modulus"}) {
+    for (const std::string modulus : {"storage_modulus", "loss_modulus", "longitudinal_modulus"}) {
+        if (!structures.front().contains(modulus)) {
+            continue;
+        }
         const bool sweep = structures.front().at(modulus).at("mean").is_array();
         const std::size_t count = entries_of(structures.front(), modulus).size();
         Json all = {{"mean", Json::array()}, {"std", Json::array()}, {"standard_error", Json::array()}};
@@ -66,11 +69,14 @@ Json over_structures(const std::vector<Json>& structures) {
 
 Table table_over_structures(const std::vector<Json>& structures) {
     Table table;
-    const std::size_t count = entries_of(structures.front(), "storage_modulus").size();
+    const bool sheared = structures.front().contains("storage_modulus");
+    const std::string name = sheared ? "storage_modulus" : "longitudinal_modulus";
+    const std::string symbol = sheared ? "G' " : "longitudinal modulus ";
+    const std::size_t count = entries_of(structures.front(), name).size();
     for (const Json& structure : structures) {
-        const Json& modulus = structure.at("storage_modulus");
+        const Json& modulus = structure.at(name);
         if (count == 1 && modulus.at("mean").is_number()) {
-            table.emplace_back(structure.at("file").get<std::string>(), "G' " + with_unit(modulus.at("mean").get<double>(), "Pa") +
+            table.emplace_back(structure.at("file").get<std::string>(), symbol + with_unit(modulus.at("mean").get<double>(), "Pa") +
                                                                             " +- " +
                                                                             with_unit(modulus.at("std").get<double>(), "Pa"));
         }
@@ -79,10 +85,10 @@ Table table_over_structures(const std::vector<Json>& structures) {
         table.emplace_back("", "+- is the standard deviation over the orientations of one structure");
     }
     for (std::size_t entry = 0; entry < count; ++entry) {
-        const auto mean = mean_of_entry(structures, "storage_modulus", entry);
+        const auto mean = mean_of_entry(structures, name, entry);
         const std::string place = count > 1 ? ", entry " + std::to_string(entry + 1) : "";
         table.emplace_back("mean of " + std::to_string(structures.size()) + place,
-                           mean ? "G' " + with_error(*mean) : "not reached by every structure");
+                           mean ? symbol + with_error(*mean) : "not reached by every structure");
     }
     if (count > 0) {
         table.emplace_back("", "standard errors follow from the scatter between structures");

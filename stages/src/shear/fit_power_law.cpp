@@ -16,7 +16,7 @@ using mechanics::PowerLawData;
 using mechanics::PowerLawFit;
 using mechanics::PowerLawMinimum;
 
-std::string name_of(PowerLawMinimum minimum) {
+std::string name_of_minimum(PowerLawMinimum minimum) {
     switch (minimum) {
         case PowerLawMinimum::far_away:
             return "far_away";
@@ -66,7 +66,7 @@ Json json_of(const PowerLawFit& fit) {
             {"log_c_stderr", json_number(fit.log_c_stderr)},
             {"sum_of_squares", json_number(fit.law.sum_of_squares)},
             {"degrees_of_freedom", fit.degrees_of_freedom},
-            {"minimum", name_of(fit.minimum)}};
+            {"minimum", name_of_minimum(fit.minimum)}};
 }
 
 Json list_of(const Eigen::VectorXd& values) {

@@ -14,8 +14,21 @@ std::string name_of(const mechanics::ShearOrientation& orientation) {
     return {axes[static_cast<std::size_t>(orientation.normal)], axes[static_cast<std::size_t>(orientation.direction)]};
 }
 
-std::vector<mechanics::ShearOrientation> parse_orientations(const std::string& text) {
-    std::vector<mechanics::ShearOrientation> all = mechanics::all_orientations();
+namespace {
+
+/// "xy, xz, yx, yz, zx, zy (plate normal, shear direction)".
+std::string list_of(const std::vector<mechanics::ShearOrientation>& all) {
+    std::string names;
+    for (const mechanics::ShearOrientation& orientation : all) {
+        names += (names.empty() ? "" : ", ") + name_of(orientation);
+    }
+    return names + (all.front().is_uniaxial() ? " (axis of the compression)" : " (plate normal, shear direction)");
+}
+
+}  // namespace
+
+std::vector<mechanics::ShearOrientation> parse_orientations(const std::string& text,
+                                                            const std::vector<mechanics::ShearOrientation>& all) {
     if (text == "all") {
         return all;
     }
@@ -24,7 +37,7 @@ std::vector<mechanics::ShearOrientation> parse_orientations(const std::string& t
     for (const std::string& word : split(text)) {
         const auto found = std::find_if(all.begin(), all.end(), [&](const auto& entry) { return name_of(entry) == word; });
         if (found == all.end()) {
-            throw InputError("'" + word + "' is not one of xy, xz, yx, yz, zx, zy (plate normal, shear direction) or all");
+            throw InputError("'" + word + "' is not one of " + list_of(all) + " or all");
         }
         if (std::find(seen.begin(), seen.end(), word) != seen.end()) {
             throw InputError("'" + word + "' is named twice");

@@ -81,7 +81,8 @@ std::vector<Option> rheometer_options() {
                  "3690kg/m3", within(1e-3, 1e6)),
         choice("rest-length", {"found", "radii"},
                "dem, quasistatic: distance at which a bond bears no force, that in the packing or r_i + r_j", "found"),
-        text("orientation", "LIST", "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all", "all"),
+        text("orientation", "LIST",
+             "dem, quasistatic: plate normal and shear direction, such as xy,zx, or all; of a compression xx, yy, zz", "all"),
         writes(text("checkpoint", "FILE",
                     "dem, quasistatic: file for what is done, written after every oscillation or orientation; a run that finds "
                     "it goes on from there"))};

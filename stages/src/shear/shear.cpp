@@ -207,7 +207,7 @@ std::string ShearRun::group() const {
         case ShearMethod::frequency:
             return "/mechanics/frequency";
         case ShearMethod::quasistatic:
-            return "/mechanics/quasistatic";
+            return quasistatic.uniaxial ? "/mechanics/compression" : "/mechanics/quasistatic";
         case ShearMethod::dem:
             return "/mechanics/dem";
         case ShearMethod::linear:
@@ -235,7 +235,10 @@ ShearRun shear_run(const Arguments& arguments) {
     if (run.method == ShearMethod::quasistatic) {
         run.quasistatic = quasistatic_path(arguments, run.model, run.frequencies);
     }
-    run.orientations = arguments.parsed("orientation", parse_orientations);
+    run.orientations = arguments.parsed("orientation", [&](const std::string& text) {
+        return parse_orientations(text,
+                                  run.quasistatic.uniaxial ? mechanics::uniaxial_orientations() : mechanics::all_orientations());
+    });
     run.checkpoint = {arguments.text("checkpoint", ""), run_signature(arguments, run.model)};
     run.conditions = shear_conditions(arguments, run);
     return run;

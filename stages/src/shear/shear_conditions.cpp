@@ -27,6 +27,7 @@ const std::map<std::string, std::vector<std::string>>& conditions_by_group() {
         {"/mechanics/quasistatic",
          {"rest-length", "orientation", "amplitudes", "down", "cycles", "steps-per-cycle", "ramp", "ramp-steps", "frequency",
           "frequency-sweep"}},
+        {"/mechanics/compression", {"rest-length", "orientation", "ramp", "ramp-steps", "strain"}},
         {"/mechanics/dem",
          {"rest-length", "orientation", "boundary", "amplitude", "constant-amplitude", "oscillations", "steps-per-oscillation",
           "damping", "density", "frequency", "frequency-sweep"}}};

@@ -101,7 +101,7 @@ function sentence(text: string): string {
   return text === "" ? "" : `${text.charAt(0).toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? "" : "."}`;
 }
 
-const methods: Record<string, string> = { linear: "linear response", frequency: "frequency sweep", quasistatic: "quasi-static shear", dem: "explicit shear test" };
+const methods: Record<string, string> = { linear: "linear response", frequency: "frequency sweep", quasistatic: "quasi-static shear", compression: "uniaxial compression", dem: "explicit shear test" };
 
 function titleOf(path: string): string {
   const text = path.split("/").slice(2).map((part) => methods[part] ?? inWords(part)).join(", ");

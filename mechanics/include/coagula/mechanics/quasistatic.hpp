@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quasi-static non-linear shear of a bonded packing: a path of equilibria in a deforming periodic cell, with breaking bonds,
-// friction and large strain.
+// Quasi-static non-linear shear and uniaxial compression of a bonded packing: a path of equilibria in a deforming periodic cell,
+// with breaking bonds, friction and large strain.
 #pragma once
 
 #include <coagula/common/checks.hpp>
@@ -25,7 +25,7 @@ enum class RestLength {
 };
 
 struct QuasistaticOptions {
-    ShearOrientation orientation = {};
+    ShearOrientation orientation = {};  ///< of a shear, or the axis of a uniaxial strain
     RestLength rest_length = RestLength::as_found;
     double tolerance = 1e-7;          ///< rms force left on a particle over the largest rms contact force so far, > 0
     double balance_tolerance = 1e-6;  ///< of work against energy in every step, over peak stress x strain step x volume, > 0
@@ -37,7 +37,7 @@ struct QuasistaticOptions {
 /// An equilibrium on the path. Energies are summed from the start: work = (stored - stored at the start) + dissipated + breakage +
 /// released, but for the error of integration.
 struct StrainPoint {
-    double strain = 0;
+    double strain = 0;  ///< of shear, or change of length over that before along the axis of a uniaxial strain
     Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< Cauchy, sum of branch x force over the volume, tension > 0 [Pa]
     double work = 0;                                   ///< done by the boundary: trapezoidal sum of volume * stress d strain [J]
     double stored = 0;                                 ///< in the contacts [J]
@@ -71,14 +71,15 @@ struct SolverEffort {
 struct NetworkFailure {
     double strain = 0;
     Index broken = 0;  ///< bonds so far
-    /// No chain of contacts reaches around the cell along the plate normal, so that nothing can pass a shear stress on: the run
-    /// ends. Otherwise the chains that are left are floppy: from here to the end of a ramp less than a thousandth of the peak
-    /// stress; the ramp ends early where what is left has no further equilibrium that is found.
+    /// No chain of contacts reaches around the cell along the plate normal, so that nothing can pass a stress on: the run ends. Not
+    /// so under uniaxial compression, which brings the parts together again. Otherwise the chains that are left are floppy: from
+    /// here to the end of a ramp less than a thousandth of the peak stress; the ramp ends early where what is left has no further
+    /// equilibrium that is found.
     bool parted = true;
 };
 
 struct RampOptions {
-    double strain = unset;  ///< at the end; not 0, negative for the other direction
+    double strain = unset;  ///< at the end; not 0, negative for the other direction or, above -1, for uniaxial compression
     Index steps = 50;       ///< >= 1; equally spaced, smaller ones where needed
     QuasistaticOptions solver = {};
 };
@@ -89,7 +90,7 @@ struct RampResponse {
     std::optional<NetworkFailure> failure;
     SolverEffort effort;
 
-    /// (stress - stress at the start) / strain of one point [Pa]. @param orientation that of the run.
+    /// (stress on the plates - that at the start) / strain of one point [Pa]. @param orientation that of the run.
     double secant_modulus(std::size_t point, const ShearOrientation& orientation) const;
 };
 
@@ -122,13 +123,13 @@ struct SweepResponse {
     SolverEffort effort;
 };
 
-/// Shears to a strain. All particles and images follow each strain step affinely, then every particle is brought to balance of
-/// force and moment: corrections by a Cholesky factor of the symmetric part of the tangent, brought up to date with the contacts
-/// that open, close, slip or break, accelerated by Anderson's method; where that stalls Newton's method, generalised minimal
-/// residuals preconditioned by the factor (Knoll and Keyes, J. Comput. Phys. 193 (2004) 357). The tangent is that of the contact
-/// law by differences; the shift on the diagonal of the factor does not enter the residual. Where a bond passes its strength the
-/// strain at which it does so is found, the bond breaks there, and the network comes to rest at constant strain, bond after bond,
-/// the most overloaded first. The run ends where the network fails.
+/// Shears, stretches or compresses to a strain. All particles and images follow each strain step affinely, then every particle is
+/// brought to balance of force and moment: corrections by a Cholesky factor of the symmetric part of the tangent, brought up to
+/// date with the contacts that open, close, slip or break, accelerated by Anderson's method; where that stalls Newton's method,
+/// generalised minimal residuals preconditioned by the factor (Knoll and Keyes, J. Comput. Phys. 193 (2004) 357). The tangent is
+/// that of the contact law by differences; the shift on the diagonal of the factor does not enter the residual. Where a bond passes
+/// its strength the strain at which it does so is found, the bond breaks there, and the network comes to rest at constant strain,
+/// bond after bond, the most overloaded first. The run ends where the network fails.
 ///
 /// Throws std::invalid_argument for impossible options, an open cell, and models with losses that depend on the rate;
 /// std::runtime_error where no equilibrium is found.

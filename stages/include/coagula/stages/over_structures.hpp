@@ -13,7 +13,8 @@ namespace coagula::stages {
 /// {"structures", "mean", "std", "standard_error"}; what is unset is null.
 Json to_json(const MeanWithError& found);
 
-/// What several calls of `coagula shear` have in common: for storage_modulus and loss_modulus the mean over the structures of the
+/// What several calls of `coagula shear` have in common: for storage_modulus and loss_modulus, or the
+/// longitudinal_modulus of a compression, the mean over the structures of the
 /// mean over the orientations, a number, or arrays for the entries of a sweep. An entry that a structure has not reached is null.
 /// @param structures the object that `coagula shear` prints for each.
 Json over_structures(const std::vector<Json>& structures);

@@ -28,7 +28,7 @@ namespace coagula::stages {
 
 enum class ShearMethod { linear, frequency, quasistatic, dem };
 
-/// A path of equilibria in each orientation: through cycles of strain, or along a ramp.
+/// A path of equilibria in each orientation: through cycles of strain, or along a ramp of shear or compression.
 struct QuasistaticPath {
     mechanics::RestLength rest_length = mechanics::RestLength::as_found;
     std::vector<double> amplitudes = {};  ///< of strain; empty: a ramp
@@ -37,6 +37,7 @@ struct QuasistaticPath {
     double frequency = unset;  ///< [Hz], for ageing only
     double ramp = 1e-6;        ///< strain at its end
     Index ramp_steps = 1;
+    bool uniaxial = false;  ///< the ramp compresses along an axis by this share of the height, instead of a shear
 };
 
 struct ShearRun {
