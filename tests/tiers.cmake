@@ -47,6 +47,9 @@ set(coagula_slow_tests
   "facts[.]sample"
   # explicit runs, sampled physics, equal bits for any number of threads
   "BrownianBonds[.].*"
+  "BrownianClusters[.].*"
+  "BrownianFlow[.](Free|Bound|Pairs).*"
+  "BrownianModulus[.].*"
   "BrownianContacts[.]PairThat.*"
   "BrownianDynamics[.]DoesNotDependOnTheNumberOfThreads"
   "BrownianPhysics[.](FreeParticles|SecondaryMinimum|StabilisedSuspension|Barrier).*"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/generators/brownian_dynamics.hpp>
 
-#include <coagula/common/dem/minimise.hpp>
 #include <coagula/common/failures.hpp>
-#include <coagula/common/random.hpp>
 
 #include "brownian_sampler.hpp"
 #include "brownian_system.hpp"
@@ -29,6 +27,13 @@ constexpr double default_sample_interval = 5e-4;  // in units of R^2/D, when no 
 constexpr double default_plateau_time = 0.1;      // in units of R^2/D
 constexpr int plateau_samples = 16;               // at least, over the time of the plateau
 constexpr double farthest_fall = 0.1;             // in a time step, in mean radii
+
+/// Whether all edges but the third stand upright, and that one leans along x if at all.
+bool leans_along_x(const Cell& cell) {
+    Eigen::Matrix3d rest = cell.edges();
+    rest(0, 2) = 0;
+    return rest.isDiagonal(0) && rest.diagonal().minCoeff() > 0;
+}
 
 void check(const Packing& start, const BrownianOptions& options) {
     coagula::check(start);
@@ -62,13 +67,19 @@ void check(const Packing& start, const BrownianOptions& options) {
     for (const double time : options.snapshot_times) {
         require_non_negative(time, "the time of a snapshot", "s");
     }
+    check(options.flow);
+    const bool flows = options.flow.given();
+    require(!flows || std::isnan(weight.gravity),
+            "particles settle towards a floor, which a shear flow does not have: take one of them");
+    require(!flows || options.snapshot_times.empty(), "a shear flow changes the box, so that snapshots cannot be kept");
+    require(leans_along_x(start.cell), "the box is tilted otherwise than a shear flow along x with its gradient along z tilts it");
 }
 
 /// Smallest gap between particles [m]; a box diagonal when all are far apart.
 double closest_gap(const Packing& packing) {
     const double reach = 2.2 * packing.radii.maxCoeff();
     const ContactNetwork pairs = find_pairs(packing, reach);
-    double closest = packing.cell.lengths().norm();
+    double closest = packing.cell.edge_lengths().norm();
     for (Index pair = 0; pair < pairs.size(); ++pair) {
         const auto ends = pairs.ends.col(pair);
         const double contact = packing.radii[ends[0]] + packing.radii[ends[1]];
@@ -113,7 +124,10 @@ BrownianSetup make_setup(const Packing& start, const PairPotential& potential, c
     const double fall = std::abs(weight) * time_step.time_step / units.time;
     require(fall <= farthest_fall, "the particles would fall by " + to_text(fall) +
                                        " mean radii in a time step: take a smaller gravity or density difference");
-    return {.period = start.cell.lengths() / units.length,
+    ShearFlow flow = options.flow;
+    flow.rate *= units.time;
+    flow.frequency *= units.time;
+    return {.period = start.cell.edges().diagonal() / units.length,
             .radii = start.radii / units.length,
             // The first intervals of the one are elastic contact, that of the other is without force.
             .near = ForceTable(near, -2 * largest_start_overlap, potential.cut_gap() / units.length, ranges.near_end, near_spacing),
@@ -124,9 +138,11 @@ BrownianSetup make_setup(const Packing& start, const PairPotential& potential, c
             .seed = options.seed,
             .noise = options.noise,
             .weight = weight,
-            .ceiling = settles(options) ? start.cell.lengths()[2] / units.length - ranges.cutoff : 0,
+            .ceiling = settles(options) ? start.cell.edges()(2, 2) / units.length - ranges.cutoff : 0,
             .wall_stiffness = potential.contact().stiffness * units.length * units.length / units.energy,
-            .springs = spring_rules(potential, options.resistance, units)};
+            .springs = spring_rules(potential, options.resistance, units),
+            .lean = start.cell.edges()(0, 2) / units.length,
+            .flow = flow};
 }
 
 std::vector<ContactSpring> to_springs(const ContactMemories& memories) {
@@ -200,8 +216,8 @@ private:
         const bool turning = !std::isnan(options_.resistance.tangential_stiffness);
         require(from.rotations.cols() == (turning ? start_.size() : 0),
                 "the checkpoint is that of a run with other resistance of the contacts");
-        return {from.step,       from.positions, from.list_reference,      from.near_reference,
-                from.far_forces, from.rotations, to_springs(from.memories)};
+        return {from.step,        from.positions,  from.list_reference, from.near_reference,      from.list_strain,
+                from.near_strain, from.far_forces, from.rotations,      to_springs(from.memories)};
     }
 
     std::int64_t steps_until(double time) const {
@@ -222,6 +238,7 @@ private:
         require(system_.steps() <= last_step_,
                 "the checkpoint is at " + to_text(time()) + " s, after the stop time of " + to_text(options_.stop_time) + " s");
         snapshots_ = control_.resume->snapshots;
+        stress_ = control_.resume->stress;
         sampler_.resume(control_.resume->series, control_.resume->contacts);
     }
 
@@ -258,8 +275,17 @@ private:
         return "";
     }
 
+    Cell cell() const {
+        if (!options_.flow.given()) {
+            return start_.cell;
+        }
+        Eigen::Matrix3d edges = start_.cell.edges();
+        edges(0, 2) = units_.length * system_.lean();
+        return Cell::of_edges(start_.cell.origin(), edges, start_.cell.periodicity());
+    }
+
     Packing packing() const {
-        Packing packing{start_.cell, units_.length * system_.observed_positions(), start_.radii};
+        Packing packing{cell(), units_.length * system_.observed_positions(), start_.radii};
         for (Index particle = 0; particle < packing.size(); ++particle) {
             packing.positions.col(particle) = packing.cell.wrap(packing.positions.col(particle));
         }
@@ -269,8 +295,19 @@ private:
     /// What is due at this step.
     void observe() {
         const std::int64_t now = system_.steps();
-        if (now % sample_steps_ == 0 || now == last_step_) {
-            sampler_.sample(packing(), time(), system_.observed_energy());
+        const bool sampled = now % sample_steps_ == 0 || now == last_step_;
+        if (options_.flow.given() && (sampled || now % time_step_.far_interval == 0)) {
+            const Virial virial = system_.observed_virial();
+            stress_.pairs += virial.pairs;
+            stress_.sliding += virial.sliding;
+            ++stress_.times;
+        }
+        if (sampled) {
+            const Packing here = packing();
+            sampler_.sample(here, time(), system_.observed_energy());
+            if (options_.flow.given()) {
+                sampler_.add_stress(here, options_.flow.strain(time()), std::exchange(stress_, {}));
+            }
         }
         if (now < last_step_ && std::binary_search(snapshot_steps_.begin(), snapshot_steps_.end(), now)) {
             snapshots_.push_back({time(), packing().positions});
@@ -301,8 +338,9 @@ private:
         }
         BrownianState state = system_.state();
         control_.on_checkpoint({state.step, std::move(state.positions), std::move(state.list_reference),
-                                std::move(state.near_reference), std::move(state.far_forces), std::move(state.rotations),
-                                to_memories(state.springs), sampler_.contacts(), sampler_.series(), snapshots_});
+                                std::move(state.near_reference), state.list_strain, state.near_strain, std::move(state.far_forces),
+                                stress_, std::move(state.rotations), to_memories(state.springs), sampler_.contacts(),
+                                sampler_.series(), snapshots_});
     }
 
     BrownianRun describe() const {
@@ -331,6 +369,7 @@ private:
     std::int64_t last_step_ = 0;
     std::int64_t sample_steps_ = 1;
     double plateau_time_ = unset;
+    StressSum stress_;
     std::vector<std::int64_t> snapshot_steps_;
     std::vector<Snapshot> snapshots_;
     std::string note_;
@@ -343,40 +382,6 @@ BrownianRun simulate_brownian(const Packing& start, const PairPotential& potenti
     check(start, options);
     Simulation simulation(start, potential, options, progress, control);
     return simulation.run();
-}
-
-Packing place_suspension(const SuspensionOptions& options, const Progress& progress) {
-    require_between(options.volume_fraction, 0, 0.55, "the volume fraction of a suspension");
-    require(options.radii.size() >= 2, "a suspension needs at least 2 particles");
-    for (Index particle = 0; particle < options.radii.size(); ++particle) {
-        require_positive(options.radii[particle], "the radius of particle " + std::to_string(particle), "m");
-    }
-    constexpr double gap = 0.1;           // of the radius, on each side
-    constexpr double most_filled = 0.58;  // volume fraction of the spheres with their gaps: random ones still come apart
-    constexpr double settled = 1e-6;      // rms force in units of stiffness and radius
-    constexpr Index most_iterations = 100000;
-    const double unit = options.radii.mean();
-    const Eigen::VectorXd radii = options.radii / unit;
-    const double solid = 4 * std::numbers::pi / 3 * radii.array().cube().sum();
-    const Cell cell = Cell::periodic(Eigen::Vector3d::Constant(std::cbrt(solid / options.volume_fraction)));
-    Eigen::Matrix3Xd positions(3, radii.size());
-    for (Index particle = 0; particle < radii.size(); ++particle) {
-        const auto number = static_cast<std::uint64_t>(particle);
-        positions.col(particle) =
-            random_uniform(options.seed, RandomPurpose::initial_position, 0, number).cwiseProduct(cell.lengths());
-    }
-    const double growth = std::min(1 + gap, std::cbrt(most_filled / options.volume_fraction));
-    dem::ParticleSystem system(cell, positions, growth * radii, 0.6);
-    dem::Fire fire(system, dem::Interactions<RepulsiveSpring, BondSpring>{RepulsiveSpring(1.0), BondSpring(1.0)}, 0.3, 0.6);
-    Index iterations = 0;
-    while (fire.iterate() > settled) {
-        progress.update("placing particles", 0.0);
-        if (++iterations > most_iterations) {
-            throw OutOfReach("the particles cannot be moved apart at volume fraction " + to_text(options.volume_fraction) +
-                             ": ask for a lower one");
-        }
-    }
-    return {Cell::periodic(unit * cell.lengths()), unit * system.positions(), options.radii};
 }
 
 }  // namespace coagula::generators

@@ -88,7 +88,8 @@ COAGULA_VARIANTS void choose_neighbours(const PairLoop& loop, double reach, cons
     }
 }
 
-COAGULA_VARIANTS double longest_squared_way(const double* one, const double* other, std::size_t begin, std::size_t end) {
+COAGULA_VARIANTS double longest_squared_way(const double* one, const double* other, double strain, std::size_t begin,
+                                            std::size_t end) {
     Four longest = {};
     for (std::size_t slot = begin; slot < end; slot += 4) {
         // What is missing in the last four is the last slot again.
@@ -100,7 +101,7 @@ COAGULA_VARIANTS double longest_squared_way(const double* one, const double* oth
         Four rest;
         gather(one, slots.data(), way.x, way.y, way.z, rest);
         gather(other, slots.data(), there.x, there.y, there.z, rest);
-        way.x -= there.x;
+        way.x -= there.x + strain * there.z;
         way.y -= there.y;
         way.z -= there.z;
         Four squared;

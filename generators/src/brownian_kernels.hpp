@@ -36,6 +36,7 @@ struct PairLoop {
     const double* positions = nullptr;
     const double* radii = nullptr;   ///< null: all are 1
     std::array<double, 3> period{};  ///< of the periodic box
+    double lean = 0;                 ///< along x of the third edge of the box
 };
 
 /// Sums the forces on the slots of the rows. Pairs meet through the nearest images. For unequal radii the table, which is that of
@@ -47,7 +48,8 @@ void sum_pair_forces(const PairLoop& loop, const ForceTable& table, const Neighb
 void choose_neighbours(const PairLoop& loop, double reach, const NeighbourRows& all, NeighbourRows& chosen);
 
 /// Largest squared distance between the places of a slot in two arrays of positions, over the slots from `begin` to `end`.
-double longest_squared_way(const double* one, const double* other, std::size_t begin, std::size_t end);
+/// @param strain a shear along x, gradient z, that the other places follow first.
+double longest_squared_way(const double* one, const double* other, double strain, std::size_t begin, std::size_t end);
 
 /// Arrays of four numbers per slot, as above, of one stage of a step.
 struct StageArrays {

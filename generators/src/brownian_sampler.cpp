@@ -51,6 +51,21 @@ void BrownianSampler::sample(const Packing& packing, double time, const SpringEn
     series_.mean_gap.push_back(contacts > 0 ? gaps / static_cast<double>(contacts) : 0.0);
 }
 
+void BrownianSampler::add_stress(const Packing& packing, double strain, const StressSum& sum) {
+    const double scale = units_.energy / packing.cell.volume();
+    const auto times = static_cast<double>(sum.times);
+    const double brownian = -scale * static_cast<double>(packing.size());  // the pressure of an ideal gas
+    const Eigen::Matrix3d sliding = scale / times * sum.sliding;
+    const Eigen::Matrix3d all = scale / times * sum.pairs + sliding;
+    StressSeries& series = series_.stress;
+    series.strain.push_back(strain);
+    series.shear_stress.push_back(all(2, 0));
+    series.contact_shear_stress.push_back(sliding(2, 0));
+    series.normal_stress_x.push_back(all(0, 0) + brownian);
+    series.normal_stress_y.push_back(all(1, 1) + brownian);
+    series.normal_stress_z.push_back(all(2, 2) + brownian);
+}
+
 /// Both lists are sorted.
 void BrownianSampler::count_changes(const Pairs& now) {
     const auto key = [](const Pairs& pairs, Index pair) { return std::array{pairs(0, pair), pairs(1, pair)}; };

@@ -17,6 +17,9 @@ public:
     /// Appends the values of this packing to the series. @param resistance energy of sliding and rolling, over kB T.
     void sample(const Packing& packing, double time, const SpringEnergy& resistance);
 
+    /// Appends the mean stress since the sample before. @param packing that of the sample.
+    void add_stress(const Packing& packing, double strain, const StressSum& sum);
+
     using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic>;
     void resume(const BrownianSeries& series, const Pairs& contacts);
     const BrownianSeries& series() const { return series_; }

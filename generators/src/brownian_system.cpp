@@ -35,7 +35,7 @@ void share_chunks(Chunks& chunks, Work&& work) {
 
 BrownianState initial_state(const Eigen::Matrix3Xd& positions) {
     const Eigen::Matrix3Xd none = Eigen::Matrix3Xd::Zero(3, positions.cols());
-    return {0, positions, positions, positions, none, none, {}};
+    return {0, positions, positions, positions, 0, 0, none, none, {}};
 }
 
 void BrownianSystem::Motion::resize(std::size_t slots) {
@@ -92,7 +92,8 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
       reserve_(6 * std::sqrt(2 * setup_.time_step / setup_.radii.minCoeff())),
       // Shorter steps: fewer pairs too many, since less is lost to the reserve.
       near_skin_(std::min(most_near_skin, 0.1 + 5 * reserve_)),
-      step_(state.step) {
+      step_(state.step),
+      strain_(state.list_strain) {
     const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
     require(setup_.period.minCoeff() >= 2 * reach, "the box is " + to_text(setup_.period.minCoeff()) +
                                                        " mean radii wide, but the forces need at least " + to_text(2 * reach) +
@@ -117,15 +118,18 @@ BrownianSystem::BrownianSystem(BrownianSetup setup, const BrownianState& state)
         rotation_.resize(particles);
         rotation_.start = in_slots(state.rotations);
     }
+    set_stage_times();
     translation_.start = in_slots(state.list_reference);
     far_ = in_slots(state.far_forces);
     make_list();
     near_reference_ = in_slots(state.near_reference);
+    near_strain_ = state.near_strain;
     choose_near();
     translation_.start = in_slots(state.positions);
+    strain_ = next_strain_ = setup_.flow.strain(time());
     place_springs(state.springs);
     for (Chunk& chunk : chunks_) {
-        measure_paths(chunk, translation_.start);
+        measure_paths(chunk, translation_.start, strain_);
     }
 }
 
@@ -146,9 +150,15 @@ Eigen::Matrix3Xd BrownianSystem::in_order(const std::vector<double>& slots) cons
 }
 
 BrownianState BrownianSystem::state() const {
-    return {
-        step_,    in_order(translation_.start), in_order(list_reference_), in_order(near_reference_), in_order(far_), rotations(),
-        springs()};
+    return {step_,
+            in_order(translation_.start),
+            in_order(list_reference_),
+            in_order(near_reference_),
+            list_strain_,
+            near_strain_,
+            in_order(far_),
+            rotations(),
+            springs()};
 }
 
 Eigen::Matrix3Xd BrownianSystem::observed_positions() const {
@@ -162,11 +172,14 @@ void BrownianSystem::make_list() {
     const Eigen::Matrix3Xd turned = rotations();
     const std::vector<ContactSpring> remembered = springs();
     const double reach = setup_.far.last() + list_skin_ + 2 * setup_.radii.maxCoeff();
-    const PairFinder finder(Cell::periodic(setup_.period), positions, reach);
+    Eigen::Matrix3d edges = setup_.period.asDiagonal();
+    edges(0, 2) = lean();
+    const PairFinder finder(Cell::of_edges(Eigen::Vector3d::Zero(), edges, {true, true, true}), positions, reach);
     particle_.assign(finder.cells.order().begin(), finder.cells.order().end());
     translation_.start = in_slots(positions);
     far_ = in_slots(far);
     list_reference_ = translation_.start;
+    list_strain_ = strain_;
     radius_.resize(particle_.size());
     for (std::size_t slot = 0; slot < particle_.size(); ++slot) {
         radius_[slot] = setup_.radii[particle_[slot]];
@@ -184,6 +197,7 @@ void BrownianSystem::make_list() {
 #pragma omp parallel
     share_chunks(chunks_, [&](Chunk& chunk) { list_pairs(chunk, finder); });
     near_reference_ = translation_.start;
+    near_strain_ = strain_;
     choose_near();
     place_springs(remembered);
 }
@@ -208,23 +222,28 @@ void BrownianSystem::list_pairs(Chunk& chunk, const PairFinder& finder) const {
 void BrownianSystem::choose_near() {
 #pragma omp parallel
     share_chunks(chunks_, [&](Chunk& chunk) {
-        choose_neighbours(pair_loop(near_reference_), setup_.near.last() + near_skin_, chunk.all, chunk.near);
+        choose_neighbours(pair_loop(near_reference_, lean_at(near_strain_)), setup_.near.last() + near_skin_, chunk.all,
+                          chunk.near);
         if (setup_.springs.active()) {
             pair_up(chunk);
         }
-        measure_paths(chunk, translation_.start);
+        measure_paths(chunk, translation_.start, strain_);
     });
 }
 
-void BrownianSystem::measure_paths(Chunk& chunk, const std::vector<double>& positions) const {
-    chunk.list_path_squared = longest_squared_way(positions.data(), list_reference_.data(), chunk.begin, chunk.end);
-    chunk.near_path_squared = longest_squared_way(positions.data(), near_reference_.data(), chunk.begin, chunk.end);
+void BrownianSystem::measure_paths(Chunk& chunk, const std::vector<double>& positions, double strain) const {
+    const auto longest = [&](const std::vector<double>& reference, double then) {
+        return longest_squared_way(positions.data(), reference.data(), strain - then, chunk.begin, chunk.end);
+    };
+    chunk.list_path_squared = longest(list_reference_, list_strain_);
+    chunk.near_path_squared = longest(near_reference_, near_strain_);
 }
 
-PairLoop BrownianSystem::pair_loop(const std::vector<double>& positions) const {
+PairLoop BrownianSystem::pair_loop(const std::vector<double>& positions, double lean) const {
     return {.positions = positions.data(),
             .radii = equal_radii_ ? nullptr : radius_.data(),
-            .period = {setup_.period[0], setup_.period[1], setup_.period[2]}};
+            .period = {setup_.period[0], setup_.period[1], setup_.period[2]},
+            .lean = lean};
 }
 
 void BrownianSystem::draw_noise(Motion& motion, const Chunk& chunk, RandomPurpose purpose) const {
@@ -239,7 +258,7 @@ void BrownianSystem::draw_noise(Motion& motion, const Chunk& chunk, RandomPurpos
 void BrownianSystem::begin_step(Chunk& chunk, bool refresh_far) {
     draw_noise(translation_, chunk, setup_.noise);
     if (refresh_far) {
-        sum_pair_forces(pair_loop(translation_.start), setup_.far, chunk.all, far_.data());
+        sum_pair_forces(pair_loop(translation_.start, lean()), setup_.far, chunk.all, far_.data());
         for (std::size_t slot = chunk.begin; setup_.weight != 0 && slot < chunk.end; ++slot) {
             far_[4 * slot + 2] -= setup_.weight * radius_[slot] * radius_[slot] * radius_[slot];
         }
@@ -269,6 +288,11 @@ void BrownianSystem::add_other_forces(const Chunk& chunk, std::size_t stage) {
     }
     if (setup_.springs.active()) {
         std::fill(&rotation_.force[4 * chunk.begin], &rotation_.force[4 * chunk.begin] + 4 * (chunk.end - chunk.begin), 0.0);
+    }
+    if (setup_.flow.given()) {
+        add_flow(chunk);
+    }
+    if (setup_.springs.active()) {
         SpringLoop loop = spring_loop(stage);
         loop.force = translation_.force.data();
         loop.torque = rotation_.force.data();
@@ -281,12 +305,13 @@ void BrownianSystem::add_other_forces(const Chunk& chunk, std::size_t stage) {
 void BrownianSystem::pass_stage(Chunk& chunk, std::size_t stage) {
     const StageWeights& weights = setup_.scheme.stages[stage];
     StageArrays arrays = translation_.arrays(stage);
-    if (setup_.ceiling > 0 || setup_.springs.active()) {
+    if (has_other_forces()) {
         add_other_forces(chunk, stage);
     } else {
         arrays.force = far_.data();
     }
-    stage_with_pairs(pair_loop(translation_.stages[stage % 2]), setup_.near, chunk.near, arrays, weights, setup_.time_step);
+    stage_with_pairs(pair_loop(translation_.stages[stage % 2], lean_of_stage(stage)), setup_.near, chunk.near, arrays, weights,
+                     setup_.time_step);
     if (setup_.springs.active()) {
         coagula::generators::stage(rotation_.arrays(stage), chunk.begin, chunk.end, weights, setup_.time_step);
     }
@@ -299,12 +324,18 @@ void BrownianSystem::step() {
         list_path = std::max(list_path, chunk.list_path_squared);
         near_path = std::max(near_path, chunk.near_path_squared);
     }
+    next_strain_ = setup_.flow.strain(static_cast<double>(step_ + 1) * setup_.time_step);
+    // The flow brings pairs at a distance nearer by at most its strain times the distance.
+    const double contact = 2 * setup_.radii.maxCoeff();
+    list_path = std::sqrt(list_path) + std::abs(next_strain_ - list_strain_) * (setup_.far.last() + list_skin_ + contact) / 2;
+    near_path = std::sqrt(near_path) + std::abs(next_strain_ - near_strain_) * (setup_.near.last() + near_skin_ + contact) / 2;
     // The list of all pairs must hold the far forces now and the near pairs when they are chosen.
     const double slack = std::min(0.0, setup_.far.last() - setup_.near.last() - near_skin_);
-    if (std::sqrt(list_path) > (list_skin_ + slack) / 2 - reserve_) {
+    if (list_path > (list_skin_ + slack) / 2 - reserve_) {
         make_list();
-    } else if (std::sqrt(near_path) > near_skin_ / 2 - reserve_) {
+    } else if (near_path > near_skin_ / 2 - reserve_) {
         near_reference_ = translation_.start;
+        near_strain_ = strain_;
         choose_near();
     }
     const bool refresh_far = step_ % setup_.far_interval == 0;
@@ -318,7 +349,7 @@ void BrownianSystem::step() {
             share_chunks(chunks_, [&](Chunk& chunk) {
                 pass_stage(chunk, stage);
                 if (stage + 1 == setup_.scheme.stages.size()) {
-                    measure_paths(chunk, translation_.stages[setup_.scheme.stages.size() % 2]);
+                    measure_paths(chunk, translation_.stages[setup_.scheme.stages.size() % 2], next_strain_);
                 }
             });
         }
@@ -330,6 +361,7 @@ void BrownianSystem::step() {
     std::swap(translation_.start, translation_.stages[setup_.scheme.stages.size() % 2]);
     std::swap(rotation_.start, rotation_.stages[setup_.scheme.stages.size() % 2]);
     ++step_;
+    strain_ = next_strain_;
 }
 
 }  // namespace coagula::generators

@@ -10,6 +10,7 @@
 
 #include <coagula/common/packing.hpp>
 #include <coagula/common/random.hpp>
+#include <coagula/generators/shear_flow.hpp>
 
 #include <Eigen/Core>
 
@@ -33,6 +34,8 @@ struct BrownianSetup {
     double ceiling = 0;  ///< height of an elastic wall above another one at z = 0; no walls if 0
     double wall_stiffness = 0;
     SpringRules springs = {};  ///< what contacts oppose to sliding and rolling; particles turn only where something does
+    double lean = 0;           ///< along x of the third edge of the box at the start
+    ShearFlow flow = {};       ///< a time step is a time
 };
 
 /// All that a run needs to go on to the same bits; vectors are 3 x N in the caller's order.
@@ -41,9 +44,17 @@ struct BrownianState {
     Eigen::Matrix3Xd positions;       ///< not wrapped into the box
     Eigen::Matrix3Xd list_reference;  ///< positions when the list of all pairs was made
     Eigen::Matrix3Xd near_reference;  ///< the same of the list of near pairs
+    double list_strain = 0;           ///< of the flow then
+    double near_strain = 0;
     Eigen::Matrix3Xd far_forces;
     Eigen::Matrix3Xd rotations;          ///< sum of the rotation vectors of all steps; empty where particles do not turn
     std::vector<ContactSpring> springs;  ///< sorted by their particles
+};
+
+/// Sums over pairs of branch times the force on its first particle, with the part that opposes sliding.
+struct Virial {
+    Eigen::Matrix3d pairs = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d sliding = Eigen::Matrix3d::Zero();
 };
 
 /// A state to start from.
@@ -69,6 +80,12 @@ public:
     SpringEnergy observed_energy() const;
     /// What the contacts remember, as the scheme has it, sorted by their particles.
     std::vector<ContactSpring> springs() const;
+    /// Measured likewise, with the forces that move the particles.
+    Virial observed_virial() const;
+    /// Strain of the flow since the start.
+    double strain() const { return strain_; }
+    /// Along x of the third edge of the box, at most half a period.
+    double lean() const { return lean_at(strain_); }
     BrownianState state() const;
 
 private:
@@ -110,7 +127,16 @@ private:
     void make_list();
     void list_pairs(Chunk& chunk, const class PairFinder& finder) const;
     void choose_near();
-    void measure_paths(Chunk& chunk, const std::vector<double>& positions) const;
+    /// @param strain at which the positions are.
+    void measure_paths(Chunk& chunk, const std::vector<double>& positions, double strain) const;
+    double lean_at(double strain) const;
+    /// The same at a stage of the step, without whole periods less.
+    double lean_of_stage(std::size_t stage) const;
+    void set_stage_times();
+    bool has_other_forces() const { return setup_.ceiling > 0 || setup_.springs.active() || setup_.flow.given(); }
+    void add_flow(const Chunk& chunk);
+    Eigen::Matrix3d observed_sliding_virial(const std::vector<double>& moved) const;
+    Eigen::Matrix3d pair_virial(const Chunk& chunk, const std::vector<double>& positions) const;
     void begin_step(Chunk& chunk, bool refresh_far);
     void draw_noise(Motion& motion, const Chunk& chunk, RandomPurpose purpose) const;
     void pass_stage(Chunk& chunk, std::size_t stage);
@@ -123,7 +149,7 @@ private:
     void place_springs(const std::vector<ContactSpring>& springs);
     /// @param stage where the particles have moved to.
     SpringLoop spring_loop(std::size_t stage) const;
-    PairLoop pair_loop(const std::vector<double>& positions) const;
+    PairLoop pair_loop(const std::vector<double>& positions, double lean) const;
     std::vector<double> in_slots(const Eigen::Matrix3Xd& values) const;
     Eigen::Matrix3Xd in_order(const std::vector<double>& slots) const;
 
@@ -133,6 +159,11 @@ private:
     double reserve_;  ///< farther than this a particle hardly goes within a step
     double near_skin_;
     std::int64_t step_ = 0;
+    double strain_ = 0;  ///< of the flow
+    double next_strain_ = 0;
+    double list_strain_ = 0;  ///< when the lists were made
+    double near_strain_ = 0;
+    std::vector<double> stage_times_;  ///< where a constant velocity has taken the particles at each stage, in time steps
     std::vector<Chunk> chunks_;
     std::vector<std::int32_t> particle_;  ///< of each slot
     Motion translation_;

@@ -50,6 +50,20 @@ SpringEnergy BrownianSystem::observed_energy() const {
     return sum;
 }
 
+/// @param moved observed positions.
+Eigen::Matrix3d BrownianSystem::observed_sliding_virial(const std::vector<double>& moved) const {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    if (!setup_.springs.active()) {
+        return sum;
+    }
+    const std::vector<double> turned = rotation_.observed(setup_, step_, RandomPurpose::rotation_observation, particle_);
+    SpringLoop loop = spring_loop(0);
+    loop.moved = moved.data();
+    loop.turned = turned.data();
+    for_each_contact([&](const LoadedSpring& spring) { sum += virial_of(loop, spring); });
+    return sum;
+}
+
 /// Gives the springs to the chunks that share them, in the order of the pairs.
 void BrownianSystem::place_springs(const std::vector<ContactSpring>& springs) {
     if (!setup_.springs.active()) {
@@ -104,6 +118,8 @@ void BrownianSystem::pair_up(Chunk& chunk) const {
 SpringLoop BrownianSystem::spring_loop(std::size_t stage) const {
     SpringLoop loop{.rules = &setup_.springs,
                     .period = {setup_.period[0], setup_.period[1], setup_.period[2]},
+                    .lean = lean(),
+                    .moved_lean = lean_of_stage(stage),
                     .particles = particle_.data(),
                     .radii = radius_.data(),
                     .position = translation_.start.data(),

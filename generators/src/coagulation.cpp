@@ -68,6 +68,7 @@ Packing stabilised_suspension(const SuspensionOptions& suspension, const std::fu
     run.stop_plateau = PlateauOf::nothing;
     run.resistance = {};
     run.sedimentation = {};
+    run.flow = {};
     run.sample_interval = unset;
     run.snapshot_times.clear();
     run.noise = RandomPurpose::equilibration;

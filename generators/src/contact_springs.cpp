@@ -24,13 +24,23 @@ Vector3d change(const double* after, const double* before, std::size_t slot) {
     return vector_of(after, slot) - vector_of(before, slot);
 }
 
-/// From one slot to another through the nearest image; rounding by a number whose last bit is the unit.
-Vector3d separation(const SpringLoop& loop, const double* positions, std::size_t from, std::size_t to) {
+/// The way from one slot to another through the nearest image.
+struct Way {
+    Vector3d vector;
+    double layers;  ///< boxes along z that lie between
+};
+
+/// Rounding by a number whose last bit is the unit.
+Way way_between(const SpringLoop& loop, const double* positions, double lean, std::size_t from, std::size_t to) {
     constexpr double round = 0x1.8p52;
-    Vector3d way = vector_of(positions, to) - vector_of(positions, from);
-    for (int axis = 0; axis < 3; ++axis) {
-        const double turns = (way[axis] / loop.period[axis] + round) - round;
-        way[axis] -= turns * loop.period[axis];
+    Way way{vector_of(positions, to) - vector_of(positions, from), 0};
+    for (int axis = 2; axis >= 0; --axis) {
+        const double turns = (way.vector[axis] / loop.period[axis] + round) - round;
+        way.vector[axis] -= turns * loop.period[axis];
+        if (axis == 2) {
+            way.vector[0] -= turns * lean;
+            way.layers = turns;
+        }
     }
     return way;
 }
@@ -61,8 +71,9 @@ Deformation deformed(const SpringLoop& loop, const LoadedSpring& spring) {
     const Vector3d high_turn = change(loop.turned, loop.rotation, high);
     const double low_lever = spring.distance * loop.radii[low] / (loop.radii[low] + loop.radii[high]);
     const double high_lever = spring.distance - low_lever;
-    const Vector3d slip = change(loop.moved, loop.position, high) - change(loop.moved, loop.position, low) -
-                          (low_lever * low_turn + high_lever * high_turn).cross(spring.normal);
+    Vector3d slip = change(loop.moved, loop.position, high) - change(loop.moved, loop.position, low) -
+                    (low_lever * low_turn + high_lever * high_turn).cross(spring.normal);
+    slip[0] -= spring.layers * (loop.moved_lean - loop.lean);
     Deformation now{spring.sliding + in_plane(slip, spring.normal), spring.rolling + in_plane(high_turn - low_turn, spring.normal)};
     limit(now.sliding, spring.sliding_limit);
     limit(now.rolling, spring.rolling_limit);
@@ -70,7 +81,7 @@ Deformation deformed(const SpringLoop& loop, const LoadedSpring& spring) {
 }
 
 /// A contact as it is at the start of the step, without memory.
-LoadedSpring load(const SpringLoop& loop, const SlotPair& pair, const Vector3d& from_first, double distance) {
+LoadedSpring load(const SpringLoop& loop, const SlotPair& pair, const Way& from_first, double distance) {
     const auto first = static_cast<std::size_t>(pair.first);
     const auto second = static_cast<std::size_t>(pair.second);
     const SpringRules& rules = *loop.rules;
@@ -78,7 +89,8 @@ LoadedSpring load(const SpringLoop& loop, const SlotPair& pair, const Vector3d& 
     spring.ends = pair;
     spring.swapped = loop.particles[second] < loop.particles[first];
     spring.distance = distance;
-    spring.normal = (spring.swapped ? -1 : 1) / distance * from_first;
+    spring.normal = (spring.swapped ? -1 : 1) / distance * from_first.vector;
+    spring.layers = (spring.swapped ? -1 : 1) * from_first.layers;
     const double low = loop.radii[spring.low()];
     const double high = loop.radii[spring.high()];
     spring.scale = scale_of(low, high);
@@ -97,9 +109,9 @@ LoadedSpring load(const SpringLoop& loop, const SlotPair& pair, const Vector3d& 
 }  // namespace
 
 LoadedSpring loaded(const SpringLoop& loop, const SlotPair& pair, const ContactSpring& memory) {
-    const Vector3d way =
-        separation(loop, loop.position, static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
-    LoadedSpring spring = load(loop, pair, way, way.norm());
+    const Way way =
+        way_between(loop, loop.position, loop.lean, static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
+    LoadedSpring spring = load(loop, pair, way, way.vector.norm());
     spring.sliding = memory.sliding;
     spring.rolling = memory.rolling;
     return spring;
@@ -113,9 +125,9 @@ void refresh_springs(const SpringLoop& loop, const std::vector<SlotPair>& near, 
     for (const SlotPair& pair : near) {
         const auto first = static_cast<std::size_t>(pair.first);
         const auto second = static_cast<std::size_t>(pair.second);
-        const Vector3d way = separation(loop, loop.position, first, second);
+        const Way way = way_between(loop, loop.position, loop.lean, first, second);
         const double reach = loop.rules->reach + loop.radii[first] + loop.radii[second];
-        const double squared = way.squaredNorm();
+        const double squared = way.vector.squaredNorm();
         if (squared >= reach * reach) {
             continue;
         }
@@ -164,7 +176,7 @@ void advance_springs(const SpringLoop& loop, std::vector<LoadedSpring>& springs)
         memory.branch = spring.distance * spring.normal;
         memory.shear = spring.sliding;
         memory.bend = spring.rolling;
-        const ContactIncrement now = advance(memory, {.branch = separation(loop, loop.moved, low, high),
+        const ContactIncrement now = advance(memory, {.branch = way_between(loop, loop.moved, loop.moved_lean, low, high).vector,
                                                       .first_turn = change(loop.turned, loop.rotation, low),
                                                       .second_turn = change(loop.turned, loop.rotation, high),
                                                       .first_radius = loop.radii[low],
@@ -185,6 +197,11 @@ SpringEnergy energy_of(const SpringLoop& loop, const LoadedSpring& spring) {
     const double reduced = low * high / (low + high);
     return {0.5 * spring.scale * loop.rules->tangential_stiffness * now.sliding.squaredNorm(),
             0.5 * spring.scale * loop.rules->rolling_stiffness * reduced * reduced * now.rolling.squaredNorm()};
+}
+
+Eigen::Matrix3d virial_of(const SpringLoop& loop, const LoadedSpring& spring) {
+    const Vector3d on_low = spring.scale * loop.rules->tangential_stiffness * deformed(loop, spring).sliding;
+    return way_between(loop, loop.moved, loop.moved_lean, spring.low(), spring.high()).vector * on_low.transpose();
 }
 
 }  // namespace coagula::generators

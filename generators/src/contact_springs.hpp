@@ -46,6 +46,7 @@ struct LoadedSpring {
     double scale = 0;          ///< of the stiffnesses, for unequal radii
     double sliding_limit = 0;  ///< longest elastic displacement
     double rolling_limit = 0;  ///< largest elastic rotation
+    double layers = 0;         ///< boxes along z between the ends as they are stored, from low to high
     Eigen::Vector3d sliding;
     Eigen::Vector3d rolling;
 
@@ -57,6 +58,8 @@ struct LoadedSpring {
 struct SpringLoop {
     const SpringRules* rules = nullptr;
     std::array<double, 3> period{};
+    double lean = 0;                          ///< along x of the third edge of the box, at the start of the step
+    double moved_lean = 0;                    ///< at the stage
     const std::int32_t* particles = nullptr;  ///< number of the particle in each slot
     const double* radii = nullptr;
     const double* position = nullptr;  ///< at the start of the step
@@ -87,5 +90,8 @@ struct SpringEnergy {
 
 /// Of a contact with the displacements that `moved` and `turned` add to it.
 SpringEnergy energy_of(const SpringLoop& loop, const LoadedSpring& spring);
+
+/// The same displacements: branch from the lower to the higher particle times the tangential force on the lower.
+Eigen::Matrix3d virial_of(const SpringLoop& loop, const LoadedSpring& spring);
 
 }  // namespace coagula::generators

@@ -27,9 +27,9 @@ struct Wrap {
     explicit Wrap(double length) : period(length), turns_per_length(1 / length) {}
 
     template <class Lanes>
-    COAGULA_INLINE void operator()(Lanes& distance) const {
+    COAGULA_INLINE void operator()(Lanes& distance, Lanes& turns) const {
         constexpr double round = 0x1.8p52;
-        const Lanes turns = (distance * turns_per_length + round) - round;
+        turns = (distance * turns_per_length + round) - round;
         distance -= turns * period;
     }
 };
@@ -50,9 +50,10 @@ struct Places {
     Wrap wrap_x;
     Wrap wrap_y;
     Wrap wrap_z;
+    double lean;
 
     explicit Places(const PairLoop& loop)
-        : positions(loop.positions), wrap_x(loop.period[0]), wrap_y(loop.period[1]), wrap_z(loop.period[2]) {}
+        : positions(loop.positions), wrap_x(loop.period[0]), wrap_y(loop.period[1]), wrap_z(loop.period[2]), lean(loop.lean) {}
 
     template <class Lanes>
     COAGULA_INLINE void measure(const double* from, const std::int32_t* to, Ways<Lanes>& way) const {
@@ -61,9 +62,12 @@ struct Places {
         way.x -= from[0];
         way.y -= from[1];
         way.z -= from[2];
-        wrap_x(way.x);
-        wrap_y(way.y);
-        wrap_z(way.z);
+        // Of pairs nearer than half of each period these are the nearest images, however far the third edge leans.
+        Lanes turns;
+        wrap_z(way.z, turns);
+        way.x -= turns * lean;
+        wrap_y(way.y, turns);
+        wrap_x(way.x, turns);
     }
 };
 

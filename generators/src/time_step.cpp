@@ -18,6 +18,7 @@ constexpr double longest_time_step = 2e-5;
 constexpr double longest_listed = 1.3e-4;   // a particle must stay within the skin of the neighbour list during a step
 constexpr double far_time = 4e-5;           // over which far forces may be held
 constexpr double far_steepness = 1000;      // of the force where it may be held that long
+constexpr double longest_strain = 1e-3;     // of the flow in a step
 constexpr double barrier_share = 1.0 / 28;  // of the square of the length of the barrier: a rate 2 % too small
 constexpr double largest_cut = 0.1;         // gap up to which contacts may be elastic
 constexpr int most_stages = 30;
@@ -178,6 +179,11 @@ TimeStep choose_time_step(const PairPotential& potential, double mean_radius, do
             chosen.reason = "the width of the attraction";
         }
     }
+    const double sheared = longest_strain / std::max(options.flow.largest_rate() * units.time, 1e-300);
+    if (sheared < accurate) {
+        accurate = sheared;
+        chosen.reason = "the rate of strain";
+    }
     const double stable = scheme_of(options.integrator, most_stages).stability / std::max(rate, 1.0);
     const double bound = std::min(stable, longest_listed);
     double step = accurate;
@@ -190,6 +196,8 @@ TimeStep choose_time_step(const PairPotential& potential, double mean_radius, do
         chosen.reason = "the option";
         require(step <= bound, "the time step is " + to_text(options.time_step) + " s, but the integrator is stable up to " +
                                    to_text(bound * units.time) + " s only");
+        require(step <= sheared, "the time step is " + to_text(options.time_step) + " s, but the flow strains the box by " +
+                                     to_text(longest_strain) + " in " + to_text(sheared * units.time) + " s: take a shorter step");
     }
     require(step >= shortest_time_step && std::isfinite(units.time) && units.time > 0,
             "the time step comes to " + to_text(step * units.time) + " s, which is " + to_text(step) +

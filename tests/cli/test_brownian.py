@@ -104,8 +104,14 @@ class Restart(ProgramTest):
             "--rolling-stiffness", "3mN/m"]
 
     def test_killed_runs_go_on_to_the_same_bytes(self):
-        self.succeed(*self.LONG, "-o", "whole.h5")
-        words = [*self.LONG, "--checkpoint", "state.h5", "--checkpoint-interval", "0.05s", "-o", "pieces.h5"]
+        self.check_killed_runs(self.LONG)
+
+    def test_killed_runs_in_a_flow_go_on_to_the_same_bytes(self):
+        self.check_killed_runs([*self.LONG, "--shear-rate", "300/s"])
+
+    def check_killed_runs(self, run):
+        self.succeed(*run, "-o", "whole.h5")
+        words = [*run, "--checkpoint", "state.h5", "--checkpoint-interval", "0.05s", "-o", "pieces.h5"]
         for signal_number in (signal.SIGKILL, signal.SIGTERM):
             before = checksum(self.folder / "state.h5") if (self.folder / "state.h5").exists() else ""
             program = subprocess.Popen([PROGRAM, *words], cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)

@@ -38,6 +38,9 @@ BrownianOptions brownian_options(const Arguments& arguments) {
         arguments.text("integrator") == "euler" ? generators::Integrator::euler : generators::Integrator::stabilised;
     options.sedimentation = {.gravity = arguments.optional_quantity("gravity").value_or(unset),
                              .density_difference = arguments.optional_quantity("density-difference").value_or(unset)};
+    options.flow = {.rate = arguments.optional_quantity("shear-rate").value_or(unset),
+                    .amplitude = arguments.optional_quantity("shear-amplitude").value_or(unset),
+                    .frequency = arguments.optional_quantity("shear-frequency").value_or(unset)};
     options.time_step = arguments.optional_quantity("time-step").value_or(unset);
     options.stop_time = arguments.optional_quantity("stop-time").value_or(unset);
     options.stop_coordination = arguments.optional_quantity("stop-coordination").value_or(unset);
@@ -94,6 +97,9 @@ void add_conditions(std::vector<Option>& options) {
     read_only_with(options, {"friction"}, "tangential-stiffness");
     read_only_with(options, {"rolling-friction"}, "rolling-stiffness");
     read_only_with(options, {"density-difference"}, "gravity");
+    read_only_with(options, {"shear-frequency"}, "shear-amplitude");
+    not_read_with(options, {"gravity", "snapshots", "heterogeneity", "shear-amplitude"}, "shear-rate");
+    not_read_with(options, {"gravity", "snapshots", "heterogeneity"}, "shear-amplitude");
     read_only_with(options, {"plateau-time", "plateau-change"}, "stop-plateau", {"coordination", "mean-gap"});
     read_only_with(options, {"checkpoint-interval"}, "checkpoint");
 }
@@ -191,6 +197,9 @@ BrownianRun brownian_run(const Arguments& arguments, const Packing* start, const
     BrownianRun run;
     run.motion = brownian_options(arguments);
     check_end(arguments, run.motion);
+    if (arguments.has("shear-amplitude") && !arguments.has("shear-frequency")) {
+        throw InputError(arguments.spelled("shear-amplitude") + " needs " + arguments.spelled("shear-frequency"));
+    }
     if (arguments.text("hydrodynamics") == "mean-field" && (start != nullptr || arguments.has("volume-fraction"))) {
         run.motion.slowing *=
             generators::mean_field_slowing(start != nullptr ? volume_fraction(*start) : arguments.quantity("volume-fraction"));
@@ -223,7 +232,8 @@ Generated generate(const BrownianRun& run, const Packing* start, const Progress&
     const PairPotential potential = make_potential(run.forces, mean_radius(first));
     generators::BrownianRun made = run_or_resume(run, first, potential, options, progress);
 
-    Findings found{.group = "/generation/brownian", .results = datasets_of(made, potential, options), .table = table_of(made)};
+    Findings found{
+        .group = "/generation/brownian", .results = datasets_of(made, potential, options), .table = table_of(made, options)};
     if (run.forces.depletion) {
         append_bonds(found, run.forces, potential, mean_radius(first), options.temperature);
     }
@@ -278,6 +288,12 @@ Verb generate_brownian_verb() {
                  within(1e-9, 1e9)),
         quantity("density-difference", "kg/m3", "density of the particles less that of the liquid, with --gravity", "",
                  within(-1e6, 1e6)),
+        quantity("shear-rate", "1/s",
+                 "shear along x, gradient along z, at this rate of strain, and measure the stress; 0 measures it at rest", "",
+                 within(-1e12, 1e12)),
+        quantity("shear-amplitude", "1", "oscillating shear of this strain amplitude instead, with --shear-frequency", "",
+                 within(1e-9, 1e3)),
+        quantity("shear-frequency", "Hz", "frequency of the oscillating shear", "", physical::frequency),
         choice("integrator", {"stabilised", "euler"}, "time integration: stabilised is SK-ROCK, euler is Euler-Maruyama",
                "stabilised"),
         quantity("time-step", "s", "time step; chosen from the potential when not given", "", physical::time),

@@ -38,6 +38,16 @@ auto numbers_of(Series& series) {
                       std::pair{"/series/rolling_energy", &series.rolling_energy}};
 }
 
+template <class Stress>
+auto stresses_of(Stress& stress) {
+    return std::array{std::pair{"/series/strain", &stress.strain},
+                      std::pair{"/series/shear_stress", &stress.shear_stress},
+                      std::pair{"/series/contact_shear_stress", &stress.contact_shear_stress},
+                      std::pair{"/series/normal_stress_x", &stress.normal_stress_x},
+                      std::pair{"/series/normal_stress_y", &stress.normal_stress_y},
+                      std::pair{"/series/normal_stress_z", &stress.normal_stress_z}};
+}
+
 template <class Series>
 auto counts_of(Series& series) {
     return std::array{std::pair{"/series/clusters", &series.clusters}, std::pair{"/series/largest", &series.largest},
@@ -70,6 +80,38 @@ Eigen::Matrix3Xd read_vectors(const CheckpointReader& file, const std::string& n
     return Eigen::Matrix3Xd::Map(values.data(), 3, static_cast<Index>(particles));
 }
 
+/// What a flow adds: the strains of the lists, and the stress since the last sample.
+void put_flow(std::vector<io::Dataset>& all, const BrownianCheckpoint& checkpoint) {
+    if (checkpoint.series.stress.strain.empty()) {
+        return;
+    }
+    io::put(all, "/state/strains", Numbers{checkpoint.list_strain, checkpoint.near_strain});
+    io::put(all, "/state/stress_times", Integers{checkpoint.stress.times});
+    Numbers sums(checkpoint.stress.pairs.data(), checkpoint.stress.pairs.data() + 9);
+    sums.insert(sums.end(), checkpoint.stress.sliding.data(), checkpoint.stress.sliding.data() + 9);
+    io::put(all, "/state/stress", std::move(sums));
+    for (const auto& [name, values] : stresses_of(checkpoint.series.stress)) {
+        io::put(all, name, *values);
+    }
+}
+
+void read_flow(const CheckpointReader& file, std::size_t samples, BrownianCheckpoint& checkpoint) {
+    if (!file.has("/state/strains")) {
+        return;
+    }
+    const Numbers& strains = file.finite("/state/strains", 1, 2);
+    checkpoint.list_strain = strains[0];
+    checkpoint.near_strain = strains[1];
+    checkpoint.stress.times = file.whole(file.table<Integers>("/state/stress_times", 1, 1)[0], 0,
+                                         std::numeric_limits<std::int64_t>::max(), "number of stresses");
+    const Numbers& sums = file.finite("/state/stress", 9, 2);
+    checkpoint.stress.pairs = Eigen::Matrix3d::Map(sums.data());
+    checkpoint.stress.sliding = Eigen::Matrix3d::Map(sums.data() + 9);
+    for (const auto& [name, values] : stresses_of(checkpoint.series.stress)) {
+        *values = file.finite(name, 1, samples);
+    }
+}
+
 std::string snapshot_name(std::size_t number) {
     return "/snapshots/" + std::to_string(number);
 }
@@ -95,6 +137,7 @@ void write_checkpoint(const std::string& path, const std::string& signature, con
     for (const auto& [name, values] : counts_of(checkpoint.series)) {
         io::put(all, name, *values);
     }
+    put_flow(all, checkpoint);
     Numbers times;
     for (const Snapshot& snapshot : checkpoint.snapshots) {
         io::put(all, snapshot_name(times.size()), flat(snapshot.positions));
@@ -130,6 +173,7 @@ BrownianCheckpoint read_brownian_checkpoint(const std::string& path, const std::
     for (const auto& [name, values] : counts_of(checkpoint.series)) {
         *values = file.table<Integers>(name, 1, samples);
     }
+    read_flow(file, samples, checkpoint);
     const Numbers& times = file.finite("/snapshots/time", 1, file.get<Numbers>("/snapshots/time").size());
     for (std::size_t number = 0; number < times.size(); ++number) {
         checkpoint.snapshots.push_back({times[number], read_vectors(file, snapshot_name(number), particles)});

@@ -4,6 +4,8 @@
 #include <coagula/characterize/heterogeneity.hpp>
 #include <coagula/io/structure_file.hpp>
 
+#include <cmath>
+
 namespace coagula::stages {
 
 namespace {
@@ -31,6 +33,53 @@ void add_series(Results& results, const BrownianSeries& series) {
     counts("percolating_axes", series.percolating, "axes along which contacts reach around the box");
     counts("contacts_formed", series.formed, "contacts that are new since the sample before");
     counts("contacts_broken", series.broken, "contacts that are gone since the sample before");
+}
+
+void add_stress(Results& results, const StressSeries& stress) {
+    const auto add = [&](const std::string& name, const std::vector<double>& values, const std::string& unit,
+                         const std::string& meaning) {
+        results.push_back({brownian_group + "series/" + name, {values.size()}, values, unit, meaning});
+    };
+    add("strain", stress.strain, "1", "strain of the shear at the time of the sample");
+    add("shear_stress", stress.shear_stress, "Pa", "shear stress of the particles, mean since the sample before");
+    add("contact_shear_stress", stress.contact_shear_stress, "Pa", "the part of it that opposes sliding in contacts");
+    add("normal_stress_x", stress.normal_stress_x, "Pa", "normal stress of the particles along the flow, tension > 0");
+    add("normal_stress_y", stress.normal_stress_y, "Pa", "the same along the vorticity");
+    add("normal_stress_z", stress.normal_stress_z, "Pa", "the same along the gradient");
+}
+
+/// Viscosity or moduli. The second half of the run counts.
+void add_response(Results& results, const FlowResponse& response, const generators::BrownianRun& run,
+                  const BrownianOptions& options) {
+    const std::string group = brownian_group + "flow/";
+    const auto add = [&](const std::string& name, double value, double error, const std::string& unit, const std::string& meaning) {
+        results.push_back(io::scalar(group + name, value, unit, meaning + (std::isnan(value) ? "; NaN: not measured" : "")));
+        results.push_back(
+            io::scalar(group + name + "_stderr", error, unit,
+                       "standard error of " + name + " by blocks" + (std::isnan(error) ? "; NaN: too few blocks" : "")));
+    };
+    if (options.flow.oscillates()) {
+        add("storage_modulus", response.storage_modulus, response.storage_modulus_error, "Pa",
+            "shear stress of the particles in phase with the strain, over the amplitude");
+        add("loss_modulus", response.loss_modulus, response.loss_modulus_error, "Pa",
+            "shear stress of the particles in phase with the rate of strain, over the amplitude");
+    } else {
+        add("shear_stress", response.shear_stress, response.shear_stress_error, "Pa",
+            "mean shear stress of the particles over the second half of the run");
+        add("first_normal_difference", response.first_normal_difference, response.first_normal_difference_error, "Pa",
+            "normal stress along the flow less that along the gradient");
+        if (options.flow.rate != 0) {
+            add("particle_viscosity", response.particle_viscosity, response.particle_viscosity_error, "Pa s",
+                "that shear stress over the rate of strain");
+        }
+    }
+    results.push_back(io::integer(group + "blocks", response.blocks, "blocks, or cycles, that the standard errors come from"));
+    const double volume = run.packing.cell.volume();
+    results.push_back(io::scalar(group + "brownian_pressure",
+                                 boltzmann_constant * options.temperature * static_cast<double>(run.packing.size()) / volume, "Pa",
+                                 "kB T times the number density, a part of minus the normal stresses"));
+    results.push_back(io::scalar(group + "liquid_viscosity", options.viscosity * (1 + 2.5 * volume_fraction(run.packing)), "Pa s",
+                                 "that of the liquid with single particles in it (Einstein), to which that of the particles adds"));
 }
 
 }  // namespace
@@ -61,6 +110,10 @@ Results datasets_of(const generators::BrownianRun& run, const PairPotential& pot
         io::scalar(brownian_group + "potential/contact_stiffness", potential.contact().stiffness, "N/m",
                    "stiffness of the contact")};
     add_series(results, run.series);
+    if (options.flow.given()) {
+        add_stress(results, run.series.stress);
+        add_response(results, flow_response(options.flow, run.series.time, run.series.stress), run, options);
+    }
     return results;
 }
 
@@ -90,17 +143,37 @@ Results heterogeneity_of(const generators::BrownianRun& run, const Packing& star
             {series + "coordination", shape, coordination, "1", "mean number of contacts"}};
 }
 
-Table table_of(const generators::BrownianRun& run) {
+Table table_of(const generators::BrownianRun& run, const BrownianOptions& options) {
     const TimeStep& step = run.time_step;
-    return {{"particles", std::to_string(run.packing.size())},
-            {"box", describe(run.packing.cell)},
-            {"volume fraction", with_unit(volume_fraction(run.packing), "1")},
-            {"simulated", with_unit(run.time, "s") + " in " + std::to_string(run.steps) + " steps"},
-            {"time step", with_unit(step.time_step, "s") + " (" + std::to_string(step.stages) + " stages), set by " + step.reason +
-                              "; stable up to " + with_unit(step.stability_bound, "s")},
-            {"ended by", run.ended_by},
-            {"coordination number", with_unit(run.coordination, "1")},
-            {"largest cluster", std::to_string(run.series.largest.back()) + " particles"}};
+    Table table = {{"particles", std::to_string(run.packing.size())},
+                   {"box", describe(run.packing.cell)},
+                   {"volume fraction", with_unit(volume_fraction(run.packing), "1")},
+                   {"simulated", with_unit(run.time, "s") + " in " + std::to_string(run.steps) + " steps"},
+                   {"time step", with_unit(step.time_step, "s") + " (" + std::to_string(step.stages) + " stages), set by " +
+                                     step.reason + "; stable up to " + with_unit(step.stability_bound, "s")},
+                   {"ended by", run.ended_by},
+                   {"coordination number", with_unit(run.coordination, "1")},
+                   {"largest cluster", std::to_string(run.series.largest.back()) + " particles"}};
+    if (!options.flow.given()) {
+        return table;
+    }
+    const auto measured = [](double value, double error, const std::string& unit) {
+        return with_unit(value, unit) + (std::isnan(error) ? "" : " +- " + with_unit(error, unit));
+    };
+    const FlowResponse response = flow_response(options.flow, run.series.time, run.series.stress);
+    table.emplace_back("strain", with_unit(run.series.stress.strain.back(), "1"));
+    if (options.flow.oscillates()) {
+        table.emplace_back("moduli of particles", "G' " + measured(response.storage_modulus, response.storage_modulus_error, "Pa") +
+                                                      ", G'' " +
+                                                      measured(response.loss_modulus, response.loss_modulus_error, "Pa"));
+        return table;
+    }
+    table.emplace_back("shear stress", measured(response.shear_stress, response.shear_stress_error, "Pa"));
+    if (options.flow.rate != 0) {
+        table.emplace_back("viscosity of particles",
+                           measured(response.particle_viscosity, response.particle_viscosity_error, "Pa s"));
+    }
+    return table;
 }
 
 }  // namespace coagula::stages

@@ -16,6 +16,6 @@ Results datasets_of(const generators::BrownianRun& run, const generators::PairPo
 Results heterogeneity_of(const generators::BrownianRun& run, const Packing& start, const generators::BrownianOptions& options,
                          const Progress& progress);
 
-Table table_of(const generators::BrownianRun& run);
+Table table_of(const generators::BrownianRun& run, const generators::BrownianOptions& options);
 
 }  // namespace coagula::stages

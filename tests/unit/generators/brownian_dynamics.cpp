@@ -56,6 +56,10 @@ void expect_same(const BrownianRun& one, const BrownianRun& other) {
     EXPECT_EQ(one.series.coordination, other.series.coordination);
     EXPECT_EQ(one.series.formed, other.series.formed);
     EXPECT_EQ(one.series.broken, other.series.broken);
+    EXPECT_EQ(one.series.stress.strain, other.series.stress.strain);
+    EXPECT_EQ(one.series.stress.shear_stress, other.series.stress.shear_stress);
+    EXPECT_EQ(one.series.stress.contact_shear_stress, other.series.stress.contact_shear_stress);
+    EXPECT_EQ(one.packing.cell.edges(), other.packing.cell.edges());
     ASSERT_EQ(one.snapshots.size(), other.snapshots.size());
     for (std::size_t number = 0; number < one.snapshots.size(); ++number) {
         EXPECT_EQ(one.snapshots[number].time, other.snapshots[number].time);
@@ -113,7 +117,7 @@ void expect_same_in_pieces(const Packing& start, const BrownianOptions& options)
     }
     EXPECT_GT(resumed, 2);
     expect_same(whole, *pieces);
-    EXPECT_EQ(whole.snapshots.size(), 2U);
+    EXPECT_EQ(whole.snapshots.size(), options.snapshot_times.size());
 }
 
 TEST(BrownianDynamics, GoesOnToTheSameBits) {
@@ -123,6 +127,22 @@ TEST(BrownianDynamics, GoesOnToTheSameBits) {
 TEST(BrownianDynamics, GoesOnToTheSameBitsWithRoughContactsOfUnequalParticles) {
     // Two chunks, so that contacts have two memories.
     expect_same_in_pieces(mixture(4000), rough_run());
+}
+
+/// The same in a flow that moves the box by several of its lengths.
+BrownianOptions flowing_run() {
+    BrownianOptions options = rough_run();
+    options.snapshot_times.clear();
+    options.flow.rate = 1.3 / options.stop_time;
+    return options;
+}
+
+TEST(BrownianDynamics, DoesNotDependOnTheNumberOfThreadsInAFlow) {
+    expect_same_with_threads(suspension(4000), flowing_run());
+}
+
+TEST(BrownianDynamics, GoesOnToTheSameBitsInAFlow) {
+    expect_same_in_pieces(mixture(4000), flowing_run());
 }
 
 TEST(BrownianDynamics, RoughCrystalIsStableBelowTheBound) {

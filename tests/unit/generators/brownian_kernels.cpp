@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loops over neighbours: tables against the force they stand for, sums against pairs one by one, lanes against lanes.
+#include <coagula/common/cell.hpp>
 #include <coagula/common/random.hpp>
 
 #include <gtest/gtest.h>
@@ -44,7 +45,9 @@ struct Example {
     PairLoop loop{.period = {9, 10, 11}};
     NeighbourRows all;
 
-    explicit Example(bool equal) {
+    /// @param lean of the third edge of the box along x.
+    explicit Example(bool equal, double lean = 0) {
+        loop.lean = lean;
         all.clear(0, particles);
         for (std::size_t one = 0; one < particles; ++one) {
             const Eigen::Vector3d place = 30 * random_uniform(3, RandomPurpose::test, 0, one);  // not wrapped
@@ -65,11 +68,10 @@ struct Example {
     }
 
     Eigen::Vector3d way(std::size_t from, std::size_t to) const {
-        Eigen::Vector3d way = Eigen::Vector3d::Map(&positions[4 * to]) - Eigen::Vector3d::Map(&positions[4 * from]);
-        for (int axis = 0; axis < 3; ++axis) {
-            way[axis] -= loop.period[axis] * std::round(way[axis] / loop.period[axis]);
-        }
-        return way;
+        const auto place = [&](std::size_t slot) { return Eigen::Vector3d(Eigen::Vector3d::Map(&positions[4 * slot])); };
+        Eigen::Matrix3d edges = Eigen::Vector3d::Map(loop.period.data()).asDiagonal();
+        edges(0, 2) = loop.lean;
+        return Cell::of_edges(Eigen::Vector3d::Zero(), edges, {true, true, true}).minimum_image(place(to) - place(from));
     }
 };
 
@@ -84,8 +86,8 @@ void for_each_neighbour(const NeighbourRows& rows, Visit&& visit) {
     }
 }
 
-void expect_sums(bool equal) {
-    const Example example(equal);
+void expect_sums(bool equal, double lean = 0) {
+    const Example example(equal, lean);
     const ForceTable table = generators::table();
     std::vector<double> sums(example.positions.size(), 7.0);
     sum_pair_forces(example.loop, table, example.all, sums.data());
@@ -107,6 +109,27 @@ void expect_sums(bool equal) {
 TEST(BrownianKernels, SumForcesOfPairs) {
     expect_sums(true);
     expect_sums(false);
+}
+
+TEST(BrownianKernels, SumForcesInABoxThatLeans) {
+    expect_sums(true, 2.7);
+    expect_sums(false, -4.5);
+}
+
+TEST(BrownianKernels, ForcesDoNotChangeWhenTheBoxLeansByAWholeLength) {
+    const Example one(true, 4.2);
+    const Example flipped(true, 4.2 - one.loop.period[0]);
+    std::vector<double> sums(one.positions.size());
+    std::vector<double> others = sums;
+    sum_pair_forces(one.loop, table(), one.all, sums.data());
+    sum_pair_forces(flipped.loop, table(), flipped.all, others.data());
+    double largest = 0;
+    for (const double sum : sums) {
+        largest = std::max(largest, std::abs(sum));
+    }
+    for (std::size_t part = 0; part < sums.size(); ++part) {
+        EXPECT_NEAR(sums[part], others[part], 1e-9 * largest);
+    }
 }
 
 template <class Lanes>
@@ -152,10 +175,16 @@ TEST(BrownianKernels, FindTheLongestWay) {
     std::vector<double> moved = example.positions;
     for (const std::size_t slot : {0U, 150U, 300U}) {
         moved[4 * slot + 1] += 0.5 + 0.01 * static_cast<double>(slot);
-        EXPECT_NEAR(longest_squared_way(moved.data(), example.positions.data(), 0, Example::particles),
+        EXPECT_NEAR(longest_squared_way(moved.data(), example.positions.data(), 0, 0, Example::particles),
                     std::pow(0.5 + 0.01 * static_cast<double>(slot), 2), 1e-12);
     }
-    EXPECT_EQ(longest_squared_way(moved.data(), example.positions.data(), 1, 150), 0);
+    EXPECT_EQ(longest_squared_way(moved.data(), example.positions.data(), 0, 1, 150), 0);
+    // What only follows a shear has not gone anywhere.
+    for (std::size_t slot = 0; slot < Example::particles; ++slot) {
+        moved[4 * slot] = example.positions[4 * slot] + 0.3 * example.positions[4 * slot + 2];
+    }
+    EXPECT_LT(longest_squared_way(moved.data(), example.positions.data(), 0.3, 1, 150), 1e-20);
+    EXPECT_GT(longest_squared_way(moved.data(), example.positions.data(), 0, 1, 150), 1);
 }
 
 }  // namespace

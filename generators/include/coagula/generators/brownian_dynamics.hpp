@@ -10,6 +10,7 @@
 #include <coagula/common/progress.hpp>
 #include <coagula/common/random.hpp>
 #include <coagula/generators/pair_potential.hpp>
+#include <coagula/generators/shear_flow.hpp>
 
 #include <Eigen/Core>
 
@@ -62,6 +63,7 @@ struct BrownianOptions {
     double slowing = 1;        ///< share of the free diffusion that hydrodynamics leave on average, 0 < slowing <= 1
     ContactResistance resistance;
     Sedimentation sedimentation;
+    ShearFlow flow;             ///< not with sedimentation, nor with snapshots: the box of a file does not change
     double cutoff_gap = unset;  ///< beyond it no force [m]; one mean radius if unset
     Integrator integrator = Integrator::stabilised;
     double time_step = unset;                     ///< [s]; chosen by choose_time_step if unset
@@ -107,6 +109,7 @@ struct BrownianSeries {
     std::vector<std::int64_t> percolating;  ///< axes along which contacts reach around the box, 0 to 3
     std::vector<std::int64_t> formed;       ///< contacts that are new since the sample before
     std::vector<std::int64_t> broken;       ///< contacts that are gone since the sample before
+    StressSeries stress;                    ///< empty without a flow
 };
 
 /// Positions at a time.
@@ -128,7 +131,10 @@ struct BrownianCheckpoint {
     Eigen::Matrix3Xd positions;
     Eigen::Matrix3Xd list_reference;
     Eigen::Matrix3Xd near_reference;
+    double list_strain = 0;  ///< of the flow when the references were taken
+    double near_strain = 0;
     Eigen::Matrix3Xd far_forces;
+    StressSum stress;                                         ///< since the last sample
     Eigen::Matrix3Xd rotations;                               ///< sums of rotation vectors; empty where particles do not turn
     ContactMemories memories;                                 ///< empty where nothing resists
     Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic> contacts;  ///< of the last sample
@@ -155,7 +161,8 @@ struct BrownianRun {
     std::vector<Snapshot> snapshots;  ///< before the end, in the order of time
 };
 
-/// Moves the particles of a packing in a periodic box. The potential is that of two particles of mean radius; for others it is
+/// Moves the particles of a packing in a periodic box, which is rectangular, or leans as a flow makes it lean: the third edge along
+/// x. The potential is that of two particles of mean radius; for others it is
 /// scaled with 2 R1 R2/(R1 + R2) over the mean radius at equal gap (Derjaguin's approximation). The result depends on packing and
 /// options alone, not on the number of threads, nor on whether it was interrupted and resumed. Throws std::invalid_argument for
 /// impossible options and InputError for particles that overlap by more than 5 % at the start.
