@@ -51,7 +51,7 @@ set(coagula_slow_tests
   "BrownianFlow[.](Free|Bound|Pairs).*"
   "BrownianModulus[.].*"
   "BrownianContacts[.]PairThat.*"
-  "BrownianDynamics[.]DoesNotDependOnTheNumberOfThreads"
+  "BrownianDynamics[.](DoesNotDependOnTheNumberOfThreads|DoesNotDependOnTheNumberOfThreadsInAFlow|GoesOnToTheSameBitsInAFlow)"
   "BrownianPhysics[.](FreeParticles|SecondaryMinimum|StabilisedSuspension|Barrier).*"
   "ContactLaws[.].*"
   "Forces[.]AndStepsAreEqualBit.*"

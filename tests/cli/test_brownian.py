@@ -107,7 +107,7 @@ class Restart(ProgramTest):
         self.check_killed_runs(self.LONG)
 
     def test_killed_runs_in_a_flow_go_on_to_the_same_bytes(self):
-        self.check_killed_runs([*self.LONG, "--shear-rate", "300/s"])
+        self.check_killed_runs([*self.LONG, "--shear-rate", "300Hz"])
 
     def check_killed_runs(self, run):
         self.succeed(*run, "-o", "whole.h5")
