@@ -9,7 +9,7 @@ if (!output) {
 }
 
 const { outputFiles } = await build({
-  entryPoints: ["src/structure.ts", "src/diagnosis.ts", "src/page.css"],
+  entryPoints: ["src/structure.ts", "src/diagnosis.ts", "src/set.ts", "src/page.css"],
   bundle: true,
   minify: true,
   format: "iife",
@@ -20,7 +20,7 @@ const { outputFiles } = await build({
   write: false,
 });
 
-const names = { "structure.js": "structure_script", "diagnosis.js": "diagnosis_script", "page.css": "page_style" };
+const names = { "structure.js": "structure_script", "diagnosis.js": "diagnosis_script", "set.js": "set_script", "page.css": "page_style" };
 
 // A script inside a page ends at the first "</script", wherever it stands.
 const pieces = outputFiles

@@ -8,6 +8,7 @@ namespace coagula::report {
 
 extern const std::string_view structure_script;
 extern const std::string_view diagnosis_script;
+extern const std::string_view set_script;
 extern const std::string_view page_style;
 
 }  // namespace coagula::report

@@ -158,6 +158,11 @@ export function quantity(value: number | null, unit: string, digits = 4): string
   return printed(value / prefix.factor, digits) + (prefix.unit ? `\u00a0${prefix.unit}` : "");
 }
 
+/** A text as a field of a CSV file. */
+export function csvField(text: string): string {
+  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
 /** Offers a file for download. */
 export function download(name: string, text: string): void {
   const address = URL.createObjectURL(new Blob([text], { type: "text/csv;charset=utf-8" }));

@@ -2,11 +2,7 @@
 // Numbers as tables: every result, what differs between structures, and how the files came to be.
 
 import type { Result, Structure } from "./data";
-import { download, el, printed, printedUnit, quantity } from "./dom";
-
-function csvField(text: string): string {
-  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
-}
+import { csvField, download, el, printed, printedUnit, quantity } from "./dom";
 
 function csvButton(name: string, rows: () => string[][]): HTMLButtonElement {
   return el("button", { type: "button", class: "quiet csv", "aria-label": "This table as CSV", onclick: () =>

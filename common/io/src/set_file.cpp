@@ -61,8 +61,12 @@ SetColumn read_column(const File& file, const std::string& name) {
     return column;
 }
 
+bool has_index(const File& file) {
+    return file.is_group(index_group) && file.has(index_group + "/id") && file.attribute("/", "format") == "coagula data set";
+}
+
 void require_set(const File& file) {
-    if (!file.is_group(index_group) || !file.has(index_group + "/id") || file.attribute("/", "format") != "coagula data set") {
+    if (!has_index(file)) {
         throw InputError(file.path() + " is no data set of coagula: it lacks " + index_group + "/id or the attribute format");
     }
 }
@@ -188,6 +192,11 @@ void write_set(const std::string& path, const SetHead& head, const std::vector<S
     }
     sets.clear();
     output.publish(file.close());
+}
+
+bool is_set(const std::string& path) {
+    return run_in_child(path, [&](ReadingLimits& /*limits*/) { return std::string(has_index(File::open(path)) ? "set" : ""); }) ==
+           "set";
 }
 
 SetHead read_set(const std::string& path) {

@@ -34,7 +34,8 @@ export class Chart {
   /** Of an axis that shows both signs logarithmically, the value below which it is linear; else null. */
   private threshold: number | null = null;
 
-  constructor(private spec: ChartSpec) {
+  /** @param pick told the series, and the place in it, of a point that was clicked. */
+  constructor(private spec: ChartSpec, private readonly pick?: (series: number, place: number) => void) {
     this.logX = spec.x.logarithmic ?? false;
     this.logY = spec.y.logarithmic ?? false;
     const toggle = (name: string, get: () => boolean, set: (on: boolean) => void): HTMLButtonElement => {
@@ -141,6 +142,7 @@ export class Chart {
         drawClear: [(plot) => this.drawBand(plot)],
         draw: [(plot) => drawPoints(plot, series, table), (plot) => this.drawMarks(plot)],
         setCursor: [(plot) => this.read(plot, series)],
+        ready: [(plot) => this.listen(plot, series)],
       },
     };
   }
@@ -197,6 +199,26 @@ export class Chart {
       ctx.fillText(mark.label, at + (right ? -6 : 6) * devicePixelRatio, bbox.top + 14 * devicePixelRatio);
       ctx.restore();
     }
+  }
+
+  /** A click near a point picks it; the end of a drag, which zooms, does not. */
+  private listen(plot: uPlot, series: Series[]): void {
+    if (!this.pick) {
+      return;
+    }
+    const near = 12; // pixels
+    let start = [0, 0];
+    plot.over.addEventListener("mousedown", (event) => { start = [event.offsetX, event.offsetY]; });
+    plot.over.addEventListener("click", (event) => {
+      const [x, y] = [event.offsetX, event.offsetY];
+      const points = Math.hypot(x - start[0]!, y - start[1]!) > 4 ? [] : series.flatMap((one) => one.x.map((value, place) => ({
+        series: this.spec.series.findIndex((other) => other.name === one.name), place,
+        away: Math.hypot(plot.valToPos(value, "x") - x, plot.valToPos(one.y[place] ?? NaN, "y") - y) })));
+      const nearest = points.filter(({ away }) => away < near).sort((a, b) => a.away - b.away)[0];
+      if (nearest) {
+        this.pick!(nearest.series, nearest.place);
+      }
+    });
   }
 
   /** The values under the pointer, of each series the nearest. */

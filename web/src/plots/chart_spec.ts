@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a figure shows, and the same as a table and in words.
 
-import { printed } from "../dom";
+import { csvField, printed } from "../dom";
 
 export interface Series {
   name: string;
@@ -76,10 +76,6 @@ export function joined(series: Series[]): Table {
   return { x, columns, origin };
 }
 
-function field(text: string): string {
-  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
-}
-
 /** The numbers of a figure as a table; errors beside their values. */
 export function csvOf(spec: ChartSpec): string {
   const table = joined(spec.series);
@@ -90,7 +86,7 @@ export function csvOf(spec: ChartSpec): string {
     return [table.columns[s]![row] ?? "", ...(one.error ? [k < 0 ? "" : (one.error[k] ?? "")] : []),
       ...(one.open?.some((open) => open) ? [k < 0 ? "" : Number(one.open[k] ?? false)] : [])];
   })]);
-  return [head.map(field), ...rows].map((row) => row.join(",")).join("\n") + "\n";
+  return [head.map(csvField), ...rows].map((row) => row.join(",")).join("\n") + "\n";
 }
 
 /** The figure in words, for those who cannot see it. */

@@ -45,6 +45,9 @@ struct SetHead {
 /// copied from.
 void write_set(const std::string& path, const SetHead& head, const std::vector<SetStructure>& structures, bool overwrite);
 
+/// Whether a file is a data set of many structures. Throws InputError for a file that is not there or is no HDF5.
+bool is_set(const std::string& path);
+
 /// Throws InputError for a file that is no data set.
 SetHead read_set(const std::string& path);
 
