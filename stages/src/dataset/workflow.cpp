@@ -36,7 +36,8 @@ std::string snakefile(std::int64_t chunks) {
 const char* const slurm_profile =
     "# snakemake --profile slurm (Snakemake 7)\n"
     "cluster: \"sbatch --parsable --cpus-per-task={threads} --mem={resources.mem_mb} --time={resources.runtime} "
-    "--output=chunks/slurm-%j.log\"\n"
+    "--output=slurm/job-%j.log\"\n"
+    "cluster-status: sh slurm/status.sh\n"
     "cluster-cancel: scancel\n"
     "jobs: 100\n"
     "default-resources:\n"
@@ -44,6 +45,19 @@ const char* const slurm_profile =
     "  - runtime=240\n"
     "latency-wait: 60\n"
     "rerun-incomplete: true\n";
+
+/// Without it Snakemake 7 would wait for ever for a job that Slurm could not start.
+const char* const slurm_status =
+    "# What became of a job: sh status.sh JOB\n"
+    "state=$(scontrol -o show job \"$1\" 2>/dev/null | sed -n 's/.* JobState=\\([A-Z_]*\\).*/\\1/p')\n"
+    "if [ -z \"$state\" ]; then  # it ended some time ago\n"
+    "  state=$(sacct -n -X -j \"$1\" -o State 2>/dev/null | head -n 1 | tr -d ' ')\n"
+    "fi\n"
+    "case \"$state\" in\n"
+    "  COMPLETED) echo success ;;\n"
+    "  PENDING | CONFIGURING | RUNNING | COMPLETING | SUSPENDED | REQUEUED | RESIZING) echo running ;;\n"
+    "  *) echo failed ;;\n"
+    "esac\n";
 
 /// Snakemake 8 has an executor of its own, the package snakemake-executor-plugin-slurm.
 const char* const slurm_profile_8 =
@@ -63,6 +77,7 @@ Printed write_workflow(const Sweep& sweep, const std::string& folder, std::int64
     const std::vector<std::pair<fs::path, std::string>> files = {{place / "Snakefile", snakefile(chunks)},
                                                                  {place / "sweep.toml", sweep.text},
                                                                  {place / "slurm" / "config.yaml", slurm_profile},
+                                                                 {place / "slurm" / "status.sh", slurm_status},
                                                                  {place / "slurm8" / "config.yaml", slurm_profile_8}};
     for (const char* part : {"", "slurm", "slurm8"}) {
         io::make_folder(place / part);
