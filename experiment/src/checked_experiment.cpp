@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coagula/diagnose/lone_tables.hpp>
 #include <coagula/diagnose/outliers.hpp>
 #include <coagula/diagnose/replicate_groups.hpp>
 #include <coagula/diagnose/run_clock.hpp>
@@ -133,8 +134,10 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
         found.file.notes.push_back(outlier.sentence);
     }
     state_inherited(experiment);
-    for (std::string& note : diagnose::notes_on_groups(experiment.measurements)) {
-        found.file.notes.push_back(std::move(note));
+    for (const auto& notes_on : {diagnose::notes_on_lone_tables, diagnose::notes_on_groups}) {
+        for (std::string& note : notes_on(experiment.measurements)) {
+            found.file.notes.push_back(std::move(note));
+        }
     }
     found.noise = diagnose::noise_of_tables(experiment.measurements, noise);
     found.options.stated_noise = noise;
