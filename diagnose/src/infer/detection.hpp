@@ -36,12 +36,13 @@ const char* name_of(Coordinate coordinate);
 double coordinate_of(const Observation& observation, Coordinate coordinate);
 
 /// One way to fail: a smooth departure of one observable of some tables along a coordinate, the samples, a step towards a
-/// mechanism, or the whole.
+/// mechanism, or the whole; of all tables or of those of one kind.
 struct MisfitStatistic {
     std::string observable;  ///< of observable_of(), "third_harmonic", "sample_effect", "normal_stiffness" or "all"
     Coordinate coordinate = Coordinate::none;
     bool autocorrelation = false;     ///< of neighbours along the coordinate, else the size of smooth components
     std::vector<Index> rows = {};     ///< observations that take part, sorted along the coordinate
+    std::string tables = {};          ///< kind of the tables that take part; all where it is empty
     std::string cause = {};           ///< mechanism towards which `directions` go, orthogonal to what the fitted quantities move
     Eigen::MatrixXd directions = {};  ///< unit vectors; smooth components where there is no cause
     double value = 0;

@@ -93,7 +93,8 @@ void predict_others(const Inference& inference, const std::string& best, Diagnos
 void keep_statistics(const Detection& detection, Diagnosis& diagnosis) {
     for (const MisfitStatistic& one : detection.statistics) {
         const bool whole = one.coordinate == Coordinate::none;
-        diagnosis.statistics.push_back({one.observable, name_of(one.coordinate),
+        const std::string observable = one.tables.empty() ? one.observable : one.observable + " of " + one.tables;
+        diagnosis.statistics.push_back({observable, name_of(one.coordinate),
                                         !one.cause.empty()    ? "towards " + one.cause
                                         : whole               ? "chi-square"
                                         : one.autocorrelation ? "neighbours"

@@ -180,6 +180,7 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
         }
     }
     proposal.information = std::max(0.0, proposal.information);  // of few draws
+    proposal.resolution = std::min(1.0, proposal.resolution);    // of rounding
     return proposal;
 }
 

@@ -162,7 +162,7 @@ Fit moved_fit(const Inference& inference, const Start& start, const Followed& be
         const auto number = static_cast<std::size_t>(start.follow[k]) - 1;
         const double place = parameters[number].place_of(start.fit.values()[number]) + beside.moved[static_cast<Index>(k)];
         fit.parameters[number] = within_prior(parameters[number], value, place, sigma);
-        fit.active_end[number] = leads_beyond_prior(place, sigma);
+        fit.active_end[number] = leads_beyond_prior(place, sigma) || place < prior_edge || place > 1 - prior_edge;
     }
     return fit;
 }
@@ -208,7 +208,8 @@ std::vector<double> densities_beside(const Inference& inference, const Start& st
 /// Of all departures at a start.
 SmoothRemainder remainder_at(const Inference& inference, const Start& start, const SmoothDepartures& departures, double alone) {
     const ErrorModel& errors = inference.errors();
-    const Eigen::VectorXd level = complex_moduli(errors.data().observations, inference.fitted(start.prediction));
+    const DataSet& data = errors.data();
+    const Eigen::VectorXd level = departing_sizes(data.observations, data.values, inference.fitted(start.prediction));
     SmoothRemainder found{.fit = start.fit};
     std::vector<double> all;
     for (const std::vector<SmoothDeparture>& group : departures) {
