@@ -34,7 +34,6 @@ set(coagula_slow_tests
   "Thixotropy[.].*"
   "VolumeFractionGradient[.].*"
   "Verdict[.]OneRowTenTimesTooLargeIsNoName"
-  "HiddenEffects[.]ErrorsOfLocalisationAreFoundBesideSweepsToo"
   "cli[.]slurm[.].*"
   "web[.]set_page[.].*"
   "BrownianDepletion[.]PairsHaveTheirBoltzmannDistribution"
