@@ -14,15 +14,12 @@ namespace coagula::diagnose {
 
 double Inference::log_level(Model model) const {
     const std::vector<Observation>& observations = errors_.data().observations;
-    const Eigen::ArrayXd measured = complex_moduli(observations, errors_.data().values);
     for (int round = 0; round < 2; ++round) {  // an instrument does not scale
         const Eigen::VectorXd predicted = forward_.predict(model);
-        const Eigen::ArrayXd sizes = complex_moduli(observations, predicted);
         std::vector<double> ratios;
-        for (Index k = 0; k < predicted.size(); ++k) {
-            const Observation& one = observations[static_cast<std::size_t>(k)];
-            const double ratio = one.third_harmonic ? one.value / predicted[k] : measured[k] / sizes[k];
-            if (forward_.scales(one) && ratio > 0 && std::isfinite(ratio)) {
+        for (std::size_t k = 0; k < observations.size(); ++k) {
+            const double ratio = observations[k].value / predicted[static_cast<Index>(k)];
+            if (forward_.scales(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
                 ratios.push_back(ratio);
             }
         }

@@ -11,7 +11,7 @@ Eigen::VectorXd flexible_prediction(const DataSet& data, const Eigen::VectorXd& 
                                     const SmoothDepartures& departures) {
     const RowNoise noise = data.part(known).noise;
     const Eigen::VectorXd white = noise.whiten((data.values - base)(known));
-    const Eigen::VectorXd level = departing_sizes(data.observations, data.values, base);
+    const Eigen::VectorXd level = complex_moduli(data.observations, base);
     double best = -std::numeric_limits<double>::infinity();
     Eigen::VectorXd prediction = base;
     for (const std::vector<SmoothDeparture>& group : departures) {

@@ -67,7 +67,7 @@ class AllDirections {
 public:
     /// @param prediction of the base model.
     AllDirections(const DataSet& data, const Eigen::VectorXd& prediction)
-        : data_(data), level_(departing_sizes(data.observations, data.values, prediction)), turned_(turned(data, prediction)) {}
+        : data_(data), level_(complex_moduli(data.observations, prediction)), turned_(turned(data, prediction)) {}
 
     std::map<Kind, Directions> find() && {
         for (const auto& [coordinate, kind] : factors_on_modulus) {
@@ -234,8 +234,7 @@ double change_along(const Eigen::VectorXd& rank, const std::vector<Observation>&
 }  // namespace
 
 Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::VectorXd& prediction) {
-    const Eigen::ArrayXd share =
-        form.departure.array() / departing_sizes(data.observations, data.values, prediction).array().max(1e-300);
+    const Eigen::ArrayXd share = form.departure.array() / complex_moduli(data.observations, prediction).max(1e-300);
     Follows follows{.kind = form.kind, .largest = mean_of_largest(share)};
     if (form.kind.axis == Axis::sample) {
         std::tie(follows.sample, follows.change) = most_apart(data, share);

@@ -208,8 +208,7 @@ std::vector<double> densities_beside(const Inference& inference, const Start& st
 /// Of all departures at a start.
 SmoothRemainder remainder_at(const Inference& inference, const Start& start, const SmoothDepartures& departures, double alone) {
     const ErrorModel& errors = inference.errors();
-    const DataSet& data = errors.data();
-    const Eigen::VectorXd level = departing_sizes(data.observations, data.values, inference.fitted(start.prediction));
+    const Eigen::VectorXd level = complex_moduli(errors.data().observations, inference.fitted(start.prediction));
     SmoothRemainder found{.fit = start.fit};
     std::vector<double> all;
     for (const std::vector<SmoothDeparture>& group : departures) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "smooth.hpp"
 
-#include "data/median.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -118,25 +116,6 @@ Eigen::VectorXd rank_along(const std::vector<Observation>& observations, Coordin
 Eigen::MatrixXd smooth_factor(const std::vector<Observation>& observations, Departing departing, std::vector<Eigen::VectorXd> ranks,
                               bool together, double length) {
     return SmoothCovariance(observations, departing, std::move(ranks), together, length).factor();
-}
-
-Eigen::VectorXd departing_sizes(const std::vector<Observation>& observations, const Eigen::VectorXd& values,
-                                const Eigen::VectorXd& prediction) {
-    Eigen::VectorXd sizes = complex_moduli(observations, prediction);
-    const Eigen::ArrayXd measured = complex_moduli(observations, values);
-    std::vector<double> ratios;
-    for (Index row = 0; row < sizes.size(); ++row) {
-        const double ratio = measured[row] / sizes[row];
-        if (is_modulus(observations[static_cast<std::size_t>(row)]) && ratio > 0 && std::isfinite(ratio)) {
-            ratios.push_back(ratio);
-        }
-    }
-    const double level = ratios.empty() ? 1.0 : median(std::move(ratios));
-    for (Index row = 0; row < sizes.size(); ++row) {
-        const Observation& one = observations[static_cast<std::size_t>(row)];
-        sizes[row] *= is_modulus(one) && !one.third_harmonic ? level : 1.0;
-    }
-    return sizes;
 }
 
 SmoothDepartures smooth_departures(const std::vector<Observation>& observations) {

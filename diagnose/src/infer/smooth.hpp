@@ -37,12 +37,6 @@ Eigen::VectorXd rank_along(const std::vector<Observation>& observations, Coordin
 Eigen::MatrixXd smooth_factor(const std::vector<Observation>& observations, Departing departing, std::vector<Eigen::VectorXd> ranks,
                               bool together, double length);
 
-/// What departures are shares of: |G*| of a prediction, of all moduli together as large as what was measured. A model that lies far
-/// below the data may depart from them no less than one among them; shares of the measured moduli themselves would follow their
-/// errors.
-Eigen::VectorXd departing_sizes(const std::vector<Observation>& observations, const Eigen::VectorXd& values,
-                                const Eigen::VectorXd& prediction);
-
 /// In groups that are equally probable, of every length; the level alone where no coordinate varies.
 using SmoothDepartures = std::vector<std::vector<SmoothDeparture>>;
 SmoothDepartures smooth_departures(const std::vector<Observation>& observations);
