@@ -53,7 +53,10 @@ void add_response(Results& results, const FlowResponse& response, const generato
                   const BrownianOptions& options) {
     const std::string group = brownian_group + "flow/";
     const auto add = [&](const std::string& name, double value, double error, const std::string& unit, const std::string& meaning) {
-        results.push_back(io::scalar(group + name, value, unit, meaning + (std::isnan(value) ? "; NaN: not measured" : "")));
+        if (!std::isfinite(value)) {
+            return;  // of an oscillation that has no whole period
+        }
+        results.push_back(io::scalar(group + name, value, unit, meaning));
         results.push_back(
             io::scalar(group + name + "_stderr", error, unit,
                        "standard error of " + name + " by blocks" + (std::isnan(error) ? "; NaN: too few blocks" : "")));
@@ -163,6 +166,10 @@ Table table_of(const generators::BrownianRun& run, const BrownianOptions& option
     const FlowResponse response = flow_response(options.flow, run.series.time, run.series.stress);
     table.emplace_back("strain", with_unit(run.series.stress.strain.back(), "1"));
     if (options.flow.oscillates()) {
+        if (!std::isfinite(response.storage_modulus)) {
+            table.emplace_back("moduli of particles", "not measured: the run ends before a period does");
+            return table;
+        }
         table.emplace_back("moduli of particles", "G' " + measured(response.storage_modulus, response.storage_modulus_error, "Pa") +
                                                       ", G'' " +
                                                       measured(response.loss_modulus, response.loss_modulus_error, "Pa"));
