@@ -4,7 +4,6 @@
 #include <coagula/common/dem/minimise.hpp>
 #include <coagula/common/dem/stepper.hpp>
 
-#include <optional>
 #include <string>
 
 namespace coagula::dem {
@@ -19,7 +18,6 @@ void check_options(const RelaxOptions& options) {
     require_positive(options.normal_stiffness, "the normal contact stiffness", "N/m");
     require_non_negative(options.shear_stiffness, "the shear contact stiffness", "N/m");
     require_positive(options.tolerance, "the tolerance of the relaxation");
-    require_non_negative(options.fire_below, "the force below which FIRE takes over");
     require(options.max_iterations > 0, "the relaxation needs at least one iteration");
 }
 
@@ -63,17 +61,9 @@ Relaxation relax_with(const Packing& packing, const ContactNetwork& bonds, const
     const bool stopped = options.method == RelaxMethod::stopped_steps;
     const StepOptions stepping{time_step, stopped ? 0.0 : options.damping, stopped};
     check(stepping);
-    std::optional<Fire<Interactions<RepulsiveSpring, BondLaw>>> fire;
     return iterate(system, laws, force_unit, options, progress, [&] {
-        if (fire) {
-            return fire->iterate();
-        }
         step(system, laws, stepping);
-        const double force = rms_force(system);
-        if (options.method == RelaxMethod::damped && force < options.fire_below * force_unit) {
-            fire.emplace(system, laws, time_step, longest_time_step);
-        }
-        return force;
+        return rms_force(system);
     });
 }
 
