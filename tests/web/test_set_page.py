@@ -8,6 +8,11 @@ import unittest
 import h5py
 import numpy
 
+try:
+    from selenium.webdriver import ActionChains
+except ImportError:
+    ActionChains = None
+
 from browser import Browser, needs_browser
 from support import ProgramTest
 
@@ -95,17 +100,14 @@ class SetPage(WithSet):
             browser.open(self.folder / "set.html")
             browser.wait_for("return coagula.chart.plot !== null")
             row = 5
-            browser.run("""
-                const chart = coagula.chart, plot = chart.plot, points = coagula.points;
-                const group = points.find((one) => one.rows.includes(arguments[0]));
+            x, y = browser.run("""
+                const plot = coagula.chart.plot, group = coagula.points.find((one) => one.rows.includes(arguments[0]));
                 const k = group.rows.indexOf(arguments[0]);
-                const at = { offsetX: plot.valToPos(group.series.x[k], "x"), offsetY: plot.valToPos(group.series.y[k], "y") };
-                for (const type of ["mousedown", "click"]) {
-                  const event = new MouseEvent(type, { bubbles: true });
-                  Object.defineProperty(event, "offsetX", { value: at.offsetX });
-                  Object.defineProperty(event, "offsetY", { value: at.offsetY });
-                  plot.over.dispatchEvent(event);
-                }""", row)
+                plot.over.scrollIntoView({ block: "center" });
+                return [plot.valToPos(group.series.x[k], "x") - plot.over.clientWidth / 2, plot.valToPos(group.series.y[k], "y") - plot.over.clientHeight / 2];
+                """, row)
+            over = browser.driver.find_element("css selector", ".u-over")
+            ActionChains(browser.driver).move_to_element_with_offset(over, round(x), round(y)).click().perform()
             detail = browser.run("return document.querySelector('.detail').textContent")
             self.assertIn(f"coagula report set.h5 --structure {self.ids[row]}", detail)
             self.assertEqual(browser.run("return document.querySelector('tr.chosen').cells[0].textContent"), self.ids[row])
