@@ -15,33 +15,15 @@ except ImportError:
 
 from browser import Browser, needs_browser
 from support import ProgramTest
+from test_dataset import SWEEP
 
-SWEEP = """
-title = "Two <b>kinds</b></script>"
-authors = ["A. Author"]
-licence = "CC-BY-4.0"
-
-[[generate]]
-verb = "vem"
-particles = 60
-voids = [10, 30]
-volume-fraction = 0.4
-radius = "0.25um"
-replicates = 2
-
-[characterize]
-only = "coordination"
-
-[shear]
-method = "linear"
-shear-stiffness = [10, 50]
-"""
+TITLE = "Two <b>kinds</b></script>"
 
 
 class WithSet(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.write("sweep.toml", SWEEP)
+        self.write("sweep.toml", SWEEP.replace('title = "small"', f'title = "{TITLE}"'))
         self.succeed("dataset", "run", "sweep.toml", "-o", "set.h5")
         with h5py.File(self.folder / "set.h5") as file:
             self.index = {name: file["index"][name][:] for name in file["index"]}
@@ -80,6 +62,7 @@ class SetPage(WithSet):
     def test_table_sorts_and_filters(self):
         with Browser() as browser:
             browser.open(self.folder / "set.html")
+            self.assertEqual(browser.run("return document.querySelector('h1').textContent"), TITLE)  # a text, never HTML
             heads = self.heads(browser)
             self.assertEqual([row[heads.index("id")] for row in self.rows(browser)], self.ids)
             self.filter(browser, "voids", ">20")

@@ -5,6 +5,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/stages/provenance.hpp>
+#include <coagula/stages/scratch_folder.hpp>
 
 #include <omp.h>
 
@@ -49,8 +50,8 @@ struct Cost {
 
 /// Computes one structure and removes it again.
 Cost measured_cost(const SetRow& row, const SetRun& run) {
-    const fs::path folder = fs::temp_directory_path() / ("coagula-plan-" + row.id);
-    const SetParts parts(folder.string());
+    const ScratchFolder scratch;
+    const SetParts parts((scratch.path() / row.id).string());
     fs::create_directories(parts.folder());
     const SetRow small = small_row(row);
     const int threads = omp_get_max_threads();
@@ -62,8 +63,6 @@ Cost measured_cost(const SetRow& row, const SetRun& run) {
     const std::optional<SetRecord> record = parts.record(row.id);
     std::error_code missing;
     const auto bytes = fs::file_size(parts.structure(row.id), missing);
-    std::error_code ignored;
-    fs::remove_all(parts.folder(), ignored);
     if (!record || !record->done) {
         throw InputError("the structure " + small.generate.call() + " with " + std::to_string(small.generate.count("particles")) +
                          " particles cannot be made: " + (record ? record->message : "nothing came of it"));

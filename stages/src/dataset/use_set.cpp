@@ -6,6 +6,7 @@
 #include <coagula/io/structure_file.hpp>
 #include <coagula/stages/output_file.hpp>
 #include <coagula/stages/provenance.hpp>
+#include <coagula/stages/scratch_folder.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,22 +38,6 @@ Sweep sweep_of(const io::SetHead& set, const std::string& path) {
     }
     throw InputError(path + ": /provenance/sweep_file is missing, so that the sweep cannot be read again");
 }
-
-/// A folder for structures that are computed again, removed at the end.
-class ScratchParts {
-public:
-    explicit ScratchParts(const std::string& set) : parts_(set + ".verify") { fs::create_directories(parts_.folder()); }
-    ScratchParts(const ScratchParts&) = delete;
-    ScratchParts& operator=(const ScratchParts&) = delete;
-    ~ScratchParts() {
-        std::error_code ignored;
-        fs::remove_all(parts_.folder(), ignored);
-    }
-    const SetParts& operator*() const { return parts_; }
-
-private:
-    SetParts parts_;
-};
 
 void compare_sums(const std::string& path, const std::map<std::string, SetRecord>& records) {
     std::map<std::string, std::string> sums;
@@ -124,13 +109,15 @@ Printed verify_set(const std::string& path, std::int64_t sample, const Progress&
         throw InputError(path + ": no structure has the options that its sweep says; a file that the sweep names has changed");
     }
     const auto wanted = std::min(static_cast<std::size_t>(sample), done.size());
-    const ScratchParts parts(path);
+    const ScratchFolder scratch;
+    const SetParts parts((scratch.path() / "again").string());
+    fs::create_directories(parts.folder());
     for (std::size_t k = 0; k < wanted; ++k) {
         const SetRow& row = *done[wanted > 1 ? k * (done.size() - 1) / (wanted - 1) : 0];  // from the first to the last
         progress.update("computing again", static_cast<double>(k) / static_cast<double>(wanted), row.id);
         const SetRecord& stored = records.at(row.id);
-        compute_rows({&row}, *parts, !stored.sha256.empty());
-        const SetRecord computed = (*parts).record(row.id).value();
+        compute_rows({&row}, parts, !stored.sha256.empty());
+        const SetRecord computed = parts.record(row.id).value();
         if (!computed.done) {
             throw InputError(path + ": the structure " + row.id + " cannot be computed again: " + computed.message);
         }

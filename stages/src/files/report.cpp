@@ -11,11 +11,10 @@
 #include <coagula/stages/files.hpp>
 #include <coagula/stages/output_file.hpp>
 #include <coagula/stages/provenance.hpp>
+#include <coagula/stages/scratch_folder.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
 
 namespace coagula::stages {
 
@@ -50,28 +49,6 @@ void tell_apart(std::vector<report::PageStructure>& pages, const std::vector<std
     }
 }
 
-/// A folder of its own for a structure that is taken out of a set, removed at the end.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "coagula-report-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) {
-            throw std::runtime_error("no folder for a structure can be made in " + pattern);
-        }
-        path_ = pattern;
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 /// One structure of a set.
 report::PageStructure read_from_set(const Arguments& arguments, const std::string& id) {
     const std::string set = arguments.inputs().front();
@@ -95,14 +72,15 @@ std::vector<report::PageStructure> structures_for(const Arguments& arguments) {
         return {read_from_set(arguments, arguments.text("structure"))};
     }
     std::vector<report::PageStructure> pages;
-    for (const std::string& path : arguments.inputs()) {
-        if (io::is_set(path)) {
+    const std::vector<std::string> paths = arguments.inputs();
+    for (const std::string& path : paths) {
+        if (paths.size() > 1 && io::is_set(path)) {
             throw InputError(path + " is a data set: it has a page of its own, or that of one of its structures by " +
                              arguments.spelled("structure"));
         }
         pages.push_back(read_page(arguments, path));
     }
-    tell_apart(pages, arguments.inputs());
+    tell_apart(pages, paths);
     return pages;
 }
 

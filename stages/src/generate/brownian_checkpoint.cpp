@@ -80,7 +80,7 @@ Eigen::Matrix3Xd read_vectors(const CheckpointReader& file, const std::string& n
     return Eigen::Matrix3Xd::Map(values.data(), 3, static_cast<Index>(particles));
 }
 
-/// What a flow adds: the strains of the lists, and the stress since the last sample.
+/// A flow adds the strains of the lists and the stress since the last sample to a checkpoint.
 void put_flow(std::vector<io::Dataset>& all, const BrownianCheckpoint& checkpoint) {
     if (checkpoint.series.stress.strain.empty()) {
         return;

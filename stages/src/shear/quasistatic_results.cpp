@@ -62,7 +62,7 @@ void append_broken(Results& results, const std::string& path, const std::vector<
     append_causes(results, path, causes);
 }
 
-/// What people read where the network failed.
+/// The sentence that tells people how the network failed.
 std::string sentence_of(const mechanics::NetworkFailure& failure) {
     return "failed at strain " + with_unit(failure.strain, "1") + ", " + std::to_string(failure.broken) + " bonds broken: " +
            (failure.parted ? "nothing reaches from plate to plate any more"
