@@ -62,7 +62,7 @@ struct Places {
         way.x -= from[0];
         way.y -= from[1];
         way.z -= from[2];
-        // Of pairs nearer than half of each period these are the nearest images, however far the third edge leans.
+        // This leads to the nearest images of all pairs nearer than half of each period, however far the third edge leans.
         Lanes turns;
         wrap_z(way.z, turns);
         way.x -= turns * lean;

@@ -142,7 +142,6 @@ void add_causes(const Inference& inference, const Fit& fit, const Prediction& ab
             for (std::size_t k = 0; k < directions.size(); ++k) {
                 one.directions.col(static_cast<Index>(k)) = directions[k];
             }
-            all.push_back(one);
             for (const auto& [kind, own] : kinds) {
                 MisfitStatistic part{.observable = "all", .tables = std::string(name_of(kind)), .cause = mechanism->name};
                 part.directions = steps_in(own, one.directions, basis);
@@ -150,6 +149,7 @@ void add_causes(const Inference& inference, const Fit& fit, const Prediction& ab
                     all.push_back(std::move(part));
                 }
             }
+            all.push_back(std::move(one));
         }
     }
 }

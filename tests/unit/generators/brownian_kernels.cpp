@@ -179,7 +179,7 @@ TEST(BrownianKernels, FindTheLongestWay) {
                     std::pow(0.5 + 0.01 * static_cast<double>(slot), 2), 1e-12);
     }
     EXPECT_EQ(longest_squared_way(moved.data(), example.positions.data(), 0, 1, 150), 0);
-    // What only follows a shear has not gone anywhere.
+    // A particle that only follows the shear has not moved.
     for (std::size_t slot = 0; slot < Example::particles; ++slot) {
         moved[4 * slot] = example.positions[4 * slot] + 0.3 * example.positions[4 * slot + 2];
     }

@@ -39,7 +39,7 @@ struct StressSeries {
     std::vector<double> normal_stress_z;       ///< [Pa]
 };
 
-/// Of several times: what is left until a sample is taken. Energies in kB T.
+/// Sums over the steps since the last sample, of which the next sample takes the mean. Energies are in kB T.
 struct StressSum {
     Eigen::Matrix3d pairs = Eigen::Matrix3d::Zero();    ///< branch x force
     Eigen::Matrix3d sliding = Eigen::Matrix3d::Zero();  ///< the part of the springs that oppose sliding
