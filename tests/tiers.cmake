@@ -33,7 +33,7 @@ set(coagula_slow_tests
   "ThirdHarmonic[.](Of|Hertz).*"
   "Thixotropy[.].*"
   "VolumeFractionGradient[.].*"
-  "Verdict[.]OneRowTenTimesTooLargeIsNoName"
+  "Verdict[.](OneRowTenTimesTooLargeIsNoName|WhatNoCauseDoesIsSaidToFollowTheTime)"
   "cli[.]slurm[.].*"
   "web[.]set_page[.].*"
   "BrownianDepletion[.]PairsHaveTheirBoltzmannDistribution"

@@ -288,16 +288,16 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
 
 namespace {
 
-/// Numbers of one observable that a remainder moves, and how far, over the measured |G*|.
+/// Numbers of one observable that a remainder moves, and how far, over |G*|.
 struct Moved {
     std::vector<Index> rows;
     Eigen::VectorXd share;  ///< of every number
     Index largest = 0;
 };
 
-Moved moved_by(const SmoothRemainder& remainder, const DataSet& data) {
+Moved moved_by(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction) {
     Moved moved;
-    moved.share = (remainder.departure.array() / complex_moduli(data.observations, data.values).max(1e-300)).matrix();
+    moved.share = (remainder.departure.array() / complex_moduli(data.observations, prediction).max(1e-300)).matrix();
     moved.share.cwiseAbs().maxCoeff(&moved.largest);
     const char* observable = observable_of(data.observations[static_cast<std::size_t>(moved.largest)]);
     constexpr double part = 0.5;
@@ -313,8 +313,8 @@ Moved moved_by(const SmoothRemainder& remainder, const DataSet& data) {
 
 }  // namespace
 
-std::string place_of(const SmoothRemainder& remainder, const DataSet& data) {
-    const Moved moved = moved_by(remainder, data);
+std::string place_of(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction) {
+    const Moved moved = moved_by(remainder, data, prediction);
     const auto& observations = data.observations;
     std::string text = spoken(observable_of(observations[static_cast<std::size_t>(moved.largest)])) + " lies " +
                        (moved.share[moved.largest] < 0 ? "below" : "above") + " the model by up to " +

@@ -16,7 +16,8 @@ namespace coagula::diagnose {
 /// level from a known stiffness and those of samples, likewise. If none is above chance, the strongest along an axis.
 std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection);
 
-/// Where a remainder lies and how large it is, as a share of the measured |G*|, in a sentence.
-std::string place_of(const SmoothRemainder& remainder, const DataSet& data);
+/// Where a remainder lies and how large it is, in a sentence.
+/// @param prediction of the model that leaves it over.
+std::string place_of(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction);
 
 }  // namespace coagula::diagnose

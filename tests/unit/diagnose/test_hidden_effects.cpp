@@ -312,16 +312,6 @@ TEST(HiddenEffects, ErrorsOfLocalisationAreNamed) {
     EXPECT_FALSE(nothing.detected);
 }
 
-/// Few numbers that fail are not lost among many that do not.
-TEST(HiddenEffects, ErrorsOfLocalisationAreFoundBesideSweepsToo) {
-    const Measurement centres = coordinates(2.5e-8, 6e-8, 0, 9);
-    const Diagnosis alone = diagnose_table(centres);
-    const Diagnosis together =
-        diagnose_tables({centres, frequency_sweep(springs(40), {}, 31), frequency_sweep(springs(40), {}, 32)});
-    EXPECT_TRUE(alone.detected) << alone.p_value;
-    EXPECT_TRUE(together.detected) << together.p_value;
-}
-
 /// Centres where no particle is, drawn among those of a structure that the simulation does not know.
 TEST(HiddenEffects, FalseParticlesAreCounted) {
     Settings settings;
