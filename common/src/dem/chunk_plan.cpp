@@ -133,8 +133,9 @@ std::vector<ChunkPlan> plan_chunks(const NeighbourSearch& search, const std::vec
     assign_bonds(plans, bonds, sorted_of);
 #pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
     for (ChunkPlan& plan : plans) {
+        std::vector<std::int32_t> scratch;
         for (std::int32_t number = plan.first; number < plan.last; ++number) {
-            search.find_pairs_of(number, plan.pairs);
+            search.find_pairs_of(number, plan.pairs, scratch);
         }
         if (!bonds.empty()) {
             std::erase_if(plan.pairs, [&](const ListedPair& pair) { return partners.bonded(pair); });

@@ -39,6 +39,12 @@ struct FourLanes {
     }
     static const double* at(const double* quads, std::int32_t slot) { return quads + 4 * static_cast<std::size_t>(slot); }
     static double* at(double* quads, std::int32_t slot) { return quads + 4 * static_cast<std::size_t>(slot); }
+    static void take(const double* quads, Real (&values)[4]) {
+        for (int lane = 0; lane < 4; ++lane) {
+            values[lane] = load(at(quads, lane));
+        }
+        transpose(values);
+    }
     static void gather(const double* quads, const std::int32_t* slots, Real (&values)[4]) {
         for (int lane = 0; lane < 4; ++lane) {
             values[lane] = load(at(quads, slots[2 * lane]));

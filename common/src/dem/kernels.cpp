@@ -7,7 +7,7 @@ namespace coagula::dem::detail {
 
 const Kernels& plain_kernels() {
     static constexpr Kernels plain{add_bond_forces<OneLane, OneLane, SpringForce>, move_particles<OneLane>,
-                                   find_touching<OneLane, OneLane>};
+                                   find_touching<OneLane, OneLane>, find_near<OneLane, OneLane>};
     return plain;
 }
 

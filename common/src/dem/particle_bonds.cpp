@@ -51,6 +51,7 @@ std::vector<Bond> ParticleSystem::remove_bonds(const std::function<bool(const Bo
             if (breaks(bond)) {
                 removed.push_back(bond);
                 chunk.pairs.push_back(simple.ends);
+                chunk.near_stale = true;
             } else {
                 chunk.bonds.set(kept++, simple);
             }

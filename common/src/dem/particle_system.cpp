@@ -57,6 +57,13 @@ void link_ghosts(Slots& slots, std::vector<Chunk>& chunks) {
     });
 }
 
+/// Writes the message only if it is needed.
+double checked_positive(double value, const char* what, Index particle, const char* unit) {
+    return value > 0 && std::isfinite(value)
+               ? value
+               : require_positive(value, std::string("the ") + what + " of particle " + std::to_string(particle), unit);
+}
+
 Quad padded(const Eigen::Vector3d& vector) {
     return {vector[0], vector[1], vector[2], 0.0};
 }
@@ -191,6 +198,7 @@ void ParticleSystem::rebuild(ParticleState state) {
     std::vector<std::int32_t> order;
     const std::vector<ChunkPlan> plans = plan(state, order);
     lay_out_chunks(plans);
+#pragma omp parallel for schedule(dynamic) if (plans.size() > 1)
     for (std::size_t number = 0; number < plans.size(); ++number) {
         const Chunk& chunk = chunks_[number];
         for (std::int32_t slot = chunk.begin; slot < chunk.own_end; ++slot) {
@@ -207,6 +215,7 @@ void ParticleSystem::rebuild(ParticleState state) {
     list_strain_ = shear_.strain;
     approach_ = 0;
     ++list_builds_;
+    forget_near();
 }
 
 /// Slots of the chunks one after the other, own before ghosts.
@@ -281,6 +290,7 @@ void ParticleSystem::refresh_carefully(double margin) {
             squared = std::max(squared, moved.squaredNorm());
         }
         chunk.path = std::sqrt(squared);
+        chunk.near_stale = true;  // the path it was counted by is gone
         displacement = std::max(displacement, chunk.path);
     }
     // Close to the limit measuring would have to be repeated all the time.
@@ -289,11 +299,34 @@ void ParticleSystem::refresh_carefully(double margin) {
     }
 }
 
+/// Like refresh(), for the near pairs.
+void ParticleSystem::refresh_near() {
+    double path = 0;
+    bool stale = false;
+    for (const Chunk& chunk : chunks_) {
+        path = std::max(path, chunk.path - chunk.near_path);
+        stale = stale || chunk.near_stale;
+    }
+    if (stale || !(2 * (path + near_growth_) + near_approach_ <= near_skin_)) {
+        forget_near();
+    }
+}
+
+/// The next evaluation of forces, at the present positions, chooses the near pairs anew.
+void ParticleSystem::forget_near() {
+    for (Chunk& chunk : chunks_) {
+        chunk.near_stale = true;
+        chunk.near_path = chunk.path;
+    }
+    near_growth_ = 0;
+    near_approach_ = 0;
+}
+
 void ParticleSystem::set_masses(const Eigen::VectorXd& masses) {
     require(masses.size() == size(), "the particle system has " + std::to_string(size()) + " particles, but " +
                                          std::to_string(masses.size()) + " masses were given");
     for (Index particle = 0; particle < size(); ++particle) {
-        const double mass = require_positive(masses[particle], "the mass of particle " + std::to_string(particle), "kg");
+        const double mass = checked_positive(masses[particle], "mass", particle, "kg");
         const std::size_t slot = at(slot_of_[static_cast<std::size_t>(particle)]);
         slots_.inverse_mass[slot] = 1 / mass;
         slots_.inverse_inertia[slot] = 2.5 / (mass * radii_[particle] * radii_[particle]);
@@ -303,11 +336,12 @@ void ParticleSystem::set_masses(const Eigen::VectorXd& masses) {
 void ParticleSystem::set_radii(const Eigen::VectorXd& radii) {
     require(radii.size() == size(), "the particle system has " + std::to_string(size()) + " particles, but " +
                                         std::to_string(radii.size()) + " radii were given");
+    near_growth_ += std::max(0.0, (radii - radii_).maxCoeff());
     radii_ = radii;
     growth_ = std::max(0.0, (radii_ - list_radii_).maxCoeff());
     for (Index particle = 0; particle < size(); ++particle) {
         slots_.position[at(slot_of_[static_cast<std::size_t>(particle)])][3] =
-            require_positive(radii[particle], "the radius of particle " + std::to_string(particle), "m");
+            checked_positive(radii[particle], "radius", particle, "m");
     }
 }
 
@@ -333,14 +367,6 @@ void ParticleSystem::keep_listed(double gap) {
     listed_gap_ = gap;
 }
 
-void ParticleSystem::hold(const std::vector<Index>& particles) {
-    for (const Index particle : particles) {
-        const std::size_t slot = at(slot_of_[static_cast<std::size_t>(particle)]);
-        slots_.inverse_mass[slot] = 0;
-        slots_.inverse_inertia[slot] = 0;
-    }
-}
-
 void ParticleSystem::set_velocity(const std::vector<Index>& particles, const Eigen::Vector3d& velocity) {
     for (const Index particle : particles) {
         slots_.velocity[at(slot_of_[static_cast<std::size_t>(particle)])] = padded(velocity);
@@ -362,7 +388,9 @@ void ParticleSystem::shear(int direction, int normal, double increment) {
             slots_.shift[ghost].head<3>() = image_shift(slots_.images[ghost]);
         }
     }
-    approach_ = std::abs(shear_.strain - list_strain_) * (2 * radii_.maxCoeff() + skin_);
+    const double farthest = 2 * radii_.maxCoeff() + skin_;
+    approach_ = std::abs(shear_.strain - list_strain_) * farthest;
+    near_approach_ += std::abs(increment) * farthest;
 }
 
 }  // namespace coagula::dem

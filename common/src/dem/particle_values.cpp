@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "chunk_plan.hpp"
+
 // Places, motions and forces of the particle system in the caller's particle numbers.
 
 namespace coagula::dem {
@@ -46,6 +48,14 @@ Eigen::Vector3d ParticleSystem::total_force(const std::vector<Index>& particles)
         sum += slots_.force[at(slot_of_[static_cast<std::size_t>(particle)])].head<3>();
     }
     return sum;
+}
+
+void ParticleSystem::hold(const std::vector<Index>& particles) {
+    for (const Index particle : particles) {
+        const std::size_t slot = at(slot_of_[static_cast<std::size_t>(particle)]);
+        slots_.inverse_mass[slot] = 0;
+        slots_.inverse_inertia[slot] = 0;
+    }
 }
 
 }  // namespace coagula::dem

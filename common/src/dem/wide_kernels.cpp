@@ -13,6 +13,6 @@ struct Here;
 }  // namespace
 
 extern const Kernels wide_kernels{add_bond_forces<FourLanes, SingleLane<Here>, SpringForce>, move_particles<FourLanes>,
-                                  find_touching<FourLanes, SingleLane<Here>>};
+                                  find_touching<FourLanes, SingleLane<Here>>, find_near<FourLanes, SingleLane<Here>>};
 
 }  // namespace coagula::dem::detail

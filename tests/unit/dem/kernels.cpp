@@ -101,7 +101,7 @@ TEST(Kernels, FollowTheKinematicsOfTheGeneralLaw) {
 std::vector<std::int32_t> touching_pairs(const std::vector<Quad>& position, const std::vector<SlotPair>& pairs,
                                          const detail::Kernels& kernels) {
     std::vector<std::int32_t> found(pairs.size());
-    found.resize(kernels.find_touching(position.data()->data(), &pairs.data()->first, pairs.size(), found.data()));
+    found.resize(kernels.find_touching(position.data()->data(), &pairs.data()->first, pairs.size(), 0.0, found.data()));
     return found;
 }
 
@@ -112,6 +112,28 @@ TEST(Kernels, FindThePairsThatOverlap) {
     const std::vector<std::int32_t> overlapping{0, 3, 4, 5};
     for (const detail::Kernels* kernels : {&detail::plain_kernels(), &detail::fastest_kernels()}) {
         EXPECT_EQ(touching_pairs(position, pairs, *kernels), overlapping);
+    }
+}
+
+TEST(Kernels, FindThePairsWithinAGap) {
+    const std::vector<Quad> position{{0, 0, 0, 1}, {2.1, 0, 0, 1}, {0, 2.3, 0, 1}, {0, 0, 1.9, 1}, {-2.19, 0, 0, 1}};
+    const std::vector<SlotPair> pairs{{0, 1}, {0, 2}, {0, 3}, {4, 0}, {1, 2}};
+    for (const detail::Kernels* kernels : {&detail::plain_kernels(), &detail::fastest_kernels()}) {
+        std::vector<std::int32_t> found(pairs.size());
+        found.resize(kernels->find_touching(position.data()->data(), &pairs.data()->first, pairs.size(), 0.2, found.data()));
+        EXPECT_EQ(found, (std::vector<std::int32_t>{0, 2, 3}));
+    }
+}
+
+TEST(Kernels, FindTheSpheresNearAPoint) {
+    // The first and the last are out of the range that is searched.
+    const std::vector<Quad> spheres{{0, 0, 0, 1},       {1.4, 0, 0, 1}, {1.6, 0, 0, 1}, {0, 1.2, 1.2, 1},
+                                    {0, 1.2, 1.2, 1.3}, {-9, 0, 0, 1},  {-9, 0, 0, 9},  {0, 0, 0, 1}};
+    const Quad centre(0, 0, 0, 0.5);
+    for (const detail::Kernels* kernels : {&detail::plain_kernels(), &detail::fastest_kernels()}) {
+        std::vector<std::int32_t> found(spheres.size());
+        found.resize(kernels->find_near(spheres.data()->data(), 1, 7, centre.data(), found.data()));
+        EXPECT_EQ(found, (std::vector<std::int32_t>{1, 4, 6}));
     }
 }
 

@@ -154,6 +154,39 @@ TEST(NeighbourList, NeverMissesAContactWhileParticlesMoveAndGrow) {
     }
 }
 
+TEST(NeighbourList, FindsAllPairsOfUnequalSpheresThatReachTheNextBoxesOnly) {
+    const Packing packing = random_packing(Cell::periodic({24, 20, 18}), 900, 0.7, 0.9, 9);
+    const ParticleSystem system(packing.cell, packing.positions, packing.radii, 0.5);
+    expect_same(listed(system), all_pairs(packing, 0.5, 1));
+}
+
+TEST(NeighbourList, GivesTheSameForcesWithNearPairsToTheBit) {
+    const Packing start = random_packing(Cell::periodic({14, 14, 14}), 900, 0.3, 0.8, 6);
+    ParticleSystem all(start.cell, start.positions, start.radii, 0.6);
+    all.set_velocities(0.5 * noise(start.size(), 7));
+    ParticleSystem near = all;
+    near.keep_near(0.1);
+    const Interactions<RepulsiveSpring, BondSpring> repelling{RepulsiveSpring(1.0), BondSpring(1.0)};
+    Interactions<RepulsiveSpring, BondSpring> sticking = repelling;
+    sticking.bond_on_touch = true;
+    Eigen::VectorXd radii = start.radii;
+    for (int round = 0; round < 30; ++round) {
+        radii.tail(300) *= 1.004;
+        for (ParticleSystem* system : {&all, &near}) {
+            system->set_radii(radii);
+            system->shear(0, 2, 0.002);
+            for (int count = 0; count < 7; ++count) {
+                step(*system, count == 3 && round % 4 == 0 ? sticking : repelling, {.time_step = 0.2, .damping = 0.1});
+            }
+            system->remove_bonds([](const Bond& bond) { return bond.first % 3 == 0; });
+        }
+        ASSERT_EQ(near.forces(), all.forces()) << "round " << round;
+        ASSERT_EQ(near.positions(), all.positions()) << "round " << round;
+    }
+    EXPECT_GT(near.list_builds(), 3);
+    EXPECT_GT(near.bonds().size(), 50U);
+}
+
 TEST(NeighbourList, ReportsParticlesThatRunAway) {
     ParticleSystem system(Cell::periodic({10, 10, 10}), noise(4, 8), Eigen::VectorXd::Ones(4), 0.1);
     const Interactions<RepulsiveSpring, BondSpring> laws{RepulsiveSpring(1e9), BondSpring(1.0)};

@@ -48,6 +48,12 @@ struct SingleLane {
     static Real magnitude(Real value) { return __builtin_fabs(value); }
     static Real where_positive(Real sign, Real value) { return sign > 0 ? value : 0.0; }
     static double sum_of_three(const Real* values) { return values[0] + values[1] + values[2]; }
+    /// Four numbers each of consecutive slots, one slot per lane.
+    static void take(const double* quads, Real (&values)[4]) {
+        for (int component = 0; component < 4; ++component) {
+            values[component] = quads[component];
+        }
+    }
     /// Four numbers of the slot named by every second entry of `slots`, one per lane.
     static void gather(const double* quads, const std::int32_t* slots, Real (&values)[4]) {
         for (int component = 0; component < 4; ++component) {

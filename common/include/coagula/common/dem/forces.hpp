@@ -69,8 +69,39 @@ inline std::size_t find_touching(const Slots& slots, Chunk& chunk) {
     if (chunk.pairs.empty()) {
         return 0;
     }
-    return fastest_kernels().find_touching(slots.position.data()->data(), &chunk.pairs.data()->first, chunk.pairs.size(),
+    return fastest_kernels().find_touching(slots.position.data()->data(), &chunk.pairs.data()->first, chunk.pairs.size(), 0.0,
                                            chunk.touching.data());
+}
+
+/// Chooses the pairs that are nearer than `near_skin`.
+inline void choose_near(const Slots& slots, Chunk& chunk, double near_skin) {
+    chunk.near_numbers.resize(chunk.pairs.size());
+    chunk.near.clear();
+    if (!chunk.pairs.empty()) {
+        chunk.near_numbers.resize(fastest_kernels().find_touching(slots.position.data()->data(), &chunk.pairs.data()->first,
+                                                                  chunk.pairs.size(), near_skin, chunk.near_numbers.data()));
+    }
+    for (const std::int32_t number : chunk.near_numbers) {
+        chunk.near.push_back(chunk.pairs[at(number)]);
+    }
+    chunk.near_stale = false;
+}
+
+/// The same pairs as find_touching() lists, in the same order.
+inline std::size_t find_touching_near(const Slots& slots, Chunk& chunk, double near_skin) {
+    if (chunk.near_stale) {
+        choose_near(slots, chunk, near_skin);
+    }
+    chunk.touching.resize(chunk.near.size());
+    if (chunk.near.empty()) {
+        return 0;
+    }
+    const std::size_t count = fastest_kernels().find_touching(slots.position.data()->data(), &chunk.near.data()->first,
+                                                              chunk.near.size(), 0.0, chunk.touching.data());
+    for (std::size_t entry = 0; entry < count; ++entry) {
+        chunk.touching[entry] = chunk.near_numbers[at(chunk.touching[entry])];
+    }
+    return count;
 }
 
 /// Moves the first `count` touching pairs to the bonds.
@@ -78,6 +109,7 @@ inline void bond_touching(const Slots& slots, Chunk& chunk, std::size_t count) {
     if (count == 0) {
         return;
     }
+    chunk.near_stale = true;
     std::size_t kept = at(chunk.touching[0]);
     std::size_t next = 0;
     for (std::size_t number = kept; number < chunk.pairs.size(); ++number) {
@@ -103,8 +135,8 @@ Quad central_force(const Law& law, const Quad& separation, double rest_length) {
 }
 
 template <CentralLaw Law>
-void add_contact_forces(Slots& slots, Chunk& chunk, const Law& law, bool bond_on_touch) {
-    const std::size_t count = find_touching(slots, chunk);
+void add_contact_forces(Slots& slots, Chunk& chunk, const Law& law, bool bond_on_touch, double near_skin) {
+    const std::size_t count = near_skin > 0 ? find_touching_near(slots, chunk, near_skin) : find_touching(slots, chunk);
     for (std::size_t entry = 0; entry < count; ++entry) {
         const SlotPair pair = chunk.pairs[at(chunk.touching[entry])];
         Quad separation = slots.position[at(pair.second)] - slots.position[at(pair.first)];
@@ -157,11 +189,11 @@ inline void add_bond_forces(Slots& slots, Chunk& chunk, const BondedContact& law
 }
 
 template <class Laws>
-void evaluate(Slots& slots, Chunk& chunk, const Laws& laws) {
+void evaluate(Slots& slots, Chunk& chunk, const Laws& laws, double near_skin) {
     prepare<Laws::turns>(slots, chunk);
     // Bonds first: a touching pair that becomes a bond has its force from the contact in this evaluation.
     add_bond_forces(slots, chunk, laws.bond);
-    add_contact_forces(slots, chunk, laws.contact, laws.bond_on_touch);
+    add_contact_forces(slots, chunk, laws.contact, laws.bond_on_touch, near_skin);
 }
 
 /// Adds to the forces (or moments) on the own slots of a chunk what acts on their ghosts, in a fixed order.
@@ -200,7 +232,7 @@ template <class Laws>
 void compute_forces(ParticleSystem& system, const Laws& laws) {
     system.refresh();
     Slots& slots = system.slots();
-    detail::for_each_chunk(system, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws); });
+    detail::for_each_chunk(system, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws, system.near_skin()); });
     detail::for_each_chunk(system, [&](Chunk& chunk) {
         detail::collect_all<Laws::turns>(slots, chunk);
         for (std::size_t slot = detail::at(chunk.begin); slot < detail::at(chunk.own_end); ++slot) {

@@ -83,7 +83,7 @@ void add_drag(Slots& slots, Chunk& chunk, const Solvent& solvent, double time_st
 void add_films(Slots& slots, Chunk& chunk, const Solvent& solvent, double time_step);
 
 template <>
-inline void evaluate(Slots& slots, Chunk& chunk, const GeneralInteractions& laws) {
+inline void evaluate(Slots& slots, Chunk& chunk, const GeneralInteractions& laws, double /*near_skin*/) {
     prepare<true>(slots, chunk);
     chunk.dissipated = 0;
     chunk.virial.setZero();

@@ -18,7 +18,10 @@ struct Kernels {
     /// move_particles() of motion_loop.hpp.
     double (*move_particles)(const MotionArrays& slots, std::size_t begin, std::size_t end, const MotionStep& step);
     /// find_touching() of pair_loop.hpp.
-    std::size_t (*find_touching)(const double* position, const std::int32_t* ends, std::size_t count, std::int32_t* touching);
+    std::size_t (*find_touching)(const double* position, const std::int32_t* ends, std::size_t count, double gap,
+                                 std::int32_t* touching);
+    /// find_near() of pair_loop.hpp.
+    std::size_t (*find_near)(const double* spheres, std::size_t begin, std::size_t end, const double* centre, std::int32_t* near);
 };
 
 /// For any processor: one number at a time.

@@ -35,7 +35,7 @@ public:
     double iterate() {
         system_.refresh();
         Slots& slots = system_.slots();
-        detail::for_each_chunk(system_, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws_); });
+        detail::for_each_chunk(system_, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws_, system_.near_skin()); });
         detail::for_each_chunk(system_, [&](Chunk& chunk) { sums_[number_of(chunk)] = collect_sums(slots, chunk); });
         Sums total;
         for (const Sums& part : sums_) {

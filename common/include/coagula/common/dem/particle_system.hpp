@@ -52,8 +52,12 @@ struct Chunk {
     Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();  ///< of general contacts: sum of force on first times branch [J]
     std::size_t handed_begin = 0;  ///< forces from ghosts for this chunk are entries [handed_begin, handed_end) of Slots::handed
     std::size_t handed_end = 0;
-    std::vector<std::int32_t> touching;  ///< scratch: pairs that overlap
-    double path = 0;                     ///< no particle of the chunk is farther from where it was when the list was made [m]
+    std::vector<SlotPair> near;              ///< those of `pairs` that may come to overlap soon; see ParticleSystem::keep_near
+    std::vector<std::int32_t> near_numbers;  ///< where they stand in `pairs`
+    bool near_stale = true;                  ///< whether `near` must be chosen anew before it is used
+    double near_path = 0;                    ///< `path` when it was last chosen [m]
+    std::vector<std::int32_t> touching;      ///< scratch: pairs that overlap
+    double path = 0;                         ///< no particle of the chunk is farther from where it was when the list was made [m]
 };
 
 /// Per-slot arrays. A slot is a particle (own) or a periodic image or copy of one (ghost); ghosts are refreshed before each force
@@ -185,7 +189,14 @@ public:
         if (!(2 * (path + growth_) + approach_ + listed_gap_ + margin <= skin_)) {
             refresh_carefully(margin);
         }
+        if (near_skin_ > 0) {
+            refresh_near();
+        }
     }
+    /// Forces are looked for only among the listed pairs nearer than r_i + r_j + near_skin [m], which are chosen anew whenever
+    /// another could touch. That pays where the skin is large. The forces stay the same to the bit.
+    void keep_near(double near_skin) { near_skin_ = near_skin; }
+    double near_skin() const { return near_skin_; }
     /// The list must always hold all pairs nearer than r_i + r_j + gap [m], < skin.
     void keep_listed(double gap);
     /// How often the list has been made.
@@ -199,6 +210,8 @@ public:
 
 private:
     void refresh_carefully(double margin);
+    void refresh_near();
+    void forget_near();
     void reduce_shear(ParticleState& state) const;
     void wrap(ParticleState& state) const;
     void rebuild(ParticleState state);
@@ -221,6 +234,9 @@ private:
     double list_strain_ = 0;  ///< of the cell when the list was made
     double approach_ = 0;     ///< that shear since then may have brought unlisted pairs closer, at most [m]
     double listed_gap_ = 0;
+    double near_skin_ = 0;      ///< 0: no near pairs are kept [m]
+    double near_growth_ = 0;    ///< of a radius since the near pairs were chosen, at most [m]
+    double near_approach_ = 0;  ///< that shear since then may have brought other pairs closer, at most [m]
     bool general_ = false;
     Index list_builds_ = 0;
     Slots slots_;

@@ -43,7 +43,7 @@ template <class Laws>
 void step(ParticleSystem& system, const Laws& laws, const StepOptions& options) {
     system.refresh();
     Slots& slots = system.slots();
-    detail::for_each_chunk(system, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws); });
+    detail::for_each_chunk(system, [&](Chunk& chunk) { detail::evaluate(slots, chunk, laws, system.near_skin()); });
     // Backwards, to begin with what the caches still hold.
     detail::for_each_chunk(
         system, [&](Chunk& chunk) { detail::integrate<Laws::turns>(slots, chunk, options); }, true);
