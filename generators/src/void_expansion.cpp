@@ -16,23 +16,30 @@ namespace coagula::generators {
 
 namespace {
 
-// The protocol, in units of the mean particle radius, the mass of a particle (voids too) and the stiffness of a contact.
-constexpr dem::StepOptions stepping{.time_step = 0.3, .damping = 0.3};
+// The protocol, in units of the mean particle radius, the mass of a particle of that radius (voids too) and the stiffness of a
+// contact.
+constexpr dem::StepOptions stepping{.time_step = 0.5, .damping = 0.3};
 constexpr double first_void_radius = 0.1;
 constexpr double increment = 0.01;
 constexpr double fine_increment = 0.005;
-constexpr Index steps_per_increment = 200;
-constexpr double settled_force = 2e-5;     // rms force on the structure particles that ends an increment early
-constexpr double trial_distance = 0.6;     // from the target coordination at which trials begin
-constexpr double fine_overlap = 0.001;     // rms overlap, over the diameter, at which the fine increments begin
-constexpr double largest_overlap = 0.09;   // the same, at which the target is given up
-constexpr double relaxed_overlap = 0.005;  // the same, that a relaxed packing may keep
-constexpr double largest_volume = 1.5;     // of all spheres over that of the box, at which the target is given up
-constexpr double start_force = 1e-6;       // rms force at which the structure particles count as moved apart
-constexpr double relaxed_force = 1e-7;     // rms force that ends a relaxation
-constexpr Index most_iterations = 100000;  // of a relaxation
-constexpr double skin = 0.6;               // of the neighbour list
-constexpr double highest_target = 6;       // of the coordination: a rigid packing of frictionless spheres
+constexpr double steps_per_increment = 70;        // times the void radius expected at the end, from 1 to 3
+constexpr double early_steps_per_increment = 35;  // the same, while voids are small and the particles have room
+constexpr double early_growth = 0.5;              // of the void radius expected at the end, up to which it is early
+constexpr double settled_force = 2e-5;            // rms force on the structure particles that ends an increment early
+constexpr double trial_distance = 0.6;            // from the target coordination at which trials begin
+constexpr double fine_overlap = 0.004;            // rms overlap, over the diameter, at which the fine increments begin
+constexpr double largest_overlap = 0.09;          // the same, at which the target is given up
+constexpr double relaxed_overlap = 0.005;         // the same, that a relaxed packing may keep
+constexpr double largest_volume = 1.5;            // of all spheres over that of the box, at which the target is given up
+constexpr double fastest_rise = 0.12;             // of the coordination of trials by one fine increment
+constexpr double start_time_step = 0.3;           // of moving the structure particles apart
+constexpr double start_force = 1e-6;              // rms force at which the structure particles count as moved apart
+constexpr double relaxed_force = 1e-7;            // rms force that ends a relaxation
+constexpr double contacts_force = 1e-4;           // the same at which hardly any more contacts form
+constexpr Index most_iterations = 100000;         // of a relaxation
+constexpr double skin = 1.2;                      // of the neighbour list
+constexpr double near_skin = 0.3;                 // of the pairs that are looked at in every step
+constexpr double highest_target = 6;              // of the coordination: a rigid packing of frictionless spheres
 
 using Laws = dem::Interactions<RepulsiveSpring, BondSpring>;
 const Laws laws{RepulsiveSpring(1.0), BondSpring(1.0)};
@@ -90,6 +97,7 @@ public:
 
     VoidExpansion run() {
         dem::ParticleSystem system(cell_, start_positions(), radii_, skin);
+        system.keep_near(near_skin);
         reject_dense_start(system);
         double growth = increment;
         while (true) {
@@ -98,11 +106,13 @@ public:
             const StructureContacts contacts = measure(system, structure_, options_.contact_tolerance);
             note_ = "coordination " + short_text(contacts.coordination);
             const bool near_target = contacts.coordination > options_.target_coordination - trial_distance;
-            if (near_target) {
+            if (near_target && increments_ >= next_trial_) {
                 VoidExpansion trial = describe(relax_without_voids(system));
                 if (trial.coordination >= options_.target_coordination && trial.overlap_rms < relaxed_overlap) {
                     return trial;
                 }
+                const double missing = std::max(0.0, options_.target_coordination - trial.coordination);
+                next_trial_ = increments_ + std::max<Index>(1, static_cast<Index>(missing / fastest_rise));
             }
             give_up_if_hopeless(system, contacts);
             growth = near_target || contacts.overlap_rms > fine_overlap ? fine_increment : increment;
@@ -119,7 +129,7 @@ private:
             positions.col(particle) = place.cwiseProduct(cell_.lengths());
         }
         dem::ParticleSystem structure(cell_, positions.leftCols(structure_), radii_.head(structure_), skin);
-        dem::Fire fire(structure, laws, stepping.time_step, 2 * stepping.time_step);
+        dem::Fire fire(structure, laws, start_time_step, 2 * start_time_step);
         Index iterations = 0;
         while (fire.iterate() > start_force) {
             progress_.update("void expansion", 0.0, "moving the particles apart");
@@ -150,11 +160,24 @@ private:
     void grow_voids(dem::ParticleSystem& system, double growth) {
         radii_.tail(options_.voids).array() += growth;
         system.set_radii(radii_);
+        if (increments_ == 0 || void_radius() > 1) {
+            system.set_masses(radii_.unaryExpr([](double radius) { return mass_of(radius); }));
+        }
         ++increments_;
     }
 
+    /// The more neighbours a sphere has room for, the stiffer it is held: large ones are heavier, for the sake of the time step.
+    static double mass_of(double radius) { return std::max(1.0, (1 + radius) * (1 + radius) / 6); }
+
+    /// A large void pushes more particles, and farther, than a small one.
+    Index most_steps() const {
+        const bool early = void_radius() < early_growth * last_void_radius_;
+        return std::lround((early ? early_steps_per_increment : steps_per_increment) * std::clamp(last_void_radius_, 1.0, 3.0));
+    }
+
     void settle(dem::ParticleSystem& system) {
-        for (Index count = 0; count < steps_per_increment; ++count) {
+        const Index most_steps = this->most_steps();
+        for (Index count = 0; count < most_steps; ++count) {
             dem::step(system, laws, stepping);
             ++steps_;
             report();
@@ -172,6 +195,7 @@ private:
         relaxing.tolerance = relaxed_force;
         relaxing.method = dem::RelaxMethod::damped;
         relaxing.damping = stepping.damping;
+        relaxing.fire_below = contacts_force;
         relaxing.bond_on_touch = true;
         relaxing.max_iterations = most_iterations;
         const Progress inner([this](std::string_view, double, std::string_view) {
@@ -234,7 +258,7 @@ private:
         return result;
     }
 
-    /// For the progress only: the volume that spheres take at the end rises from about 0.64 to 0.83 with the number of voids
+    /// The volume that spheres take at the end rises from about 0.64 to 0.83 with the number of voids
     /// (N_V/N = 1/8 to 2).
     double expected_void_radius() const {
         const double ratio = static_cast<double>(options_.voids) / static_cast<double>(structure_);
@@ -257,6 +281,7 @@ private:
     double solid_volume_ = 0;
     double last_void_radius_ = 0;
     Index increments_ = 0;
+    Index next_trial_ = 0;  ///< no trial before this increment
     Index steps_ = 0;
     std::string note_ = "placing particles";
 };

@@ -4,6 +4,7 @@
 #include <coagula/common/dem/minimise.hpp>
 #include <coagula/common/dem/stepper.hpp>
 
+#include <optional>
 #include <string>
 
 namespace coagula::dem {
@@ -18,6 +19,7 @@ void check_options(const RelaxOptions& options) {
     require_positive(options.normal_stiffness, "the normal contact stiffness", "N/m");
     require_non_negative(options.shear_stiffness, "the shear contact stiffness", "N/m");
     require_positive(options.tolerance, "the tolerance of the relaxation");
+    require_non_negative(options.fire_below, "the force below which FIRE takes over");
     require(options.max_iterations > 0, "the relaxation needs at least one iteration");
 }
 
@@ -61,9 +63,17 @@ Relaxation relax_with(const Packing& packing, const ContactNetwork& bonds, const
     const bool stopped = options.method == RelaxMethod::stopped_steps;
     const StepOptions stepping{time_step, stopped ? 0.0 : options.damping, stopped};
     check(stepping);
+    std::optional<Fire<Interactions<RepulsiveSpring, BondLaw>>> fire;
     return iterate(system, laws, force_unit, options, progress, [&] {
+        if (fire) {
+            return fire->iterate();
+        }
         step(system, laws, stepping);
-        return rms_force(system);
+        const double force = rms_force(system);
+        if (options.method == RelaxMethod::damped && force < options.fire_below * force_unit) {
+            fire.emplace(system, laws, time_step, longest_time_step);
+        }
+        return force;
     });
 }
 

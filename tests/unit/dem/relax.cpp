@@ -38,6 +38,21 @@ TEST(Relax, BringsBondsToTheirRestLengthByEachMethod) {
     }
 }
 
+TEST(Relax, LetsFireFinishWhatDampedStepsBegan) {
+    const Packing packing = tetrahedron(-0.1);
+    RelaxOptions options;
+    options.method = RelaxMethod::damped;
+    options.shear_stiffness = 5;
+    options.tolerance = 1e-12;
+    const ContactNetwork bonds = find_contacts(packing, 0.01);
+    const Relaxation damped = relax(packing, bonds, options);
+    options.fire_below = 1e-6;
+    const Relaxation finished = relax(packing, bonds, options);
+    ASSERT_TRUE(finished.converged);
+    EXPECT_LT(finished.iterations, damped.iterations);
+    EXPECT_LT((finished.packing.positions - damped.packing.positions).cwiseAbs().maxCoeff(), 1e-12 * 0.25e-6 * 10);
+}
+
 TEST(Relax, KeepsThePackingWithoutForcesAsItIs) {
     const Packing packing = tetrahedron(0.005);
     const Relaxation relaxed = relax(packing, ContactNetwork{4, {}, {}});

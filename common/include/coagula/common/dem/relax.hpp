@@ -20,6 +20,7 @@ struct RelaxOptions {
     double shear_stiffness = 0;    ///< of a bonded contact [N/m]; 0: central forces, nothing rotates
     RelaxMethod method = RelaxMethod::fire;
     double damping = 0.3;        ///< alpha, for RelaxMethod::damped
+    double fire_below = 0;       ///< rms force, as for the tolerance, at which FIRE takes over from damped steps; 0: never
     double tolerance = 1e-7;     ///< rms force on a particle over (normal stiffness x mean radius)
     bool bond_on_touch = false;  ///< particles that come to overlap are bonded, too
     Index max_iterations = 1000000;
