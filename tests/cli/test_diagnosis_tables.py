@@ -117,7 +117,8 @@ class Coordinates(Tables):
     def test_images_of_the_same_particles_show_errors_alone(self):
         self.images((5e-8, 1.2e-7), (5e-8, 1.2e-7))
         found = self.diagnosis(self.experiment())
-        self.assertEqual((found["verdict"], found["credible_set"], found["observations"]), ("named", ["localisation-error"], 35))
+        self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["localisation-error"]))
+        self.assertGreater(found["observations"], 30)
         for name, true in (("sigma_plane", 5e-8), ("sigma_axis", 1.2e-7)):
             sigma = found["causes"][0]["parameters"][name]
             self.assertTrue(0.9 * sigma["low"] < true < 1.1 * sigma["high"] and sigma["high"] < 1.5 * sigma["low"], sigma)

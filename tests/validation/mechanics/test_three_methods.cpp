@@ -14,6 +14,7 @@ namespace coagula::mechanics {
 namespace {
 
 constexpr double strain = 1e-6;
+constexpr int slow = 60000;  // steps of an oscillation; by 24000 a structure with soft parts is still 3 % too stiff
 
 generators::VoidExpansion structure(Index voids) {
     generators::VoidExpansionOptions options;
@@ -49,8 +50,14 @@ std::vector<double> explicit_moduli(const generators::VoidExpansion& sample, con
     return moduli;
 }
 
-double largest_deviation(const std::vector<double>& moduli, const LinearResponse& linear) {
-    const auto orientations = all_orientations();
+/// The strains of a plane have one modulus, whichever of its axes is the gradient.
+std::vector<ShearOrientation> one_of_each_plane() {
+    const auto all = all_orientations();
+    return {all[0], all[1], all[3]};
+}
+
+double largest_deviation(const std::vector<double>& moduli, const LinearResponse& linear,
+                         const std::vector<ShearOrientation>& orientations) {
     double largest = 0;
     for (std::size_t k = 0; k < moduli.size(); ++k) {
         const double expected = linear.shear_modulus(orientations[k].normal, orientations[k].direction);
@@ -64,8 +71,10 @@ class ThreeMethods : public ::testing::TestWithParam<Index> {};
 TEST_P(ThreeMethods, AgreeInAllOrientations) {
     const auto sample = structure(GetParam());
     const LinearResponse linear = solve_linear(sample.packing, sample.contacts);
-    EXPECT_LT(largest_deviation(small_strain_moduli(sample.packing, sample.contacts, springs(), strain), linear), 1e-4);
-    EXPECT_LT(largest_deviation(explicit_moduli(sample, all_orientations(), 24000), linear), 0.01);
+    EXPECT_LT(
+        largest_deviation(small_strain_moduli(sample.packing, sample.contacts, springs(), strain), linear, all_orientations()),
+        1e-4);
+    EXPECT_LT(largest_deviation(explicit_moduli(sample, one_of_each_plane(), slow), linear, one_of_each_plane()), 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(VoidsOfThreeKinds, ThreeMethods, ::testing::Values(125, 500, 2000),
@@ -75,10 +84,10 @@ TEST(ThreeMethods, ExplicitStepsConvergeAsTheRateFalls) {
     const auto sample = structure(500);
     const LinearResponse linear = solve_linear(sample.packing, sample.contacts);
     const std::vector<ShearOrientation> first{all_orientations().front()};
-    const double fast = largest_deviation(explicit_moduli(sample, first, 3000), linear);
-    const double slow = largest_deviation(explicit_moduli(sample, first, 24000), linear);
+    const double fast = largest_deviation(explicit_moduli(sample, first, 3000), linear, first);
+    const double slower = largest_deviation(explicit_moduli(sample, first, 24000), linear, first);
     EXPECT_GT(fast, 0.01) << "else the rate is not seen";
-    EXPECT_LT(slow, 0.5 * fast);
+    EXPECT_LT(slower, 0.5 * fast);
 }
 
 }  // namespace
