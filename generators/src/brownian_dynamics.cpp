@@ -199,6 +199,9 @@ public:
                 observe();
                 watch();
             }
+            if (control_.at_end && system_.steps() < last_step_) {
+                save();
+            }
         } catch (const Cancelled&) {
             save();
             throw;
@@ -327,7 +330,8 @@ private:
             note_ = "coordination " + std::to_string(coordination).substr(0, 4);
         }
         progress_.update("Brownian dynamics", std::max(by_time, by_contacts), note_);
-        if (control_.checkpoint_due && control_.checkpoint_due()) {
+        const bool last = control_.at_end && last_step_ - system_.steps() <= pause;
+        if (last || (control_.checkpoint_due && control_.checkpoint_due())) {
             save();
         }
     }

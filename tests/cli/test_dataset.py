@@ -180,6 +180,28 @@ class Runs(ProgramTest):
                                  index["doh.a.stderr"][row] if "doh.a.stderr" in index else None)
         self.assertFalse((self.folder / "set.h5.parts").exists())
 
+    def test_structures_of_one_trajectory_are_those_of_runs_of_their_own(self):
+        """Several ends of one run, in any order and beside another axis, also where some are there already."""
+        head = ('[[generate]]\nverb = "brownian"\nparticles = 60\nvolume-fraction = 0.3\nradius = "0.25um"\nequilibration-time = "0.1ms"\n'
+                'replicates = 2\n')
+        together = head + "stop-coordination = [2.5, 1.5, 2]\n[characterize]\nonly = [\"coordination\", \"doh\"]\n"
+        self.write("together.toml", together)
+        self.run_set("together.h5", sweep="together.toml")
+        expected = {}
+        for stop in (1.5, 2, 2.5):
+            self.write("alone.toml", together.replace("[2.5, 1.5, 2]", str(stop)))
+            self.run_set("alone.h5", "--force", sweep="alone.toml")
+            with h5py.File(self.folder / "alone.h5") as file:
+                expected.update(zip(file["index/id"][()], file["index/sha256"][()]))
+        with h5py.File(self.folder / "together.h5") as file:
+            self.assertEqual(dict(zip(file["index/id"][()], file["index/sha256"][()])), expected)
+            self.assertEqual(list(file["index/stop-coordination"]), [2.5, 2.5, 1.5, 1.5, 2, 2])
+        self.write("some.toml", together.replace("[2.5, 1.5, 2]", "2"))
+        self.run_set("some.h5", sweep="some.toml")
+        self.write("some.toml", together)
+        self.assertEqual(self.run_set("some.h5", sweep="some.toml")["computed"], 4)
+        self.assertEqual(self.succeed_json("dataset", "verify", "some.h5")["structures"], 6)
+
     def test_structure_is_that_of_the_verbs(self):
         self.run_set()
         self.succeed("generate", "vem", "--particles", 60, "--voids", 30, "--volume-fraction", 0.4, "--radius", "0.25um", "--seed", 2, "-o", "a.h5")

@@ -88,17 +88,30 @@ void take_from_parts(const Sweep& sweep, const SetRun& run, const SetParts& part
     }
 }
 
-/// Rows that are missing, those together that share a generated structure.
+/// The number of the trajectory of every row, in the order in which they come first.
+std::vector<std::size_t> trajectories_of(const std::vector<SetRow>& rows) {
+    std::map<std::string, std::size_t> numbers;
+    std::vector<std::size_t> all;
+    all.reserve(rows.size());
+    for (const SetRow& row : rows) {
+        all.push_back(numbers.try_emplace(row.trajectory, numbers.size()).first->second);
+    }
+    return all;
+}
+
+/// Rows that are missing, those of one trajectory together, as it passes them.
 std::vector<std::vector<const SetRow*>> missing_rows(const Sweep& sweep, const Known& known) {
+    const std::vector<std::size_t> trajectories = trajectories_of(sweep.rows);
+    std::map<std::size_t, std::vector<const SetRow*>> missing;
+    for (std::size_t k = 0; k < sweep.rows.size(); ++k) {
+        if (!known.records.contains(sweep.rows[k].id)) {
+            missing[trajectories[k]].push_back(&sweep.rows[k]);
+        }
+    }
     std::vector<std::vector<const SetRow*>> groups;
-    for (const SetRow& row : sweep.rows) {
-        if (known.records.contains(row.id)) {
-            continue;
-        }
-        if (groups.empty() || groups.back().front()->made_of != row.made_of) {
-            groups.emplace_back();
-        }
-        groups.back().push_back(&row);
+    for (auto& [number, rows] : missing) {
+        std::stable_sort(rows.begin(), rows.end(), [](const SetRow* a, const SetRow* b) { return a->stop < b->stop; });
+        groups.push_back(std::move(rows));
     }
     return groups;
 }
@@ -142,11 +155,10 @@ void compute(const std::vector<std::vector<const SetRow*>>& groups, const SetRun
 
 /// The part of the rows that a chunk is.
 std::vector<SetRow> rows_of_chunk(const std::vector<SetRow>& rows, std::size_t number, std::size_t count) {
+    const std::vector<std::size_t> trajectories = trajectories_of(rows);
     std::vector<SetRow> chosen;
-    std::size_t group = 0;
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        group += k > 0 && rows[k].made_of != rows[k - 1].made_of ? 1 : 0;
-        if (group % count == number - 1) {
+        if (trajectories[k] % count == number - 1) {
             chosen.push_back(rows[k]);
         }
     }

@@ -12,6 +12,7 @@
 #include <coagula/stages/shear.hpp>
 
 #include <new>
+#include <span>
 
 namespace coagula::stages {
 
@@ -25,9 +26,9 @@ io::Provenance timeless_call(const Arguments& arguments, const Packing* input) {
     return entry;
 }
 
-Generated made_structure(const Arguments& arguments) {
+Generated made_structure(const Arguments& arguments, Trajectory& trajectory) {
     return arguments.verb() == generate_vem_verb().name ? generate(vem_run(arguments), {})
-                                                        : generate(brownian_run(arguments), nullptr, {});
+                                                        : trajectory.next(brownian_run(arguments), {});
 }
 
 /// What the stages after the generator find.
@@ -62,28 +63,14 @@ bool succeeds(SetRecord& record, const Work& work) {
     }
 }
 
-}  // namespace
-
-std::optional<SetRecord> SetParts::record(const std::string& id) const {
-    const std::filesystem::path path = folder_ / (id + ".json");
-    if (!std::filesystem::exists(path)) {
-        return std::nullopt;
-    }
-    std::optional<SetRecord> record = record_from(io::read_file(path.string()));
-    return record && record->id == id ? record : std::nullopt;
-}
-
-void SetParts::keep(const SetRecord& record) const {
-    io::write_file((folder_ / (record.id + ".json")).string(), record_text(record), true);
-}
-
-void compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts, bool with_structures) {
+/// Rows that share a generated structure.
+void compute_structure(std::span<const SetRow* const> rows, Trajectory& trajectory, const SetParts& parts, bool with_structures) {
     std::optional<Generated> made;
     std::optional<BondPotential> bonds;
     std::optional<Packing> packing;  // as a file holds it: what is found is what a call for that file would find
     SetRecord common{.id = {}, .version = version_text()};
     succeeds(common, [&] {
-        made = made_structure(rows.front()->generate);
+        made = made_structure(rows.front()->generate, trajectory);
         packing = io::packing_as_stored(made->structure.packing);
         bonds = bond_potential_in(made->findings.results);
     });
@@ -105,6 +92,33 @@ void compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts,
             record.sha256 = io::structure_sha256(path);
         }
         parts.keep(record);
+    }
+}
+
+}  // namespace
+
+std::optional<SetRecord> SetParts::record(const std::string& id) const {
+    const std::filesystem::path path = folder_ / (id + ".json");
+    if (!std::filesystem::exists(path)) {
+        return std::nullopt;
+    }
+    std::optional<SetRecord> record = record_from(io::read_file(path.string()));
+    return record && record->id == id ? record : std::nullopt;
+}
+
+void SetParts::keep(const SetRecord& record) const {
+    io::write_file((folder_ / (record.id + ".json")).string(), record_text(record), true);
+}
+
+void compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts, bool with_structures) {
+    Trajectory trajectory;
+    for (std::size_t first = 0; first < rows.size();) {
+        std::size_t end = first + 1;
+        while (end < rows.size() && rows[end]->made_of == rows[first]->made_of) {
+            ++end;
+        }
+        compute_structure(std::span(rows).subspan(first, end - first), trajectory, parts, with_structures);
+        first = end;
     }
 }
 

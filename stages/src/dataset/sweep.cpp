@@ -255,9 +255,10 @@ std::string call_of(const Verb& verb, const Values& values) {
     return call;
 }
 
-/// What the options are; files count by what they hold, not by their names.
-std::string signature_of(const Arguments& arguments) {
+/// What the options are; files count by what they hold, not by their names. @param without an option that does not count.
+std::string signature_of(const Arguments& arguments, const std::string& without = {}) {
     nlohmann::ordered_json options = arguments.to_json();
+    options.erase(without);
     const std::vector<std::string> files = arguments.files(Option::File::read);
     for (auto& value : options) {
         if (value.is_string() && std::find(files.begin(), files.end(), value.get<std::string>()) != files.end() &&
@@ -304,6 +305,16 @@ void check_generator(const Arguments& arguments) {
     }
 }
 
+/// The option that says where a trajectory ends on which other structures may lie; empty where there is none. The samples of a run
+/// follow from its stop time where their interval is not given.
+std::string stop_of(const Arguments& generate) {
+    const auto gives = [&](const char* option) { return generate.verb() == generate_brownian_verb().name && generate.has(option); };
+    if (gives("stop-time")) {
+        return !gives("sample-interval") ? "" : gives("stop-coordination") ? "stop-coordination" : "stop-time";
+    }
+    return gives("stop-coordination") ? "stop-coordination" : "";
+}
+
 void append_rows(const Section& generate, const std::optional<Section>& characterize, const std::optional<Section>& shear,
                  const Design& design, std::vector<SetRow>& rows) {
     constexpr std::size_t id_digits = 16;
@@ -318,7 +329,14 @@ void append_rows(const Section& generate, const std::optional<Section>& characte
     }
     Combinations(generate, characterize, shear).each(design, [&](const std::array<Values, 3>& values) {
         const auto& [first, made_of] = made(values[0]);
-        SetRow row{.id = {}, .made_of = io::sha256(made_of), .generate = first, .characterize = {}, .shear = {}};
+        const std::string stop = stop_of(first);
+        SetRow row{.id = {},
+                   .made_of = io::sha256(made_of),
+                   .trajectory = io::sha256(signature_of(first, stop)),
+                   .stop = stop.empty() ? 0 : first.quantity(stop),
+                   .generate = first,
+                   .characterize = {},
+                   .shear = {}};
         std::string all = made_of;
         if (measured) {
             const auto& [arguments, signature] = (*measured)(values[1]);

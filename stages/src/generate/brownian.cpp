@@ -191,6 +191,26 @@ void check_end(const Arguments& arguments, const BrownianOptions& options) {
     }
 }
 
+/// Of a run that has ended. @param first what it began with.
+Generated described(const BrownianRun& run, const Packing& first, const PairPotential& potential, const BrownianOptions& options,
+                    generators::BrownianRun made, const Progress& progress) {
+    Findings found{
+        .group = "/generation/brownian", .results = datasets_of(made, potential, options), .table = table_of(made, options)};
+    if (run.forces.depletion) {
+        append_bonds(found, run.forces, potential, mean_radius(first), options.temperature);
+    }
+    if (run.heterogeneity) {
+        const Results measured = heterogeneity_of(made, first, options, progress);
+        found.results.insert(found.results.end(), measured.begin(), measured.end());
+    }
+    check_finite(found.results);
+    io::Structure structure{std::move(made.packing), std::move(made.contacts), {}, made.time};
+    for (generators::Snapshot& snapshot : made.snapshots) {
+        structure.earlier.push_back({snapshot.time, std::move(snapshot.positions)});
+    }
+    return {std::move(structure), std::move(found)};
+}
+
 }  // namespace
 
 BrownianRun brownian_run(const Arguments& arguments, const Packing* start, const Eigen::VectorXd& radii) {
@@ -231,22 +251,24 @@ Generated generate(const BrownianRun& run, const Packing* start, const Progress&
     const Packing first = start != nullptr ? *start : made_suspension(run, progress);
     const PairPotential potential = make_potential(run.forces, mean_radius(first));
     generators::BrownianRun made = run_or_resume(run, first, potential, options, progress);
+    return described(run, first, potential, options, std::move(made), progress);
+}
 
-    Findings found{
-        .group = "/generation/brownian", .results = datasets_of(made, potential, options), .table = table_of(made, options)};
-    if (run.forces.depletion) {
-        append_bonds(found, run.forces, potential, mean_radius(first), options.temperature);
+Generated Trajectory::next(const BrownianRun& run, const Progress& progress) {
+    if (!start_) {
+        start_ = made_suspension(run, progress);
     }
-    if (run.heterogeneity) {
-        const Results measured = heterogeneity_of(made, first, options, progress);
-        found.results.insert(found.results.end(), measured.begin(), measured.end());
+    const PairPotential potential = make_potential(run.forces, mean_radius(*start_));
+    std::optional<BrownianCheckpoint> reached;
+    BrownianControl control{.checkpoint_due = {},
+                            .on_checkpoint = [&](const BrownianCheckpoint& here) { reached = here; },
+                            .at_end = true,
+                            .resume = reached_ ? &*reached_ : nullptr};
+    generators::BrownianRun made = simulate_brownian(*start_, potential, run.motion, progress, control);
+    if (reached) {
+        reached_ = std::move(reached);
     }
-    check_finite(found.results);
-    io::Structure structure{std::move(made.packing), std::move(made.contacts), {}, made.time};
-    for (generators::Snapshot& snapshot : made.snapshots) {
-        structure.earlier.push_back({snapshot.time, std::move(snapshot.positions)});
-    }
-    return {std::move(structure), std::move(found)};
+    return described(run, *start_, potential, run.motion, std::move(made), progress);
 }
 
 Verb generate_brownian_verb() {

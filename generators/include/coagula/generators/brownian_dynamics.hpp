@@ -146,6 +146,7 @@ struct BrownianCheckpoint {
 struct BrownianControl {
     std::function<bool()> checkpoint_due;                          ///< asked now and then; empty: never
     std::function<void(const BrownianCheckpoint&)> on_checkpoint;  ///< also called when the run is cancelled
+    bool at_end = false;                                           ///< one where the run ends, or just before its stop time
     const BrownianCheckpoint* resume = nullptr;                    ///< go on from here; the options must be the same
 };
 

@@ -20,6 +20,8 @@ namespace coagula::stages {
 struct SetRow {
     std::string id;                         ///< follows from the options alone
     std::string made_of;                    ///< equal for rows that share a generated structure
+    std::string trajectory;                 ///< equal for rows whose structures lie on one trajectory
+    double stop;                            ///< where on it; 0 on none
     Arguments generate;                     ///< of a generator
     std::optional<Arguments> characterize;  ///< none: the structure is not measured
     std::optional<Arguments> shear;         ///< none: it is not sheared

@@ -93,4 +93,15 @@ BrownianRun brownian_run(const Arguments& arguments, const Packing* start = null
 /// @param start as above.
 Generated generate(const BrownianRun& run, const Packing* start, const Progress& progress);
 
+/// Structures of one trajectory. Each is made of the run that made the one before, and equals bit by bit what its own run makes.
+class Trajectory {
+public:
+    /// @param run differs from the one before in its end only, which is not earlier, and has the same samples.
+    Generated next(const BrownianRun& run, const Progress& progress);
+
+private:
+    std::optional<Packing> start_;
+    std::optional<generators::BrownianCheckpoint> reached_;
+};
+
 }  // namespace coagula::stages
