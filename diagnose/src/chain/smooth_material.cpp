@@ -54,7 +54,8 @@ public:
     explicit Functions(const std::vector<Observation>& observations) {
         Eigen::VectorXd values(static_cast<Index>(observations.size()));
         for (Index k = 0; k < values.size(); ++k) {
-            values[k] = observations[static_cast<std::size_t>(k)].value;
+            // No material stores or loses less than nothing: what is below zero is the tool's, whose size is not the material's.
+            values[k] = std::max(0.0, observations[static_cast<std::size_t>(k)].value);
         }
         sizes_ = complex_moduli(observations, values);
         middle_ = median({sizes_.begin(), sizes_.end()});
