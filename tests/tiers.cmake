@@ -44,6 +44,7 @@ set(coagula_slow_tests
   "cli[.]measured_data[.]ReferenceStructure[.].*"
   "cli[.]power[.].*"
   "cli[.]dataset[.]Runs[.].*"
+  "cli[.]step_tests[.]Creep[.]of_an_oil.*"
   "cli[.]recipe[.].*"
   "cli[.]report[.].*"
   "facts[.]sample"

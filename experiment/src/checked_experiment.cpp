@@ -87,7 +87,7 @@ void state_inherited(diagnose::Experiment& experiment) {
         }
         for (diagnose::Measurement& table : experiment.measurements) {
             const bool under_cone = std::isfinite(table.cone_angle);  // where there is no gap
-            const bool shears = diagnose::has_moduli(table.kind) || table.kind == diagnose::MeasurementKind::flow_curve;
+            const bool shears = diagnose::has_moduli(table.kind) || diagnose::is_flow(table.kind);
             if (shears && !states(table) && !(under_cone && std::string_view(name) == "gap")) {
                 table.columns.push_back({name, "m", std::vector<double>(table.rows(), value)});
             }
@@ -119,6 +119,15 @@ void note_liquids(ExperimentFile& file) {
     }
 }
 
+/// Of step tests without replicates, whose errors their conversion tells.
+void drop_assumed_noise(CheckedExperiment& found) {
+    std::erase_if(found.noise, [&](const diagnose::NoiseModel& model) {
+        return model.labels.size() == 1 && std::any_of(found.conversions.begin(), found.conversions.end(), [&](const auto& one) {
+                   return found.file.experiment.measurements[one.measurement].label == model.labels.front();
+               });
+    });
+}
+
 }  // namespace
 
 CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisOptions options) {
@@ -128,6 +137,10 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     found.tables = check_tables(found.file);
     std::transform(found.tables.begin(), found.tables.end(), experiment.measurements.begin(),
                    [](const diagnose::CheckedMeasurement& checked) { return checked.measurement; });
+    found.conversions = diagnose::convert_step_tests(experiment);
+    for (const diagnose::StepConversion& conversion : found.conversions) {
+        found.file.notes.push_back(conversion.sentence);
+    }
     note_liquids(found.file);
     note_set_stresses(found.file);
     for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(experiment.measurements)) {
@@ -140,6 +153,7 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
         }
     }
     found.noise = diagnose::noise_of_tables(experiment.measurements, noise);
+    drop_assumed_noise(found);
     found.options.stated_noise = noise;
     diagnose::state_errors(experiment, found.noise);
     diagnose::state_sample_effect(found.noise, noise.stated_sample, found.options.noise);

@@ -16,9 +16,9 @@ using diagnose::Column;
 using diagnose::Measurement;
 
 /// What a sample answers, in which no two measurements agree to the last digit.
-constexpr std::array<std::string_view, 8> responses = {
-    "storage_modulus",        "loss_modulus",        "complex_modulus", "viscosity",
-    "third_harmonic_storage", "third_harmonic_loss", "torque",          "stress"};
+constexpr std::array<std::string_view, 10> responses = {
+    "storage_modulus",     "loss_modulus", "complex_modulus", "viscosity",  "third_harmonic_storage",
+    "third_harmonic_loss", "torque",       "stress",          "compliance", "relaxation_modulus"};
 
 bool has_same_numbers(const Measurement& one, const Measurement& other) {
     const auto alike = [](const Column& a, const Column& b) { return a.name == b.name && same_values(a.values, b.values); };

@@ -9,6 +9,7 @@
 #include "toml_keys.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/diagnose/step_test.hpp>
 #include <coagula/diagnose/tool_constants.hpp>
 #include <coagula/io/measured_file.hpp>
 
@@ -277,8 +278,12 @@ void ExperimentReader::derive_moduli() {
     for (std::size_t i = 0; i < tables.size(); ++i) {
         const bool raw = std::find(raw_moduli_.begin(), raw_moduli_.end(), i) != raw_moduli_.end();
         if (!tables[i].label.ends_with("(planned)")) {
-            diagnose::derive_moduli(tables[i], result_.experiment.instrument, raw);
-            diagnose::derive_viscosity(tables[i]);
+            if (diagnose::is_step_test(tables[i].kind)) {
+                diagnose::derive_step_response(tables[i], result_.experiment.instrument, raw);
+            } else {
+                diagnose::derive_moduli(tables[i], result_.experiment.instrument, raw);
+                diagnose::derive_viscosity(tables[i]);
+            }
             drop_derived_columns(tables[i], without_[i]);
         }
     }

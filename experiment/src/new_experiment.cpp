@@ -94,7 +94,8 @@ private:
         std::size_t many = 0;
         for (const RecognisedFile& file : files) {
             for (const RecognisedTable& what : file.tables) {
-                const std::size_t rows = what.kind ? rows_of(file.file.tables[what.place], what) : 0;
+                const bool compared = what.kind && !diagnose::is_step_test(*what.kind);  // of a step test, a few frequencies
+                const std::size_t rows = compared ? rows_of(file.file.tables[what.place], what) : 0;
                 (rows > long_table ? many : few) += 2 * rows;
             }
         }
@@ -120,16 +121,18 @@ private:
         bool thins = false;
         bool oscillates = false;
         bool yields = false;
+        bool steps = false;
         for (const RecognisedFile& file : files) {
             for (const RecognisedTable& table : file.tables) {
-                const bool flow_curve = table.kind == MeasurementKind::flow_curve;
-                flows = flows || flow_curve;
-                thins = thins || (flow_curve && table.yields);
-                oscillates = oscillates || (table.kind && !flow_curve);
-                yields = yields || (table.kind && !flow_curve && table.yields);
+                const bool flow = table.kind && diagnose::is_flow(*table.kind);
+                flows = flows || flow;
+                thins = thins || (flow && table.yields);
+                oscillates = oscillates || (table.kind && !flow);
+                yields = yields || (table.kind && !flow && table.yields);
+                steps = steps || (table.kind && diagnose::is_step_test(*table.kind));
             }
         }
-        const bool smooth = yields || (flows && oscillates);
+        const bool smooth = yields || steps || (flows && oscillates);
         const auto mark = [](bool active) { return active ? "" : "# "; };
         text_ += "\n[material]\n";
         text_ += thins && !oscillates
@@ -213,7 +216,7 @@ private:
     }
 
     void write_rows(const io::PlainTable& table, const RecognisedTable& what) {
-        const bool thin = every_ > 1 && rows_of(table, what) > long_table;
+        const bool thin = every_ > 1 && !diagnose::is_step_test(*what.kind) && rows_of(table, what) > long_table;
         if (!thin && what.first == 0) {
             return;
         }

@@ -27,6 +27,10 @@ diagnose::Measurement planned_table(TomlKeys& keys, diagnose::MeasurementKind ki
     if (kind == diagnose::MeasurementKind::waveform) {
         keys.fail("planned", "waveforms are planned as a table of kind harmonics, with the strains of their oscillations");
     }
+    if (diagnose::is_step_test(kind)) {
+        keys.fail("planned", "a " + std::string(diagnose::name_of(kind)) +
+                                 " is planned as a table of kind frequency-sweep, as which it is compared");
+    }
     const diagnose::Quantity& axis = *diagnose::find_quantity(rule.axes.front());
     double from = unset;
     double to = unset;

@@ -4,6 +4,7 @@
 #include <coagula/common/checks.hpp>
 #include <coagula/common/readable.hpp>
 #include <coagula/diagnose/check_data.hpp>
+#include <coagula/diagnose/step_test.hpp>
 #include <coagula/diagnose/tool_constants.hpp>
 #include <coagula/experiment/export_metadata.hpp>
 
@@ -96,11 +97,46 @@ std::string other_test(const io::PlainTable& table) {
     const bool oscillates = numbers("angular_frequency") || numbers("frequency");
     const std::string test = oscillates                      ? "an oscillation: "
                              : numbers("relaxation_modulus") ? "a relaxation: "
-                             : numbers("shear_rate")         ? "a flow curve, creep or step: "
+                             : numbers("shear_rate")         ? "a flow curve or steps of the rate: "
                                                              : "";
     const std::string modulus = oscillates ? "there is neither a storage modulus nor |G*| or |eta*| with a phase or loss tangent"
                                            : "there is no storage modulus";
     return test + modulus + remedy(table, "storage_modulus");
+}
+
+/// Whether a column stays to 10 % of its largest value, and a strain to 0.5, since strains of flows add up; a missing one does.
+bool stays(const Measurement& table, std::string_view name) {
+    const std::vector<double> values = readable(table, name);
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return values.empty() ||
+           (*high - *low <= 0.1 * std::max(std::abs(*low), std::abs(*high)) && (name != "strain" || *high - *low <= 0.5));
+}
+
+/// Whether the stress at a constant rate is still to come: the first row shows less than most of the largest one.
+bool starts_up(const Measurement& table) {
+    constexpr double most = 0.7;
+    const std::vector<double> values = readable(table, has(table, "stress") ? "stress" : "viscosity");
+    const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    return std::abs(values.front()) < most * std::abs(*std::max_element(values.begin(), values.end(), larger));
+}
+
+/// A step of stress, strain or rate and what follows it in time, where the table shows no oscillation.
+std::optional<RecognisedTable> step_in_time(const Measurement& table) {
+    if (!has(table, "time") || has(table, "angular_frequency")) {
+        return std::nullopt;
+    }
+    const auto changes = [&](std::string_view name) { return has(table, name) && !stays(table, name); };
+    const auto kept = [&](std::string_view name) { return has(table, name) && stays(table, name); };
+    if ((changes("relaxation_modulus") && stays(table, "strain")) || (kept("strain") && changes("stress"))) {
+        return with_axis(MeasurementKind::stress_relaxation, table, "time");
+    }
+    if ((changes("compliance") && stays(table, "stress")) || (kept("stress") && changes("strain") && !kept("shear_rate"))) {
+        return with_axis(MeasurementKind::creep, table, "time");
+    }
+    if (kept("shear_rate") && (has(table, "stress") || has(table, "viscosity"))) {
+        return with_axis(starts_up(table) ? MeasurementKind::start_up : MeasurementKind::steady_shear, table, "time");
+    }
+    return std::nullopt;
 }
 
 RecognisedTable by_columns(const io::PlainTable& plain, const Measurement& table) {
@@ -114,6 +150,9 @@ RecognisedTable by_columns(const io::PlainTable& plain, const Measurement& table
         return with_axis(MeasurementKind::harmonics, table, "strain");
     }
     if (!has(table, "storage_modulus")) {
+        if (auto step = step_in_time(table)) {
+            return std::move(*step);
+        }
         // In a creep the rate falls, but the stress stays.
         const bool flows = has(table, "viscosity") || has(table, "stress");
         const bool creeps = has(table, "stress") && spread(table, "stress") < varies_from;
@@ -195,6 +234,24 @@ ColumnRules assumed_units(const io::PlainTable& table) {
     return rules;
 }
 
+/// Why a table of this kind would not pass `--check`; empty where it would.
+std::string problem_of(Measurement measurement, const diagnose::Instrument& instrument) {
+    try {
+        diagnose::derive_viscosity(measurement);
+        diagnose::derive_step_response(measurement, instrument, false);
+        diagnose::CheckedMeasurement checked = diagnose::check_data(measurement);
+        if (!checked.problems.empty()) {
+            return checked.problems.front();
+        }
+        diagnose::Experiment experiment;
+        experiment.measurements.push_back(std::move(checked.measurement));
+        diagnose::convert_step_tests(experiment);
+        return "";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
 /// The table as one measurement.
 RecognisedTable as_one(const io::PlainTable& table, const diagnose::Instrument& instrument) {
     const std::string label = "table " + std::to_string(table.number);
@@ -208,9 +265,8 @@ RecognisedTable as_one(const io::PlainTable& table, const diagnose::Instrument& 
             measurement.kind = *recognised.kind;
             diagnose::derive_viscosity(measurement);
             recognised.yields = yields(measurement);
-            const diagnose::CheckedMeasurement checked = diagnose::check_data(measurement);
-            if (!checked.problems.empty()) {
-                recognised = {std::nullopt, std::string(diagnose::name_of(*recognised.kind)) + ", but " + checked.problems.front()};
+            if (const std::string problem = problem_of(measurement, instrument); !problem.empty()) {
+                recognised = {std::nullopt, std::string(diagnose::name_of(*recognised.kind)) + ", but " + problem};
             }
         }
         return recognised;

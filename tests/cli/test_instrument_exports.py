@@ -52,13 +52,13 @@ class NewExperiment(ProgramTest):
         self.assertEqual({value["fate"] for value in taken.values()}, {"taken over"})
 
     def test_what_cannot_be_diagnosed_is_refused(self):
-        creep = DATA / "trios_lims_json/creep_experiment.txt"
+        self.write("rates.csv", "time [s],shear rate [1/s]\n" + "".join(f"{k},{10 * k}\n" for k in range(1, 9)))
         for options in ((), ("--json",), ("-o", "e.toml")):
-            self.fail_with(2, "diagnose", "--new", creep, *options, says=("creep_experiment.txt: the table cannot be diagnosed as it is: table 1: a flow curve",
+            self.fail_with(2, "diagnose", "--new", "rates.csv", *options, says=("rates.csv: the table cannot be diagnosed as it is: table 1: a flow curve or steps",
                                                                           "there is no storage modulus"))
-        self.fail_with(2, "diagnose", "--new", creep, DATA / "drilling_suspensions/RheogramSet.txt", "-o", "e.toml",
+        self.fail_with(2, "diagnose", "--new", "rates.csv", DATA / "drilling_suspensions/RheogramSet.txt", "-o", "e.toml",
                        says=("none of the 386 tables can be diagnosed as it is", "table 1 of ", "; ..."))
-        self.succeed("diagnose", "--new", creep, JAPANESE, "-o", "e.toml")  # one that can be used is enough
+        self.succeed("diagnose", "--new", "rates.csv", JAPANESE, "-o", "e.toml")  # one that can be used is enough
         self.fail_with(3, "diagnose", "--new", JAPANESE, "-o", "e.toml", says="e.toml")  # is there already
 
     def test_flow_curves_are_of_an_oil(self):

@@ -332,7 +332,7 @@ class FlowCurves(Tables):
         self.assertTrue(damping["low"] < 5e-5 < damping["high"], damping)
 
     def test_of_a_network_are_refused(self):
-        self.refuse(self.curves().replace('kind = "newtonian"', 'kind = "network"', 1), "flow0.csv", "flow curve", "newtonian or smooth")
+        self.refuse(self.curves().replace('kind = "newtonian"', 'kind = "network"', 1), "flow0.csv", "steady flow", "newtonian or smooth")
         self.refuse(self.curves(heads=("shear_rate [1/s]", "torque [N.m]")), "flow0.csv", "'viscosity'")
 
     def test_of_linseed_oil_show_a_torque_that_stays(self):

@@ -153,7 +153,7 @@ void Checker::check_whole_numbers() {
 void Checker::leave_out_impossible_cells() {
     for (Column& column : table().columns) {
         const Quantity& quantity = *find_quantity(column.name);
-        const bool amplitude = column.name == "strain" && table().kind != MeasurementKind::waveform;
+        const bool amplitude = column.name == "strain" && table().kind != MeasurementKind::waveform && !is_step_test(table().kind);
         const double low = amplitude ? 0 : quantity.low;
         const bool low_excluded = amplitude || quantity.low_excluded;
         for (std::size_t row = 0; row < table().rows(); ++row) {
@@ -377,8 +377,9 @@ void Checker::check_what_is_left() {
         const Column& values = column(name);
         const double first =
             *std::find_if(values.values.begin(), values.values.end(), [](double value) { return std::isfinite(value); });
-        if (std::all_of(values.values.begin(), values.values.end(),
-                        [&](double value) { return !std::isfinite(value) || value == first; })) {
+        const bool set = name == "shear_rate" && table().kind == MeasurementKind::steady_shear;
+        if (!set && std::all_of(values.values.begin(), values.values.end(),
+                                [&](double value) { return !std::isfinite(value) || value == first; })) {
             complain("column '" + name + "' is " + to_text(first) + " " + values.unit +
                      " in every row, which no measurement gives");
         }

@@ -90,7 +90,7 @@ Knows knowledge_of(const Experiment& experiment) {
             .moduli = moduli,
             .frequency = any_has(experiment, "angular_frequency") || any_has(experiment, "frequency"),
             .strain = any_is(experiment, MeasurementKind::amplitude_sweep) || any_has(experiment, "strain"),
-            .flow = any_is(experiment, MeasurementKind::flow_curve),
+            .flow = any_measurement(experiment, [](const Measurement& table) { return is_flow(table.kind); }),
             .clock = takes_time(experiment),
             .shear_before = experiment.sample.sheared_before || any_with(&Measurement::preshear),
             .load = knows_load(experiment),

@@ -42,8 +42,7 @@ KnownScale known_scale(const Experiment& experiment) {
 void derive_viscosity(Measurement& table) {
     const Column* rate = find_column(table, "shear_rate");
     const Column* stress = find_column(table, "stress");
-    if (table.kind != MeasurementKind::flow_curve || rate == nullptr || stress == nullptr ||
-        find_column(table, "viscosity") != nullptr) {
+    if (!is_flow(table.kind) || rate == nullptr || stress == nullptr || find_column(table, "viscosity") != nullptr) {
         return;
     }
     Column viscosity{"viscosity", "Pa.s", {}};
@@ -62,10 +61,11 @@ void check_material(const Experiment& experiment) {
     }
     if (experiment.material.kind == MaterialKind::network) {
         for (const Measurement& table : experiment.measurements) {
-            if (table.kind == MeasurementKind::flow_curve && std::isnan(table.fluid_viscosity)) {
-                throw InputError(table.label +
-                                 " is a flow curve, which no simulated network of particles stands for: set kind in [material] to "
-                                 "newtonian or smooth, or fluid_viscosity of an oil in the measurement");
+            if (is_flow(table.kind) && std::isnan(table.fluid_viscosity)) {
+                throw InputError(
+                    table.label +
+                    " is of steady flow, which no simulated network of particles stands for: set kind in [material] to "
+                    "newtonian or smooth, or fluid_viscosity of an oil in the measurement");
             }
         }
         return;
@@ -77,8 +77,8 @@ void check_material(const Experiment& experiment) {
         refuse(experiment, "sample.normal_stiffness is given");
     }
     for (const Measurement& table : experiment.measurements) {
-        const bool flows = table.kind == MeasurementKind::flow_curve;
-        if (!flows && (!has_moduli(table.kind) || table.kind == MeasurementKind::structure_series)) {
+        const bool flows = is_flow(table.kind);
+        if (!flows && !is_step_test(table.kind) && (!has_moduli(table.kind) || table.kind == MeasurementKind::structure_series)) {
             refuse(experiment, table.label + " is a table of kind " + std::string(name_of(table.kind)));
         }
     }

@@ -15,13 +15,17 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-constexpr std::array<std::pair<MeasurementKind, std::string_view>, 10> kind_names = {
+constexpr std::array<std::pair<MeasurementKind, std::string_view>, 14> kind_names = {
     {{MeasurementKind::frequency_sweep, "frequency-sweep"},
      {MeasurementKind::amplitude_sweep, "amplitude-sweep"},
      {MeasurementKind::time_sweep, "time-sweep"},
      {MeasurementKind::waveform, "waveform"},
      {MeasurementKind::harmonics, "harmonics"},
      {MeasurementKind::flow_curve, "flow-curve"},
+     {MeasurementKind::steady_shear, "steady-shear"},
+     {MeasurementKind::creep, "creep"},
+     {MeasurementKind::stress_relaxation, "stress-relaxation"},
+     {MeasurementKind::start_up, "start-up"},
      {MeasurementKind::gap_series, "gap-series"},
      {MeasurementKind::structure_series, "structure-series"},
      {MeasurementKind::coordinates, "coordinates"},
@@ -60,6 +64,8 @@ constexpr std::array quantities = {
     Quantity{"complex_viscosity", "Pa.s", 0, false, infinite, "|G*| over the angular frequency"},
     Quantity{"shear_rate", "1/s", 0, true, infinite, "shear rate of steady flow"},
     Quantity{"viscosity", "Pa.s", 0, true, infinite, "stress over shear rate in steady flow"},
+    Quantity{"compliance", "1/Pa", 0, false, infinite, "strain over stress in a creep"},
+    Quantity{"relaxation_modulus", "Pa", -infinite, false, infinite, "stress over strain in a stress relaxation"},
     Quantity{"torque", "N.m", -infinite, false, infinite, "amplitude of the torque"},
     Quantity{"deflection", "rad", -infinite, false, infinite, "amplitude of the angle of the tool"},
     Quantity{"normal_force", "N", -infinite, false, infinite,
@@ -225,6 +231,14 @@ bool has_moduli(MeasurementKind kind) {
            kind == MeasurementKind::time_sweep || kind == MeasurementKind::gap_series || kind == MeasurementKind::structure_series;
 }
 
+bool is_flow(MeasurementKind kind) {
+    return kind == MeasurementKind::flow_curve || kind == MeasurementKind::steady_shear;
+}
+
+bool is_step_test(MeasurementKind kind) {
+    return kind == MeasurementKind::creep || kind == MeasurementKind::stress_relaxation || kind == MeasurementKind::start_up;
+}
+
 std::string_view name_of(Geometry geometry) {
     return name_in(geometry_names, geometry);
 }
@@ -257,6 +271,14 @@ TableRule rule_of(MeasurementKind kind) {
             return {{"strain"}, {"third_harmonic_storage"}, 4, true};
         case MeasurementKind::flow_curve:
             return {{"shear_rate"}, {"viscosity"}, 5, true};
+        case MeasurementKind::steady_shear:
+            return {{"time"}, {"viscosity", "shear_rate"}, 5, true};
+        case MeasurementKind::creep:
+            return {{"time"}, {"compliance"}, 8, true};
+        case MeasurementKind::stress_relaxation:
+            return {{"time"}, {"relaxation_modulus"}, 8, true};
+        case MeasurementKind::start_up:
+            return {{"time"}, {"viscosity"}, 8, true};
         case MeasurementKind::gap_series:
             return {{"gap"}, {"storage_modulus"}, 4, true};
         case MeasurementKind::structure_series:

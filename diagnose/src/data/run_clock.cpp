@@ -21,7 +21,7 @@ constexpr double same_minute = 60;            // s; exports give no seconds
 bool is_run(const Measurement& table) {
     const bool shears = table.kind == MeasurementKind::frequency_sweep || table.kind == MeasurementKind::amplitude_sweep ||
                         table.kind == MeasurementKind::time_sweep || table.kind == MeasurementKind::gap_series ||
-                        table.kind == MeasurementKind::flow_curve;
+                        is_flow(table.kind);
     return shears && std::isnan(table.fluid_viscosity);
 }
 

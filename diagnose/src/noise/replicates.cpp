@@ -16,7 +16,7 @@ constexpr std::size_t fewest_shared = 3;
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 bool can_be_repeated(MeasurementKind kind) {
-    return (has_moduli(kind) && kind != MeasurementKind::structure_series) || kind == MeasurementKind::flow_curve;
+    return (has_moduli(kind) && kind != MeasurementKind::structure_series) || is_flow(kind);
 }
 
 /// Median of a column; NaN without one.
@@ -131,7 +131,7 @@ std::vector<Group> group(const std::vector<Measurement>& measurements) {
 /// One over the strain amplitude, or the shear rate, of each row, a cell without a value taken as the typical one; empty where the
 /// strain is not known.
 std::vector<double> floor_weights(const Measurement& table) {
-    const char* name = table.kind == MeasurementKind::flow_curve ? "shear_rate" : "strain";
+    const char* name = is_flow(table.kind) ? "shear_rate" : "strain";
     const Column* strain = find_column(table, name);
     const double usual = typical(table, name);
     if (!(usual > 0)) {
@@ -251,7 +251,7 @@ std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurem
         // A fluid stores nothing.
         const Column* storage =
             std::isnan(first.fluid_viscosity) && has_moduli(first.kind) ? find_column(first, "storage_modulus") : nullptr;
-        const Column* loss = find_column(first, first.kind == MeasurementKind::flow_curve ? "viscosity" : "loss_modulus");
+        const Column* loss = find_column(first, is_flow(first.kind) ? "viscosity" : "loss_modulus");
         if (storage != nullptr && loss != nullptr && has_phase(tables)) {
             auto [modulus, phase] = torque_and_phase(replicates_in(tables, *storage), replicates_in(tables, *loss));
             take_out_load(modulus, tables);

@@ -77,7 +77,7 @@ RowErrors errors_by(const NoiseModel* model, const std::vector<NoiseModel>& nois
     }
     const ErrorShape shape = shape_of_errors(noise, *model);
     errors.law = shape.law;
-    const Column* strain = find_column(table, table.kind == MeasurementKind::flow_curve ? "shear_rate" : "strain");
+    const Column* strain = find_column(table, is_flow(table.kind) ? "shear_rate" : "strain");
     for (std::size_t row = 0; row < column.values.size(); ++row) {
         const double weight = model->floor_of_stress && strain != nullptr ? 1 / strain->values[row] : 1.0;
         errors.deviations[row] = shape.factor * standard_deviation(*model, level_at(*model, table, column, row), weight);
@@ -102,7 +102,7 @@ std::vector<double> errors_of_part(const Measurement& table, const Column& colum
 std::vector<Column*> open_columns(Measurement& table) {
     std::vector<Column*> open;
     for (Column& column : table.columns) {
-        const bool flows = table.kind == MeasurementKind::flow_curve;
+        const bool flows = is_flow(table.kind);
         const bool shown = flows ? column.name == "viscosity" : column.name == "storage_modulus" || column.name == "loss_modulus";
         if (shown && column.standard_errors.empty()) {
             open.push_back(&column);

@@ -57,7 +57,7 @@ constexpr std::array<Shown, 4> shown{{{"storage_modulus", false, false},
 constexpr std::array<Shown, 1> shown_of_flow{{{"viscosity", true, false}}};
 
 std::span<const Shown> shown_in(const Measurement& table) {
-    return table.kind == MeasurementKind::flow_curve ? std::span<const Shown>(shown_of_flow) : std::span<const Shown>(shown);
+    return is_flow(table.kind) ? std::span<const Shown>(shown_of_flow) : std::span<const Shown>(shown);
 }
 
 /// The errors of torque and phase at a row whose table states them: as near as can be, G' has the one and G'' the other.
@@ -83,7 +83,7 @@ Observation observation_at(const Experiment& experiment, std::size_t number, std
     const Column& column = *find_column(table, what.column);
     const bool series = table.kind == MeasurementKind::structure_series;
     const double gap = cell(table, "gap", row);
-    const bool flows = table.kind == MeasurementKind::flow_curve;
+    const bool flows = is_flow(table.kind);
     const bool under_cone = std::isfinite(table.cone_angle);
     const double radius = cell(table, "plate_radius", row);
     Observation one{
@@ -298,7 +298,7 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
     const Measurement& table = experiment.measurements[run];
     const RunTime& time = runs.times[run];
     const RunPlace& place = runs.places[run];
-    const bool flows = table.kind == MeasurementKind::flow_curve;
+    const bool flows = is_flow(table.kind);
     const std::vector<double> set = set_strains(table);
     const RowsBefore before = rows_before(table, largest_strain_before(experiment, runs.times, run));
     for (const Shown& what : shown_in(table)) {
@@ -376,7 +376,7 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
             const std::vector<Observation> pores = pores_in(experiment, k);
             all.insert(all.end(), pores.begin(), pores.end());
         }
-        if (has_moduli(table.kind) || table.kind == MeasurementKind::flow_curve || table.kind == MeasurementKind::harmonics) {
+        if (has_moduli(table.kind) || is_flow(table.kind) || table.kind == MeasurementKind::harmonics) {
             add_sheared(all, experiment, runs, k);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // diagnose check: the data of an experiment and their noise.
 #include <coagula/common/checks.hpp>
+#include <coagula/diagnose/step_test.hpp>
 #include <coagula/diagnose/waveform.hpp>
 #include <coagula/experiment/checked_experiment.hpp>
 #include <coagula/report/diagnosis_results.hpp>
@@ -77,6 +78,22 @@ Json measurement_json(const CheckedMeasurement& checked, const TableFacts& facts
                              {"error", harmonics->error}};
     }
     return json;
+}
+
+/// The conversion of the table at this place; null where there is none.
+const diagnose::StepConversion* conversion_of(const CheckedExperiment& found, std::size_t place) {
+    const auto conversion = std::find_if(found.conversions.begin(), found.conversions.end(),
+                                         [&](const diagnose::StepConversion& one) { return one.measurement == place; });
+    return conversion == found.conversions.end() ? nullptr : &*conversion;
+}
+
+Json conversion_json(const diagnose::StepConversion& conversion) {
+    return {{"kind", diagnose::name_of(diagnose::MeasurementKind::frequency_sweep)},
+            {"rows_used", conversion.rows_used},
+            {"rows", conversion.frequencies},
+            {"lowest_frequency", conversion.lowest_frequency},
+            {"highest_frequency", conversion.highest_frequency},
+            {"largest_strain", number_or_null(conversion.largest_strain)}};
 }
 
 /// "1-3, 7".
@@ -200,6 +217,12 @@ Printed check_data(const std::string& experiment) {
         const TableFacts& facts = found.file.facts[i];
         json["measurements"].push_back(measurement_json(found.tables[i], facts));
         add_measurement_lines(lines, found.tables[i]);
+        if (const diagnose::StepConversion* conversion = conversion_of(found, i)) {
+            json["measurements"].back()["compared_as"] = conversion_json(*conversion);
+            lines.emplace_back("  compared", "as G* at " + std::to_string(conversion->frequencies) + " angular frequencies from " +
+                                                 with_unit(conversion->lowest_frequency, "rad/s") + " to " +
+                                                 with_unit(conversion->highest_frequency, "rad/s"));
+        }
         add_fact_lines(lines, found.tables[i].measurement, facts);
     }
     for (const NoiseModel& noise : found.noise) {

@@ -283,9 +283,10 @@ Verb diagnose_verb() {
                     count("data-sets", "with --power: data sets simulated at each strength near a threshold (200)", "",
                           within(20, 100000)),
                     count("diagnoses", "with --power: full diagnoses of simulated data for each cause (4)", "", within(0, 10000))},
-        .notes = {"Tables of G' and G'' against frequency, strain, time or gap, waveforms, structure series, coordinates and pore "
-                  "curves "
-                  "are diagnosed; see docs/explanation/diagnosis.md."},
+        .notes =
+            {"Tables of G' and G'' against frequency, strain, time or gap, steps of stress, strain and rate, waveforms, structure "
+             "series, coordinates and pore curves "
+             "are diagnosed; see docs/explanation/diagnosis.md."},
         .many_beside = "new",
         .alone = "catalogue"};
     const std::vector<Option> own = diagnosis_options();

@@ -15,7 +15,7 @@ TEST(Measurement, KindsAndGeometriesHaveNamesOfTheirOwn) {
         EXPECT_EQ(measurement_kind(name_of(kind)), kind);
         names.insert(name_of(kind));
     }
-    EXPECT_EQ(names.size(), 10U);
+    EXPECT_EQ(names.size(), 14U);
     EXPECT_FALSE(measurement_kind("sweep"));
     EXPECT_EQ(geometry("cone-plate"), Geometry::cone_plate);
     EXPECT_FALSE(geometry("couette"));

@@ -16,16 +16,20 @@ namespace coagula::diagnose {
 
 /// Kind of a measurement: the quantity and its axis.
 enum class MeasurementKind {
-    frequency_sweep,   ///< moduli against angular frequency at one strain amplitude
-    amplitude_sweep,   ///< moduli against strain amplitude at one frequency
-    time_sweep,        ///< moduli against time at one strain amplitude and frequency
-    waveform,          ///< strain and stress against time within an oscillation
-    harmonics,         ///< third harmonic of the stress against strain amplitude
-    flow_curve,        ///< viscosity against shear rate in steady flow
-    gap_series,        ///< moduli against the gap between the plates
-    structure_series,  ///< moduli against what characterises the structure: heterogeneity, coordination, volume fraction
-    coordinates,       ///< centres of particles
-    pore_curve,        ///< exclusion probability against distance from the particle surfaces
+    frequency_sweep,    ///< moduli against angular frequency at one strain amplitude
+    amplitude_sweep,    ///< moduli against strain amplitude at one frequency
+    time_sweep,         ///< moduli against time at one strain amplitude and frequency
+    waveform,           ///< strain and stress against time within an oscillation
+    harmonics,          ///< third harmonic of the stress against strain amplitude
+    flow_curve,         ///< viscosity against shear rate in steady flow
+    steady_shear,       ///< viscosity against time at one shear rate
+    creep,              ///< strain or compliance against time after a step of the stress
+    stress_relaxation,  ///< stress or relaxation modulus against time after a step of the strain
+    start_up,           ///< stress or viscosity against time after a step of the shear rate from rest
+    gap_series,         ///< moduli against the gap between the plates
+    structure_series,   ///< moduli against what characterises the structure: heterogeneity, coordination, volume fraction
+    coordinates,        ///< centres of particles
+    pore_curve,         ///< exclusion probability against distance from the particle surfaces
 };
 
 /// "frequency-sweep", ...
@@ -34,6 +38,10 @@ std::optional<MeasurementKind> measurement_kind(std::string_view name);
 std::span<const MeasurementKind> all_measurement_kinds();
 /// Whether tables of this kind hold G' or G''.
 bool has_moduli(MeasurementKind kind);
+/// Whether tables of this kind hold viscosities in steady flow.
+bool is_flow(MeasurementKind kind);
+/// Whether tables of this kind are steps that are compared as moduli against frequency (step_test.hpp).
+bool is_step_test(MeasurementKind kind);
 
 /// A column that a table may have.
 struct Quantity {
@@ -190,7 +198,7 @@ struct Experiment {
     std::vector<Measurement> measurements;
 };
 
-/// Adds the viscosity of a flow curve that has stress and shear rate only.
+/// Adds the viscosity of a table of steady flow that has stress and shear rate only.
 void derive_viscosity(Measurement& table);
 
 /// Throws InputError when sample, instrument and recipe contradict themselves or each other (gap 0, outer radius below inner ...).

@@ -5,6 +5,7 @@
 #include <coagula/diagnose/check_data.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/step_test.hpp>
 #include <coagula/experiment/experiment_file.hpp>
 #include <coagula/experiment/experiment_structures.hpp>
 
@@ -14,10 +15,11 @@
 namespace coagula::experiment {
 
 struct CheckedExperiment {
-    ExperimentFile file;  ///< ready to be diagnosed: errors stated, waveforms reduced to harmonics
-    std::vector<diagnose::CheckedMeasurement> tables = {};  ///< as measured, before outliers were left out
-    std::vector<diagnose::NoiseModel> noise = {};           ///< of the tables
-    diagnose::DiagnosisOptions options = {};                ///< with the noise of the experiment
+    ExperimentFile file;  ///< ready to be diagnosed: errors stated, step tests as frequency sweeps, waveforms as harmonics
+    std::vector<diagnose::CheckedMeasurement> tables = {};   ///< as measured, before outliers were left out
+    std::vector<diagnose::StepConversion> conversions = {};  ///< of step tests into frequency sweeps, by their place in `tables`
+    std::vector<diagnose::NoiseModel> noise = {};            ///< of the tables
+    diagnose::DiagnosisOptions options = {};                 ///< with the noise of the experiment
     ExperimentStructures structures = {};
 };
 
