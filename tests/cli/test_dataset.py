@@ -183,8 +183,8 @@ class Runs(ProgramTest):
     def test_structures_of_one_trajectory_are_those_of_runs_of_their_own(self):
         """Several ends of one run, in any order and beside another axis, also where some are there already."""
         head = ('[[generate]]\nverb = "brownian"\nparticles = 60\nvolume-fraction = 0.3\nradius = "0.25um"\nequilibration-time = "0.1ms"\n'
-                'replicates = 2\n')
-        together = head + "stop-coordination = [2.5, 1.5, 2]\n[characterize]\nonly = [\"coordination\", \"doh\"]\n"
+                'surface-potential = "0mV"\nreplicates = 2\n')
+        together = head + "stop-coordination = [2.5, 1.5, 2]\n[characterize]\nonly = \"coordination,doh\"\n"
         self.write("together.toml", together)
         self.run_set("together.h5", sweep="together.toml")
         expected = {}
