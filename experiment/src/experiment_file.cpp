@@ -331,6 +331,9 @@ void ExperimentReader::read_measurement(const toml::table& table, std::size_t nu
         keys.fail("kind", "'" + kind_name + "' is not one of " + names);
     }
     const diagnose::Measurement setting = read_setting(keys, number);
+    if (table.contains("rate_before") && *kind != diagnose::MeasurementKind::start_up) {
+        keys.fail("rate_before", "only a table of kind start-up begins from a rate");
+    }
     if (table.contains("planned")) {
         diagnose::Measurement measurement = planned_table(keys, *kind, number, column_rules(keys).constants);
         keys.refuse_other_keys();

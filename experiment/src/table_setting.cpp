@@ -56,6 +56,14 @@ diagnose::Measurement read_setting(TomlKeys& keys, std::size_t number) {
     setting.solvent_trap = keys.flag("solvent_trap");
     setting.cone_angle = keys.quantity("cone_angle", "rad").value_or(unset);
     setting.fluid_viscosity = keys.quantity("fluid_viscosity", "Pa.s").value_or(unset);
+    const auto rate = keys.quantity("rate_before", "1/s");
+    const auto stress = keys.quantity("stress_before", "Pa");
+    if (rate.has_value() != stress.has_value()) {
+        keys.fail(rate ? "rate_before" : "stress_before", "needs " + std::string(rate ? "stress_before" : "rate_before") +
+                                                              ", too: the steady stress at the rate before the step");
+    }
+    setting.rate_before = rate.value_or(0);
+    setting.stress_before = stress.value_or(0);
     setting.oscillations = keys.small_count("oscillations", 1);
     if (std::isfinite(setting.start) && std::isfinite(setting.pause)) {
         keys.fail("pause", "is given beside 'start', which says it already; leave one of them out");

@@ -95,7 +95,29 @@ class Relaxation(Tables):
         self.table("t.csv", ("time [s]", "strain [1]", "stress [Pa]"), rows)
         self.assertEqual(self.diagnosis(SMOOTH + PLATES + measurement("stress-relaxation"))["verdict"], "no-discrepancy")
 
-    def test_of_a_start_up_is_the_same_modulus(self):
+    def moduli(self, text):
+        """By angular frequency, in tables of their own."""
+        found = self.diagnosis(SMOOTH + PLATES + text)
+        self.assertEqual(found["verdict"], "no-discrepancy")
+        (table,) = self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"]
+        parts = [[row["measured"] for row in found["rows"] if row["observable"] == name] for name in ("storage_modulus", "loss_modulus")]
+        return {table["compared_as"]["highest_frequency"] / 10**(k / 5): complex(*both) for k, both in enumerate(zip(*parts))}
+
+    def test_of_a_step_down_and_a_start_up_is_the_same_modulus(self):
+        times = [10**(k / 40) for k in range(-80, 81)]
+        self.table("r.csv", ("time [s]", "relaxation modulus [Pa]"), [(t, 100 * math.exp(-t)) for t in times])
+        self.table("u.csv", ("time [s]", "shear rate [1/s]", "stress [Pa]"), [(t, 0.1, 10 * (1 - math.exp(-t))) for t in times])
+        self.table("h.csv", ("time [s]", "shear rate [1/s]", "stress [Pa]"), [(t, 0.05, 5 + 5 * math.exp(-t)) for t in times])
+        self.table("d.csv", ("time [s]", "stress [Pa]"), [(t, 10 * math.exp(-t)) for t in times])
+        before = 'rate_before = "0.1 1/s"\nstress_before = 10'
+        for text in (measurement("stress-relaxation", "r.csv"), measurement("start-up", "u.csv"), measurement("start-up", "h.csv", before),
+                     measurement("start-up", "d.csv", before)):
+            moduli = self.moduli(text)
+            self.assertGreater(len(moduli), 15)
+            for w, modulus in moduli.items():
+                self.assertLess(abs(modulus / (100j * w / (1 + 1j * w)) - 1), 0.01, (text, w))
+
+    def test_of_a_start_up_beside_a_relaxation(self):
         times = [10**(k / 40) for k in range(-80, 81)]
         self.table("r.csv", ("time [s]", "relaxation modulus [Pa]"), [(t, 100 * math.exp(-t)) for t in times])
         self.table("s.csv", ("time [s]", "shear rate [1/s]", "stress [Pa]"), [(t, 0.1, 10 * (1 - math.exp(-t))) for t in times])
@@ -148,6 +170,13 @@ class BadInput(Tables):
         rows = [(t, 2.0, 1 - math.exp(-t) + t * math.exp(-t / 2)) for t in self.TIMES]
         self.refuse_table("start-up", ("time [s]", "shear rate [1/s]", "stress [Pa]"), rows,
                           "the stress overshoots by", "the sample is not linear there", "choose the rows before it by rows = [first, last]")
+
+    def test_rate_before(self):
+        self.table("t.csv", ("time [s]", "stress [Pa]"), [(t, math.exp(-t)) for t in self.TIMES])
+        rate, stress = 'rate_before = "0.1 1/s"', "stress_before = 10"
+        self.refuse(SMOOTH + measurement("start-up", more=rate), "key 'rate_before'", "needs stress_before, too: the steady stress")
+        self.refuse(SMOOTH + measurement("start-up", more=stress), "key 'stress_before'", "needs rate_before")
+        self.refuse(SMOOTH + measurement("creep", more=f"{rate}\n{stress}"), "key 'rate_before'", "only a table of kind start-up begins from a rate")
 
     def test_relaxation_too_short(self):
         rows = [(1 + 0.2 * k, 0.1, 10 - k) for k in range(9)]

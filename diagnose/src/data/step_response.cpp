@@ -41,6 +41,30 @@ void add_from_tool(Measurement& table, const Instrument& instrument, const char*
     table.columns.push_back(std::move(column));
 }
 
+/// Takes the changes of rate and stress for the rate and the stress; without a column of the rate the flow has stopped.
+void take_from_rate(Measurement& table) {
+    if (find_column(table, "shear_rate") == nullptr) {
+        table.columns.push_back({"shear_rate", "1/s", std::vector<double>(table.rows(), 0.0)});
+    }
+    for (Column& column : table.columns) {
+        const bool rate = column.name == "shear_rate";
+        if (rate || column.name == "stress") {
+            for (double& value : column.values) {
+                value -= rate ? table.rate_before : table.stress_before;
+            }
+        }
+    }
+    Column& rate =
+        *std::find_if(table.columns.begin(), table.columns.end(), [](const Column& one) { return one.name == "shear_rate"; });
+    if (median(readable_numbers(&rate)) < 0) {  // a step down is one up of everything turned round
+        for (Column& column : table.columns) {
+            if (column.name == "shear_rate" || column.name == "stress") {
+                std::for_each(column.values.begin(), column.values.end(), [](double& value) { value = -value; });
+            }
+        }
+    }
+}
+
 bool is_of_rate(std::string_view name) {
     return name == "shear_rate" || name == "viscosity";
 }
@@ -82,9 +106,13 @@ void derive_step_response(Measurement& table, const Instrument& instrument, bool
     }
     add_from_tool(table, instrument, "stress", "torque", raw);
     add_from_tool(table, instrument, "strain", "deflection", raw);
+    const bool from_a_rate = table.rate_before != 0;
+    if (from_a_rate) {
+        take_from_rate(table);
+    }
     const Column* step = find_column(table, names.step);
     const Column* response = find_column(table, names.response);
-    if (step == nullptr || response == nullptr || (find_column(table, names.ratio) != nullptr && !raw)) {
+    if (step == nullptr || response == nullptr || (find_column(table, names.ratio) != nullptr && !raw && !from_a_rate)) {
         return;
     }
     Column ratio{names.ratio, std::string(find_quantity(names.ratio)->unit), {}};

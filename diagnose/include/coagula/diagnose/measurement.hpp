@@ -25,7 +25,7 @@ enum class MeasurementKind {
     steady_shear,       ///< viscosity against time at one shear rate
     creep,              ///< strain or compliance against time after a step of the stress
     stress_relaxation,  ///< stress or relaxation modulus against time after a step of the strain
-    start_up,           ///< stress or viscosity against time after a step of the shear rate from rest
+    start_up,           ///< stress or viscosity against time after a step of the shear rate
     gap_series,         ///< moduli against the gap between the plates
     structure_series,   ///< moduli against what characterises the structure: heterogeneity, coordination, volume fraction
     coordinates,        ///< centres of particles
@@ -109,6 +109,8 @@ struct Measurement {
     bool solvent_trap = false;       ///< nothing dries there
     double cone_angle = unset;       ///< of a cone in place of the upper one of two plates [rad]
     double fluid_viscosity = unset;  ///< of a Newtonian fluid in place of the sample [Pa.s]; it does not slip, either
+    double rate_before = 0;          ///< of a start-up: the shear rate that it begins from [1/s]
+    double stress_before = 0;        ///< of a start-up: the steady stress at that rate [Pa]
     int oscillations = 1;            ///< at the strain of a row, of which the last is measured; >= 1
     bool polar_errors = false;       ///< the standard errors of storage and loss modulus are those along and across G*
     std::vector<Column> columns;
