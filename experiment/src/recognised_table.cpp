@@ -139,6 +139,20 @@ std::optional<RecognisedTable> step_in_time(const Measurement& table) {
     return std::nullopt;
 }
 
+/// A step or a flow curve.
+RecognisedTable without_modulus(const io::PlainTable& plain, const Measurement& table) {
+    if (auto step = step_in_time(table)) {
+        return std::move(*step);
+    }
+    // In a creep the rate falls, but the stress stays.
+    const bool flows = has(table, "viscosity") || has(table, "stress");
+    const bool creeps = has(table, "stress") && spread(table, "stress") < varies_from;
+    if (flows && !creeps && spread(table, "shear_rate") > varies_from) {
+        return with_axis(MeasurementKind::flow_curve, table, "shear_rate");
+    }
+    return {std::nullopt, other_test(plain)};
+}
+
 RecognisedTable by_columns(const io::PlainTable& plain, const Measurement& table) {
     if (has(table, "x") && has(table, "y") && has(table, "z")) {
         return {MeasurementKind::coordinates, "there are x, y and z"};
@@ -150,16 +164,7 @@ RecognisedTable by_columns(const io::PlainTable& plain, const Measurement& table
         return with_axis(MeasurementKind::harmonics, table, "strain");
     }
     if (!has(table, "storage_modulus")) {
-        if (auto step = step_in_time(table)) {
-            return std::move(*step);
-        }
-        // In a creep the rate falls, but the stress stays.
-        const bool flows = has(table, "viscosity") || has(table, "stress");
-        const bool creeps = has(table, "stress") && spread(table, "stress") < varies_from;
-        if (flows && !creeps && spread(table, "shear_rate") > varies_from) {
-            return with_axis(MeasurementKind::flow_curve, table, "shear_rate");
-        }
-        return {std::nullopt, other_test(plain)};
+        return without_modulus(plain, table);
     }
     for (const char* axis : {"heterogeneity", "coordination", "volume_fraction"}) {
         if (spread(table, axis) > 1) {

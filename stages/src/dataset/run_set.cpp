@@ -195,7 +195,7 @@ bool is_left_over(const fs::path& path) {
 void remove_parts(const std::vector<SetRow>& rows, const SetParts& parts) {
     std::vector<fs::path> finished;
     for (const SetRow& row : rows) {
-        finished.push_back(parts.structure(row.id));
+        finished.emplace_back(parts.structure(row.id));
         finished.push_back(parts.folder() / (row.id + ".json"));
     }
     std::error_code ignored;
