@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sweep file as structures.
+#include "signature.hpp"
 #include "sweep_section.hpp"
 
 #include <coagula/common/checks.hpp>
@@ -255,26 +256,12 @@ std::string call_of(const Verb& verb, const Values& values) {
     return call;
 }
 
-/// What the options are; files count by what they hold, not by their names. @param without an option that does not count.
-std::string signature_of(const Arguments& arguments, const std::string& without = {}) {
-    nlohmann::ordered_json options = arguments.to_json();
-    options.erase(without);
-    const std::vector<std::string> files = arguments.files(Option::File::read);
-    for (auto& value : options) {
-        if (value.is_string() && std::find(files.begin(), files.end(), value.get<std::string>()) != files.end() &&
-            fs::is_regular_file(value.get<std::string>())) {
-            value = io::sha256(io::read_file(value.get<std::string>()));
-        }
-    }
-    return arguments.verb() + options.dump();
-}
-
 /// Options of a stage that many structures share are checked once.
 class CheckedStage {
 public:
     CheckedStage(const Section& section, void (*check)(const Arguments&)) : section_(section), check_(check) {}
 
-    const std::pair<Arguments, std::string>& operator()(const Values& values) {
+    const std::pair<Arguments, Signature>& operator()(const Values& values) {
         const auto found = checked_.find(values);
         if (found != checked_.end()) {
             return found->second;
@@ -282,7 +269,7 @@ public:
         try {
             Arguments arguments(section_.verb, {values, call_of(section_.verb, values), Caller::file});
             check_(arguments);
-            std::string signature = signature_of(arguments);
+            Signature signature = signature_of(arguments);
             return checked_.emplace(values, std::pair{std::move(arguments), std::move(signature)}).first->second;
         } catch (const InputError& error) {
             throw InputError(section_.where + ": " + error.what());
@@ -294,7 +281,7 @@ public:
 private:
     const Section& section_;
     void (*check_)(const Arguments&);
-    std::map<Values, std::pair<Arguments, std::string>> checked_;
+    std::map<Values, std::pair<Arguments, Signature>> checked_;
 };
 
 void check_generator(const Arguments& arguments) {
@@ -303,16 +290,6 @@ void check_generator(const Arguments& arguments) {
     } else {
         brownian_run(arguments);
     }
-}
-
-/// The option that says where a trajectory ends on which other structures may lie; empty where there is none. The samples of a run
-/// follow from its stop time where their interval is not given.
-std::string stop_of(const Arguments& generate) {
-    const auto gives = [&](const char* option) { return generate.verb() == generate_brownian_verb().name && generate.has(option); };
-    if (gives("stop-time")) {
-        return !gives("sample-interval") ? "" : gives("stop-coordination") ? "stop-coordination" : "stop-time";
-    }
-    return gives("stop-coordination") ? "stop-coordination" : "";
 }
 
 void append_rows(const Section& generate, const std::optional<Section>& characterize, const std::optional<Section>& shear,
@@ -329,24 +306,23 @@ void append_rows(const Section& generate, const std::optional<Section>& characte
     }
     Combinations(generate, characterize, shear).each(design, [&](const std::array<Values, 3>& values) {
         const auto& [first, made_of] = made(values[0]);
-        const std::string stop = stop_of(first);
         SetRow row{.id = {},
-                   .made_of = io::sha256(made_of),
-                   .trajectory = io::sha256(signature_of(first, stop)),
-                   .stop = stop.empty() ? 0 : first.quantity(stop),
+                   .made_of = io::sha256(made_of.text),
+                   .trajectory = io::sha256(made_of.of_trajectory),
+                   .stop = made_of.stop,
                    .generate = first,
                    .characterize = {},
                    .shear = {}};
-        std::string all = made_of;
+        std::string all = made_of.text;
         if (measured) {
             const auto& [arguments, signature] = (*measured)(values[1]);
             row.characterize = arguments;
-            all += signature;
+            all += signature.text;
         }
         if (sheared) {
             const auto& [arguments, signature] = (*sheared)(values[2]);
             row.shear = arguments;
-            all += signature;
+            all += signature.text;
         }
         row.id = io::sha256(all).substr(0, id_digits);
         rows.push_back(std::move(row));
