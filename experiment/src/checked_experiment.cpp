@@ -119,7 +119,7 @@ void note_liquids(ExperimentFile& file) {
     }
 }
 
-/// Of step tests without replicates, whose errors their conversion tells.
+/// Drops the noise of step tests without replicates: their conversion tells their errors.
 void drop_assumed_noise(CheckedExperiment& found) {
     std::erase_if(found.noise, [&](const diagnose::NoiseModel& model) {
         return model.labels.size() == 1 && std::any_of(found.conversions.begin(), found.conversions.end(), [&](const auto& one) {

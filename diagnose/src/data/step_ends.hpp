@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a step response was before its first row and is after its last one.
+// These curves stand for a step response before its first row and after its last one.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ class StepStart {
 public:
     StepStart(const Eigen::ArrayXd& times, const Eigen::VectorXd& values, double least_power, double most_power);
 
-    /// Of the first value in i w times the integral up to it.
+    /// Returns the weight of the first value in i w times the integral up to it.
     std::complex<double> weight(double frequency) const { return weight(frequency, power_); }
     /// Error of the integral by that of the power.
     double error(double frequency) const;
@@ -32,7 +32,7 @@ class StepEnd {
 public:
     StepEnd(const Eigen::ArrayXd& times, const Eigen::VectorXd& values, const Eigen::VectorXd& deviations);
 
-    /// Of all values in i w times the integral from the last row on.
+    /// Returns the weights of all values in i w times the integral from the last row on.
     Eigen::VectorXcd weights(double frequency) const;
     /// Error of the integral by that of the power, by whether the slope falls exponentially, and by what still rings.
     double error(double frequency) const;

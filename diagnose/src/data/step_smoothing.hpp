@@ -31,7 +31,7 @@ public:
     Smoother(const Eigen::VectorXd& values, const Eigen::VectorXd& deviations);
 
     Eigen::VectorXd smoothed(const Eigen::VectorXd& values) const;
-    /// What weights of smoothed values are as weights of the values themselves.
+    /// Turns weights of the smoothed values into weights of the values themselves.
     Eigen::VectorXcd on_values(const Eigen::VectorXcd& weights) const;
 
 private:

@@ -57,12 +57,6 @@ void require_step(const Measurement& table, double height) {
     }
 }
 
-/// Rows of a step test that are converted.
-struct StepRows {
-    StepResponse response;
-    double last_time = 0;
-};
-
 /// In a relaxation, the first row in which the strain has been reached; in others 0.
 std::size_t first_loaded(const Measurement& table, const std::vector<std::size_t>& rows) {
     if (table.kind != MeasurementKind::stress_relaxation) {
@@ -298,8 +292,8 @@ StepConversion convert(Measurement& table, std::size_t number) {
                          {}};
     found.sentence = sentence_on(table, found, response);
     table = sweep_of(table, rows, found.largest_strain, response.times[response.times.size() - 1]);
-    if (found.kind == MeasurementKind::creep && !table.stress_controlled) {
-        table.stress_controlled = true;
+    if (found.kind == MeasurementKind::creep) {
+        table.stress_controlled = table.stress_controlled.value_or(true);  // what the user states holds
     }
     return found;
 }

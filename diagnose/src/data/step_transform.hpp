@@ -9,7 +9,7 @@
 
 namespace coagula::diagnose {
 
-/// What a sample answers to a step at time zero, over the height of the step.
+/// Holds the answer of a sample to a step at time zero, over the height of the step.
 struct StepResponse {
     Eigen::ArrayXd times;        ///< from 0 or more, rising [s]
     Eigen::VectorXd values;      ///< eight or more

@@ -10,7 +10,7 @@
 
 namespace coagula::diagnose {
 
-/// What a step test was converted into.
+/// Says what a step test was converted into.
 struct StepConversion {
     std::size_t measurement;        ///< place in the experiment
     MeasurementKind kind;           ///< as it was measured
