@@ -295,6 +295,27 @@ class Runs(ProgramTest):
             self.assertEqual(list(file["index/storage_modulus.mean"]), list(whole["index/storage_modulus.mean"]))
         self.succeed("dataset", "verify", "set.h5")
 
+    def test_particles_alone(self):
+        """structures = "particles": the table of a whole set, a fraction of its size, and files that the verbs take."""
+        self.run_set("whole.h5")
+        self.write("particles.toml", 'structures = "particles"\n' + SWEEP)
+        self.succeed("dataset", "run", "particles.toml", "-o", "set.h5")
+        whole, alone = self.folder / "whole.h5", self.folder / "set.h5"
+        self.assertLess(alone.stat().st_size, 0.7 * whole.stat().st_size)
+        with h5py.File(whole) as one, h5py.File(alone) as other:
+            for name in ("doh.a", "storage_modulus.mean"):
+                self.assertEqual(one["index"][name][:].tolist(), other["index"][name][:].tolist())
+            for group in other["structures"].values():
+                self.assertNotIn("characterization", group)
+                self.assertNotIn("mechanics", group)
+        self.succeed("dataset", "verify", "set.h5")
+        self.assertEqual(self.succeed_json("dataset", "run", "particles.toml", "-o", "set.h5")["computed"], 0)
+        self.fail_with(2, "dataset", "run", "particles.toml", "-o", "whole.h5", says=["whole.h5", "--force"])
+
+    def test_structures_of_an_unknown_kind(self):
+        self.write("sweep.toml", 'structures = "particle"\n' + SWEEP)
+        self.fail_with(2, "dataset", "run", "sweep.toml", "-o", "set.h5", says=["sweep.toml", "'structures'", "did you mean 'particles'?"])
+
     def test_designs(self):
         varied = SWEEP.replace("voids = [10, 30]", "voids = { from = 5, to = 60, scale = 'log' }").replace("replicates = 3\n", "") \
                       .replace("0.4", "{ from = 0.3, to = 0.5 }").replace("[10, 50]", "10")
@@ -340,6 +361,14 @@ class Runs(ProgramTest):
         self.assertGreater(found["seconds"], 0)
         self.assertGreater(found["bytes"], 1e4)
         self.assertEqual(os.listdir(self.folder), ["sweep.toml"])
+
+    def test_plan_runs_a_trajectory_once(self):
+        sweep = ('[[generate]]\nverb = "brownian"\nparticles = 100\nvolume-fraction = 0.4\nradius = "0.25um"\n'
+                 'surface-potential = "0mV"\nsample-interval = "0.02ms"\nstop-coordination = [{}]\n')
+        self.write("one.toml", sweep.format("4"))
+        self.write("ten.toml", sweep.format(", ".join(str(3 + 0.1 * k) for k in range(11))))
+        one, eleven = (self.succeed_json("dataset", "plan", name, "--jobs", 1)["seconds"] for name in ("one.toml", "ten.toml"))
+        self.assertLess(eleven, 4 * one)  # they only lie on it
 
     def test_foreign_files(self):
         self.copy_of_packing("set.h5")

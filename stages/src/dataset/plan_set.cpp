@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 constexpr double bytes_per_particle = 3e4;
 constexpr double bytes_of_program = 6e7;
 constexpr std::int64_t most_calibrated = 1000;  // particles
+constexpr std::size_t most_calibrations = 6;    // of a generator
+constexpr double calibration_seconds = 20;      // after which none begins
 
 double particles_of(const SetRow& row) {
     return static_cast<double>(row.generate.count("particles"));
@@ -43,10 +45,28 @@ SetRow small_row(const SetRow& row) {
     return small;
 }
 
+/// Of one particle; seconds are those of one processor.
 struct Cost {
-    double seconds = 0;  ///< of one processor for a particle
-    double bytes = 0;    ///< in the set for a particle
+    double generating = 0;  ///< [s]
+    double stages = 0;      ///< measuring and shearing [s]
+    double bytes = 0;       ///< in the set
 };
+
+/// The time that one structure takes [s].
+double timed(const SetRow& row, const SetParts& parts, bool with_structure) {
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const Stopwatch clock;
+    compute_rows({&row}, parts, with_structure);
+    const double seconds = clock.seconds();
+    omp_set_num_threads(threads);
+    const std::optional<SetRecord> record = parts.record(row.id);
+    if (!record || !record->done) {
+        throw InputError("the structure " + row.generate.call() + " with " + std::to_string(row.generate.count("particles")) +
+                         " particles cannot be made: " + (record ? record->message : "nothing came of it"));
+    }
+    return seconds;
+}
 
 /// Computes one structure and removes it again.
 Cost measured_cost(const SetRow& row, const SetRun& run) {
@@ -54,20 +74,51 @@ Cost measured_cost(const SetRow& row, const SetRun& run) {
     const SetParts parts((scratch.path() / row.id).string());
     fs::create_directories(parts.folder());
     const SetRow small = small_row(row);
-    const int threads = omp_get_max_threads();
-    omp_set_num_threads(1);
-    const Stopwatch clock;
-    compute_rows({&small}, parts, run.keep_structures);
-    const double seconds = clock.seconds();
-    omp_set_num_threads(threads);
-    const std::optional<SetRecord> record = parts.record(row.id);
+    SetRow alone = small;
+    alone.characterize.reset();
+    alone.shear.reset();
+    const double generating = timed(alone, parts, false);
+    const double all = timed(small, parts, run.keep_structures);
     std::error_code missing;
     const auto bytes = fs::file_size(parts.structure(row.id), missing);
-    if (!record || !record->done) {
-        throw InputError("the structure " + small.generate.call() + " with " + std::to_string(small.generate.count("particles")) +
-                         " particles cannot be made: " + (record ? record->message : "nothing came of it"));
+    const double particles = particles_of(small);
+    return {generating / particles, std::max(all - generating, 0.0) / particles,
+            missing ? 0 : static_cast<double>(bytes) / particles};
+}
+
+/// The last row of every trajectory of each generator.
+std::map<std::string, std::vector<const SetRow*>> ends_of_trajectories(const Sweep& sweep) {
+    std::map<std::string, const SetRow*> ends;
+    for (const SetRow& row : sweep.rows) {
+        const SetRow*& end = ends.try_emplace(row.trajectory, &row).first->second;
+        end = row.stop > end->stop ? &row : end;
     }
-    return {seconds / particles_of(small), missing ? 0 : static_cast<double>(bytes) / particles_of(small)};
+    std::map<std::string, std::vector<const SetRow*>> of_generators;
+    for (const SetRow& row : sweep.rows) {
+        if (ends.at(row.trajectory) == &row) {
+            of_generators[row.generate.verb()].push_back(&row);
+        }
+    }
+    return of_generators;
+}
+
+/// The mean cost of a particle by each generator, of a few structures that are spread over the sweep.
+std::map<std::string, Cost> mean_costs(const Sweep& sweep, const SetRun& run, const Progress& progress) {
+    std::map<std::string, Cost> costs;
+    for (const auto& [verb, rows] : ends_of_trajectories(sweep)) {
+        const std::size_t wanted = std::min(most_calibrations, rows.size());
+        const Stopwatch clock;
+        Cost sum;
+        std::size_t count = 0;
+        for (; count < wanted && (count == 0 || clock.seconds() < calibration_seconds); ++count) {
+            progress.update("calibration", static_cast<double>(count) / static_cast<double>(wanted), verb);
+            const Cost cost = measured_cost(*rows[count * rows.size() / wanted], run);
+            sum = {sum.generating + cost.generating, sum.stages + cost.stages, sum.bytes + cost.bytes};
+        }
+        const auto measured = static_cast<double>(count);
+        costs[verb] = {sum.generating / measured, sum.stages / measured, sum.bytes / measured};
+    }
+    return costs;
 }
 
 }  // namespace
@@ -95,18 +146,15 @@ int jobs_of(const Sweep& sweep, const SetRun& run) {
 
 Printed plan_sweep(const Sweep& sweep, const SetRun& run, const Progress& progress) {
     const int jobs = jobs_of(sweep, run);
-    std::map<std::string, Cost> costs;
+    const std::map<std::string, Cost> costs = mean_costs(sweep, run, progress);
     std::set<std::string> generated;
+    std::set<std::string> trajectories;
     double seconds = 0;
     double bytes = 0;
-    for (std::size_t k = 0; k < sweep.rows.size(); ++k) {
-        const SetRow& row = sweep.rows[k];
-        progress.update("calibration", static_cast<double>(k) / static_cast<double>(sweep.rows.size()), row.generate.verb());
-        if (!costs.contains(row.generate.verb())) {
-            costs[row.generate.verb()] = measured_cost(row, run);
-        }
+    for (const SetRow& row : sweep.rows) {
         const Cost& cost = costs.at(row.generate.verb());
-        seconds += cost.seconds * particles_of(row);
+        const bool runs = trajectories.insert(row.trajectory).second;  // else it lies on the trajectory of another
+        seconds += (cost.stages + (runs ? cost.generating : 0)) * particles_of(row);
         bytes += cost.bytes * particles_of(row);
         generated.insert(row.made_of);
     }
@@ -142,8 +190,8 @@ Verb dataset_plan_verb() {
                           within(1, 1024)),
                     quantity("memory", "byte", "memory for all of them together", "", within(1e7, 1e15)),
                     flag("no-structures", "the set would keep its index only")},
-        .notes = {"One structure of each generator, of at most 1000 particles, is computed to tell; times grow as the number of "
-                  "particles."}};
+        .notes = {"Up to six structures of each generator, spread over the sweep and of at most 1000 particles, are computed to tell;",
+                  "after 20 s none begins. Times grow as the number of particles."}};
 }
 
 }  // namespace coagula::stages

@@ -63,6 +63,15 @@ bool succeeds(SetRecord& record, const Work& work) {
     }
 }
 
+void write_row(const std::string& path, const SetRow& row, const Generated& made, const std::vector<io::Addition>& found) {
+    const io::Provenance entry = timeless_call(row.generate, nullptr);
+    if (row.whole) {
+        io::write_structure(path, made.structure, {}, kept_results(made.findings), entry, true, found);
+    } else {
+        io::write_structure(path, {.packing = made.structure.packing, .bonds = {}, .time = made.structure.time}, {}, {}, entry, true);
+    }
+}
+
 /// Rows that share a generated structure.
 void compute_structure(std::span<const SetRow* const> rows, Trajectory& trajectory, const SetParts& parts, bool with_structures) {
     std::optional<Generated> made;
@@ -87,8 +96,7 @@ void compute_structure(std::span<const SetRow* const> rows, Trajectory& trajecto
         }
         if (record.done && with_structures) {
             const std::string path = parts.structure(row->id);
-            io::write_structure(path, made->structure, {}, kept_results(made->findings), timeless_call(row->generate, nullptr),
-                                true, found.additions);
+            write_row(path, *row, *made, found.additions);
             record.sha256 = io::structure_sha256(path);
         }
         parts.keep(record);

@@ -236,6 +236,19 @@ std::vector<std::pair<std::string, std::string>> read_card(const toml::table& ro
     return card;
 }
 
+/// Whether the structures keep what the stages found, or their particles alone.
+bool read_whole(const toml::table& root, const std::string& path) {
+    if (!root.contains("structures")) {
+        return true;
+    }
+    const std::vector<std::string> kinds = {"whole", "particles"};
+    const std::string kind = text_at(root, "structures", path);
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+        fail_at(path, "structures", "'" + kind + "' is not one of " + list_of(kinds) + did_you_mean(kind, kinds));
+    }
+    return kind == kinds.front();
+}
+
 std::string word_of(const Given& value) {
     if (const auto* text = std::get_if<std::string>(&value)) {
         return *text;
@@ -293,7 +306,7 @@ void check_generator(const Arguments& arguments) {
 }
 
 void append_rows(const Section& generate, const std::optional<Section>& characterize, const std::optional<Section>& shear,
-                 const Design& design, std::vector<SetRow>& rows) {
+                 const Design& design, bool whole, std::vector<SetRow>& rows) {
     constexpr std::size_t id_digits = 16;
     CheckedStage made(generate, check_generator);
     std::optional<CheckedStage> measured;
@@ -312,8 +325,9 @@ void append_rows(const Section& generate, const std::optional<Section>& characte
                    .stop = made_of.stop,
                    .generate = first,
                    .characterize = {},
-                   .shear = {}};
-        std::string all = made_of.text;
+                   .shear = {},
+                   .whole = whole};
+        std::string all = (whole ? "" : "particles ") + made_of.text;
         if (measured) {
             const auto& [arguments, signature] = (*measured)(values[1]);
             row.characterize = arguments;
@@ -350,9 +364,10 @@ Sweep parse_sweep(const std::string& text, const std::string& path) {
         throw InputError(path + ", line " + std::to_string(error.source().begin.line) +
                          ": not TOML: " + std::string(error.description()));
     }
-    refuse_other_keys(root, {"title", "authors", "licence", "description", "design", "generate", "characterize", "shear"}, path);
+    refuse_other_keys(root, {"title", "authors", "licence", "description", "design", "structures", "generate", "characterize", "shear"}, path);
     sweep.card = read_card(root, path);
     const Design design = read_design(root, path);
+    const bool whole = read_whole(root, path);
     const bool stepped = design.kind == Design::Kind::grid;
     const std::vector<Section> generators = read_generators(root, path, stepped);
     const auto characterize = read_stage(root, "characterize", characterize_verb(), path, stepped);
@@ -365,7 +380,7 @@ Sweep parse_sweep(const std::string& text, const std::string& path) {
         }
     }
     for (const Section& generate : generators) {
-        append_rows(generate, characterize, shear, design, sweep.rows);
+        append_rows(generate, characterize, shear, design, whole, sweep.rows);
     }
     refuse_equal_rows(sweep.rows, path);
     sweep.characterized = characterize.has_value();

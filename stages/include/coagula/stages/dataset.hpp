@@ -25,6 +25,7 @@ struct SetRow {
     Arguments generate;                     ///< of a generator
     std::optional<Arguments> characterize;  ///< none: the structure is not measured
     std::optional<Arguments> shear;         ///< none: it is not sheared
+    bool whole = true;                      ///< its file holds what the stages found, else the particles alone
 };
 
 struct Sweep {
@@ -57,7 +58,7 @@ SetRun set_run(const Arguments& arguments);
 Printed run_sweep(const Sweep& whole, const SetRun& run, const Progress& progress);
 
 Verb dataset_plan_verb();
-/// How many structures a sweep has, and what they take; one structure of each generator is computed to tell.
+/// How many structures a sweep has, and what they take; a few structures of each generator are computed to tell.
 Printed plan_sweep(const Sweep& sweep, const SetRun& run, const Progress& progress);
 
 Verb dataset_table_verb();
