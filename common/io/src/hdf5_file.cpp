@@ -63,6 +63,20 @@ std::string why_not_opened(const std::string& path) {
     return is_hdf5 > 0 ? "is truncated or damaged" : "cannot be read";
 }
 
+Content content_of(const Handle& opened) {
+    const Handle type(H5Dget_type(opened.get()), H5Tclose);
+    switch (H5Tget_class(type.get())) {
+        case H5T_FLOAT:
+            return Content::real;
+        case H5T_INTEGER:
+            return Content::integer;
+        case H5T_STRING:
+            return Content::text;
+        default:
+            return Content::other;
+    }
+}
+
 Shape extent_of(const Handle& space) {
     const int rank = H5Sget_simple_extent_ndims(space.get());
     std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
@@ -110,7 +124,7 @@ bool File::has(const std::string& object) const {
 }
 
 Handle File::open_object(const std::string& object) const {
-    return {has(object) ? H5Oopen(id_.get(), object.c_str(), H5P_DEFAULT) : H5I_INVALID_HID, H5Oclose};
+    return {H5Oopen(id_.get(), object.c_str(), H5P_DEFAULT), H5Oclose};
 }
 
 bool File::is_group(const std::string& object) const {
@@ -154,10 +168,10 @@ std::vector<std::string> File::datasets_below(const std::string& object) const {
 }
 
 Handle File::open_dataset(const std::string& dataset) const {
-    if (!has(dataset)) {
+    Handle opened = open_object(dataset);
+    if (!opened && !has(dataset)) {
         fail(dataset, "is missing");
     }
-    Handle opened = open_object(dataset);
     if (!opened || H5Iget_type(opened.get()) != H5I_DATASET) {
         fail(dataset, "is not a dataset");
     }
@@ -165,22 +179,14 @@ Handle File::open_dataset(const std::string& dataset) const {
 }
 
 Content File::content(const std::string& dataset) const {
-    const Handle opened = open_dataset(dataset);
-    const Handle type(H5Dget_type(opened.get()), H5Tclose);
-    switch (H5Tget_class(type.get())) {
-        case H5T_FLOAT:
-            return Content::real;
-        case H5T_INTEGER:
-            return Content::integer;
-        case H5T_STRING:
-            return Content::text;
-        default:
-            return Content::other;
-    }
+    return content_of(open_dataset(dataset));
 }
 
 Shape File::shape(const std::string& dataset) const {
-    const Handle opened = open_dataset(dataset);
+    return shape_of(open_dataset(dataset), dataset);
+}
+
+Shape File::shape_of(const Handle& opened, const std::string& dataset) const {
     const Handle space(H5Dget_space(opened.get()), H5Sclose);
     if (H5Sget_simple_extent_type(space.get()) == H5S_NULL) {
         fail(dataset, "is empty");
@@ -201,8 +207,7 @@ void File::require_plausible(const std::string& object, std::size_t bytes) const
     }
 }
 
-Handle File::slice_of(const std::string& dataset, std::size_t frame) const {
-    const Handle opened = open_dataset(dataset);
+Handle File::slice_of(const Handle& opened, std::size_t frame) {
     Handle space(H5Dget_space(opened.get()), H5Sclose);
     const Shape shape = extent_of(space);
     std::vector<hsize_t> start(shape.size(), 0);
@@ -213,9 +218,9 @@ Handle File::slice_of(const std::string& dataset, std::size_t frame) const {
     return space;
 }
 
-void File::read_numbers(const std::string& dataset, hid_t memory_type, void* values, const Handle& slice) const {
-    const Handle opened = open_dataset(dataset);
-    const Content found = content(dataset);
+void File::read_numbers(const Handle& opened, const std::string& dataset, hid_t memory_type, void* values,
+                        const Handle& slice) const {
+    const Content found = content_of(opened);
     if (found != Content::real && found != Content::integer) {
         fail(dataset, "does not hold numbers");
     }
@@ -223,7 +228,7 @@ void File::read_numbers(const std::string& dataset, hid_t memory_type, void* val
     const bool chunked = H5Pget_layout(properties.get()) == H5D_CHUNKED;
     const Handle type(H5Dget_type(opened.get()), H5Tclose);
     const std::size_t stored = H5Dget_storage_size(opened.get());
-    if (!chunked && stored > 0 && stored < count(shape(dataset)) * H5Tget_size(type.get())) {
+    if (!chunked && stored > 0 && stored < count(shape_of(opened, dataset)) * H5Tget_size(type.get())) {
         fail(dataset, "is stored in less room than it needs: the file is damaged");  // HDF5 1.10 would read past the end
     }
     Handle memory;

@@ -109,18 +109,20 @@ public:
     Shape shape(const std::string& dataset) const;
     template <class T>
     std::vector<T> read(const std::string& dataset) const {
-        std::vector<T> values(count(shape(dataset)));
-        read_numbers(dataset, NumberType<T>::memory(), values.data(), Handle());
+        const Handle opened = open_dataset(dataset);
+        std::vector<T> values(count(shape_of(opened, dataset)));
+        read_numbers(opened, dataset, NumberType<T>::memory(), values.data(), Handle());
         return values;
     }
     /// The last slice along the first axis.
     template <class T>
     std::vector<T> read_last(const std::string& dataset) const {
-        Shape slice = shape(dataset);
+        const Handle opened = open_dataset(dataset);
+        Shape slice = shape_of(opened, dataset);
         const std::size_t frames = slice.at(0);
         slice[0] = 1;
         std::vector<T> values(count(slice));
-        read_numbers(dataset, NumberType<T>::memory(), values.data(), slice_of(dataset, frames - 1));
+        read_numbers(opened, dataset, NumberType<T>::memory(), values.data(), slice_of(opened, frames - 1));
         return values;
     }
     std::string read_text(const std::string& dataset) const;
@@ -169,8 +171,9 @@ private:
     void make_room(const std::string& object);
     Handle open_object(const std::string& object) const;
     Handle open_dataset(const std::string& dataset) const;
-    Handle slice_of(const std::string& dataset, std::size_t frame) const;
-    void read_numbers(const std::string& dataset, hid_t memory_type, void* values, const Handle& slice) const;
+    Shape shape_of(const Handle& opened, const std::string& dataset) const;
+    static Handle slice_of(const Handle& opened, std::size_t frame);
+    void read_numbers(const Handle& opened, const std::string& dataset, hid_t memory_type, void* values, const Handle& slice) const;
     void write_numbers(const std::string& dataset, const Shape& shape, hid_t file_type, hid_t memory_type, const void* values);
     void write_attribute(const std::string& object, const std::string& name, hid_t type, const Handle& space, const void* values);
 

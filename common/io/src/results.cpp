@@ -90,10 +90,10 @@ void write_datasets(const std::string& path, const std::vector<Dataset>& dataset
     write_file(path, file.close(), overwrite);
 }
 
-std::vector<Dataset> results_in(const File& file, const std::string& group) {
+std::vector<Dataset> values_in(const File& file, const std::string& group) {
     std::vector<Dataset> results;
     for (const std::string& name : file.datasets_below(group)) {
-        Dataset dataset{name, file.shape(name), {}, file.attribute(name, "unit"), file.attribute(name, "description")};
+        Dataset dataset{name, file.shape(name), {}, {}, {}};
         const Content content = file.content(name);
         if (content == Content::real) {
             dataset.values = file.read<double>(name);
@@ -105,6 +105,15 @@ std::vector<Dataset> results_in(const File& file, const std::string& group) {
             continue;  // not one of ours
         }
         results.push_back(std::move(dataset));
+    }
+    return results;
+}
+
+std::vector<Dataset> results_in(const File& file, const std::string& group) {
+    std::vector<Dataset> results = values_in(file, group);
+    for (Dataset& dataset : results) {
+        dataset.unit = file.attribute(dataset.path, "unit");
+        dataset.description = file.attribute(dataset.path, "description");
     }
     return results;
 }

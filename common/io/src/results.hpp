@@ -8,6 +8,9 @@
 
 namespace coagula::io {
 
+/// The values of all datasets below a group, sorted by path, without units and descriptions.
+std::vector<Dataset> values_in(const hdf5::File& file, const std::string& group);
+
 /// All datasets below a group, sorted by path.
 std::vector<Dataset> results_in(const hdf5::File& file, const std::string& group);
 

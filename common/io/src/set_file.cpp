@@ -128,7 +128,7 @@ SetHead unpacked(const std::string& bytes) {
 }
 
 std::string sum_of(const File& file, const std::string& group) {
-    std::vector<Dataset> all = results_in(file, group);
+    std::vector<Dataset> all = values_in(file, group);
     const std::size_t prefix = group == "/" ? 0 : group.size();
     std::erase_if(all, [&](const Dataset& dataset) { return dataset.path.substr(prefix).starts_with(layout::provenance); });
     for (Dataset& dataset : all) {

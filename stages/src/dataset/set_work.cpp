@@ -37,10 +37,27 @@ struct Found {
     std::vector<Findings> findings = {};
 };
 
-Found find(const SetRow& row, const Packing& packing, const std::optional<BondPotential>& bonds) {
+/// Measures one packing; rows that differ in their shear alone share what is found.
+class Measured {
+public:
+    const Findings& operator()(const Arguments& arguments, const Packing& packing, const std::optional<BondPotential>& bonds) {
+        std::string options = arguments.to_json().dump();
+        if (!findings_ || options != options_) {
+            findings_ = measure(characterize_run(arguments, bonds), packing, {});
+            options_ = std::move(options);
+        }
+        return *findings_;
+    }
+
+private:
+    std::string options_;
+    std::optional<Findings> findings_;
+};
+
+Found find(const SetRow& row, const Packing& packing, const std::optional<BondPotential>& bonds, Measured& measured) {
     Found found;
     if (row.characterize) {
-        found.findings.push_back(measure(characterize_run(*row.characterize, bonds), packing, {}));
+        found.findings.push_back(measured(*row.characterize, packing, bonds));
         found.additions.push_back(addition_of(found.findings.back(), std::nullopt, timeless_call(*row.characterize, &packing)));
     }
     if (row.shear) {
@@ -83,11 +100,12 @@ void compute_structure(std::span<const SetRow* const> rows, Trajectory& trajecto
         packing = io::packing_as_stored(made->structure.packing);
         bonds = bond_potential_in(made->findings.results);
     });
+    Measured measured;
     for (const SetRow* row : rows) {
         SetRecord record = common;
         record.id = row->id;
         Found found;
-        record.done = made && succeeds(record, [&] { found = find(*row, *packing, bonds); });
+        record.done = made && succeeds(record, [&] { found = find(*row, *packing, bonds, measured); });
         if (record.done) {
             append_results(record, made->findings);
             for (const Findings& findings : found.findings) {
