@@ -15,6 +15,8 @@ Measure free_spheres_measure();
 Measure overlap_measure();
 Measure fabric_measure();
 Measure rigidity_central_measure();
+Measure coordination_percolation_measure();
+Measure dense_clusters_measure();
 Measure rigidity_measure();
 Measure rings_measure();
 Measure sampled_check_measure();
@@ -41,6 +43,8 @@ const std::vector<Measure>& measures() {
         free_spheres_measure(),
         overlap_measure(),
         topology_measure(),
+        coordination_percolation_measure(),
+        dense_clusters_measure(),
         rings_measure(),
         fabric_measure(),
         rigidity_measure(),

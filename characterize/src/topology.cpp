@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/topology.hpp>
 
-#include <coagula/characterize/rings.hpp>
+#include <coagula/characterize/cliques.hpp>
 
 #include <algorithm>
 
@@ -21,8 +21,12 @@ Topology measure_topology(const Packing& packing, const ContactNetwork& contacts
     result.counts = contact_counts(contacts);
     result.mean = result.counts.cast<double>().mean();
     result.variance = (result.counts.cast<double>().array() - result.mean).square().mean();
-    result.triangles = measure_rings(contacts, 3).per_particle.row(3).transpose();
-    result.triangle_count = result.triangles.cast<Index>().sum() / 3;
+    const Cliques cliques = find_cliques(contacts);
+    result.triangles = cliques.triangles_of_particle;
+    result.triangle_count = cliques.triangles.cols();
+    result.tetrahedra = cliques.tetrahedra_of_particle;
+    result.tetrahedron_count = cliques.tetrahedra.cols();
+    result.triangles_of_contact = cliques.triangles_of_contact;
     return result;
 }
 

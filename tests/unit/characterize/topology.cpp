@@ -3,6 +3,7 @@
 #include <coagula/characterize/rings.hpp>
 #include <coagula/characterize/topology.hpp>
 
+#include "networks.hpp"
 #include "support/lattices.hpp"
 #include "test_packings.hpp"
 
@@ -109,20 +110,9 @@ Eigen::VectorXi rings_by_definition(const ContactNetwork& contacts, int largest)
     return count;
 }
 
-Packing random_open(Index particles, std::uint64_t seed) {
-    Packing packing;
-    packing.cell = Cell::open(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones());
-    packing.positions.resize(3, particles);
-    for (Index k = 0; k < particles; ++k) {
-        packing.positions.col(k) = random_uniform(seed, RandomPurpose::test, 0, static_cast<std::uint64_t>(k));
-    }
-    packing.radii = Eigen::VectorXd::Constant(particles, 0.15);
-    return packing;
-}
-
 TEST(Rings, AreThoseOfTheDefinition) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        const ContactNetwork contacts = find_contacts(random_open(40, seed), 0.01);
+        const ContactNetwork contacts = find_contacts(test::random_open(40, seed), 0.01);
         const Eigen::VectorXd found = measure_rings(contacts, 8).count();
         EXPECT_EQ(found, rings_by_definition(contacts, 8).cast<double>()) << "seed " << seed;
     }
@@ -146,6 +136,8 @@ TEST(Topology, OfCrystals) {
     EXPECT_EQ(topology.mean, 12);
     EXPECT_EQ(topology.variance, 0);
     EXPECT_EQ(topology.triangle_count, 8 * packing.size());
+    EXPECT_EQ(topology.tetrahedron_count, 2 * packing.size());
+    EXPECT_TRUE((topology.triangles_of_contact.array() == 4).all());
     EXPECT_EQ(topology.loops, 5 * packing.size() + 1);
     EXPECT_EQ(topology.windings(), 3);
     EXPECT_TRUE(topology.percolates(0) && topology.percolates(1) && topology.percolates(2));
@@ -168,6 +160,7 @@ TEST(Topology, OfAChainATriangleAndALoneParticle) {
     EXPECT_EQ(topology.lone_particles, 1);
     EXPECT_EQ(topology.loops, 2);
     EXPECT_EQ(topology.triangle_count, 1);
+    EXPECT_EQ(topology.tetrahedron_count, 0);
     EXPECT_EQ(topology.of_particle, (Eigen::VectorXi(9) << 0, 0, 0, 0, 0, 1, 1, 1, -1).finished());
     EXPECT_DOUBLE_EQ(topology.mean, 16.0 / 9);
     EXPECT_DOUBLE_EQ(topology.variance, 32.0 / 9 - 256.0 / 81);
