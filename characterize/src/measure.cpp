@@ -50,7 +50,9 @@ MeasureResult packing_facts(const MeasureInput& input) {
 
 /// Throws unless all numbers of a result are finite.
 void check_numbers(const MeasureResult& result) {
-    for (const Dataset& dataset : result.datasets) {
+    std::vector<Dataset> all = result.datasets;
+    all.insert(all.end(), result.contact_results.begin(), result.contact_results.end());
+    for (const Dataset& dataset : all) {
         const auto* numbers = std::get_if<std::vector<double>>(&dataset.values);
         if (numbers != nullptr &&
             !std::all_of(numbers->begin(), numbers->end(), [](double value) { return std::isfinite(value); })) {
@@ -169,6 +171,7 @@ void MeasureResult::add_line(const std::string& label, const std::string& text) 
 
 void MeasureResult::append(const MeasureResult& other) {
     datasets.insert(datasets.end(), other.datasets.begin(), other.datasets.end());
+    contact_results.insert(contact_results.end(), other.contact_results.begin(), other.contact_results.end());
     fields.insert(fields.end(), other.fields.begin(), other.fields.end());
     lines.insert(lines.end(), other.lines.begin(), other.lines.end());
 }

@@ -15,6 +15,7 @@ Measure free_spheres_measure();
 Measure overlap_measure();
 Measure fabric_measure();
 Measure rigidity_central_measure();
+Measure betweenness_measure();
 Measure coordination_percolation_measure();
 Measure dense_clusters_measure();
 Measure rigidity_measure();
@@ -46,6 +47,7 @@ const std::vector<Measure>& measures() {
         coordination_percolation_measure(),
         dense_clusters_measure(),
         rings_measure(),
+        betweenness_measure(),
         fabric_measure(),
         rigidity_measure(),
         rigidity_central_measure(),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures against numpy and scipy: neighbours and pores by a k-d tree, q4 and q6 by a Voronoi diagram and spherical harmonics, S(q),
-angles, common neighbours and windows by brute force, and the rank of the rigidity matrix."""
+angles, common neighbours and windows by brute force, shortest ways and clusters of the network, and the rank of the rigidity matrix."""
 
 import itertools
 import random
@@ -9,7 +9,10 @@ import unittest
 from support import PACKING, ProgramTest
 
 try:
+    import h5py
     import numpy
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components, shortest_path
     from scipy.spatial import Voronoi, cKDTree
     from scipy.special import sph_harm
 except ImportError:  # python3-scipy
@@ -173,6 +176,27 @@ class AgainstScipy(ProgramTest):
             self.assertAlmostEqual(deviation, window_deviation(points, BOX, width, 0.2), delta=1e-9)
             compared += 1
         self.assertGreater(compared, 3)
+
+    def test_shortest_ways(self):
+        found = self.succeed_json("characterize", PACKING, "--only", "betweenness,coordination_percolation", "-o", "out.h5")
+        self.assertNotIn("of_contact", found["betweenness"])
+        with h5py.File(self.folder / "out.h5") as file:
+            group = file["characterization/betweenness"]
+            pairs, values, branches = group["contacts"][()], group["of_contact"][()], group["branch_vectors"][()]
+            particles = len(file["particles/trajectory/radius"])
+        self.assertEqual((pairs.shape, branches.shape), ((len(values), 2), (len(values), 3)))
+        network = coo_matrix((numpy.ones(len(pairs)), pairs.T), (particles, particles)).tocsr()
+        ways = shortest_path(network, directed=False, unweighted=True)
+        joined = numpy.isfinite(ways) & (ways > 0)
+        self.assertAlmostEqual(found["betweenness"]["mean_distance"], ways[joined].mean(), delta=1e-9)
+        self.assertAlmostEqual(values.sum(), ways[joined].sum() / (particles * (particles - 1)), delta=1e-9)
+        degrees = numpy.bincount(pairs.ravel(), minlength=particles)
+        for least, word in ((3, "three"), (6, "six")):
+            chosen = network[degrees >= least][:, degrees >= least]
+            largest = numpy.bincount(connected_components(chosen, directed=False)[1]).max()
+            share = found["coordination_percolation"][word + "_or_more"]
+            self.assertEqual(share["fraction"], chosen.shape[0] / particles)
+            self.assertEqual(share["largest_fraction"], largest / particles)
 
     def test_rank_of_the_central_network_and_the_count_of_maxwell(self):
         self.succeed("export", PACKING, "--format", "csv", "-o", "points.csv")

@@ -9,9 +9,11 @@
 #include <coagula/stages/output_file.hpp>
 #include <coagula/stages/provenance.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 
 namespace coagula::tools {
 
@@ -85,10 +87,10 @@ void run_characterize(const Arguments& arguments) {
 
     Findings found = naming(arguments.input(), [&] { return measure(run, packing, progress); });
     progress.update("writing", 1.0);
+    Json json = to_json(found.results, found.group);
+    std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
     io::add_results(arguments.input(), target, replaced_groups(found), std::nullopt, found.fields, found.results,
                     describe_call(arguments, &packing, clock), arguments.flag("force"));
-
-    Json json = to_json(found.results, found.group);
     json["output"] = target;
     json["seconds"] = clock.seconds();
     found.table.emplace_back("written to", target);

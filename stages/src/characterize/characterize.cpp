@@ -130,10 +130,12 @@ Findings measure(const CharacterizeRun& run, const Packing& packing, const Progr
         found.append(characterize::measure_noise_shifts(packing, found, *run.noise, run.options, run.only, run.seed, progress));
     }
     check_finite(found.datasets);
+    check_finite(found.contact_results);
     return {.group = "/characterization",
             .results = std::move(found.datasets),
             .fields = std::move(found.fields),
-            .table = std::move(found.lines)};
+            .table = std::move(found.lines),
+            .bond_results = std::move(found.contact_results)};
 }
 
 Printed compare(const CharacterizeRun& run, const std::array<std::string, 2>& names, const std::array<Packing, 2>& packings,

@@ -55,6 +55,7 @@ public:
     double standard_error(const std::string& name) const { return value("uncertainty/" + name); }
 
     std::vector<Dataset> datasets;
+    std::vector<Dataset> contact_results;  ///< one value per contact each: for the file only
     std::vector<ParticleField> fields;
     Table lines;
 };
