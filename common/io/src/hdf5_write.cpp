@@ -152,7 +152,9 @@ File File::create(const std::string& path) {
     H5Pset_obj_track_times(creation.get(), false);
     Handle id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
     require_written(static_cast<bool>(id), path, "a new file");
-    return {path, std::move(image), std::move(id)};
+    File file(path, std::move(image), std::move(id));
+    file.length_ = SIZE_MAX;  // what is read from it was written here
+    return file;
 }
 
 std::span<const char> File::close() {

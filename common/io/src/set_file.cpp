@@ -3,7 +3,6 @@
 #include <coagula/io/atomic_file.hpp>
 #include <coagula/io/checksums.hpp>
 #include <coagula/io/set_file.hpp>
-#include <coagula/io/structure_file.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -14,6 +13,7 @@
 #include "layout.hpp"
 #include "packed.hpp"
 #include "results.hpp"
+#include "write_structure.hpp"
 
 namespace coagula::io {
 
@@ -230,8 +230,12 @@ void extract_structure(const std::string& set, const std::string& id, const std:
     write_file(path, bytes, overwrite);
 }
 
-std::string structure_sha256(const std::string& file) {
-    return run_in_child(file, [&](ReadingLimits& /*limits*/) { return sum_of(File::open(file), "/"); });
+std::string write_part(const std::string& path, const Structure& structure, const std::vector<Dataset>& results,
+                       const Provenance& provenance, const std::vector<Addition>& later) {
+    File file = built_structure(path, structure, {}, results, provenance, later);
+    std::string sum = sum_of(file, "/");
+    write_file(path, file.close(), true);
+    return sum;
 }
 
 std::vector<std::pair<std::string, std::string>> structure_sums(const std::string& set) {

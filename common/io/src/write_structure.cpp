@@ -11,6 +11,7 @@
 #include "read_structure.hpp"
 #include "results.hpp"
 #include "vtk_view.hpp"
+#include "write_structure.hpp"
 
 namespace coagula::io {
 
@@ -167,10 +168,8 @@ void add_to(File& file, const Packing& packing, const std::optional<ContactNetwo
 
 }  // namespace
 
-void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
-                     const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
-                     const std::vector<Addition>& later) {
-    check_output(path, overwrite);
+File built_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
+                     const std::vector<Dataset>& results, const Provenance& provenance, const std::vector<Addition>& later) {
     check(structure.packing);
     require(!structure.bonds || structure.bonds->particles == structure.packing.size(), "the bonds are those of another packing");
     for (const Frame& frame : structure.earlier) {
@@ -196,6 +195,14 @@ void write_structure(const std::string& path, const Structure& structure, const 
         add_to(file, structure.packing, bonds, layout::trajectory, added);
         bonds = added.bonds ? added.bonds : bonds;
     }
+    return file;
+}
+
+void write_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
+                     const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
+                     const std::vector<Addition>& later) {
+    check_output(path, overwrite);
+    File file = built_structure(path, structure, fields, results, provenance, later);
     write_file(path, file.close(), overwrite);
 }
 

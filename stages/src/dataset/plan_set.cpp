@@ -190,8 +190,9 @@ Verb dataset_plan_verb() {
                           within(1, 1024)),
                     quantity("memory", "byte", "memory for all of them together", "", within(1e7, 1e15)),
                     flag("no-structures", "the set would keep its index only")},
-        .notes = {"Up to six structures of each generator, spread over the sweep and of at most 1000 particles, are computed to tell;",
-                  "after 20 s none begins. Times grow as the number of particles."}};
+        .notes = {
+            "Up to six structures of each generator, spread over the sweep and of at most 1000 particles, are computed to tell;",
+            "after 20 s none begins. Times grow as the number of particles."}};
 }
 
 }  // namespace coagula::stages

@@ -80,13 +80,13 @@ bool succeeds(SetRecord& record, const Work& work) {
     }
 }
 
-void write_row(const std::string& path, const SetRow& row, const Generated& made, const std::vector<io::Addition>& found) {
+/// @return its checksum.
+std::string write_row(const std::string& path, const SetRow& row, const Generated& made, const std::vector<io::Addition>& found) {
     const io::Provenance entry = timeless_call(row.generate, nullptr);
     if (row.whole) {
-        io::write_structure(path, made.structure, {}, kept_results(made.findings), entry, true, found);
-    } else {
-        io::write_structure(path, {.packing = made.structure.packing, .bonds = {}, .time = made.structure.time}, {}, {}, entry, true);
+        return io::write_part(path, made.structure, kept_results(made.findings), entry, found);
     }
+    return io::write_part(path, {.packing = made.structure.packing, .bonds = {}, .time = made.structure.time}, {}, entry, {});
 }
 
 /// Rows that share a generated structure.
@@ -113,9 +113,7 @@ void compute_structure(std::span<const SetRow* const> rows, Trajectory& trajecto
             }
         }
         if (record.done && with_structures) {
-            const std::string path = parts.structure(row->id);
-            write_row(path, *row, *made, found.additions);
-            record.sha256 = io::structure_sha256(path);
+            record.sha256 = write_row(parts.structure(row->id), *row, *made, found.additions);
         }
         parts.keep(record);
     }

@@ -364,7 +364,8 @@ Sweep parse_sweep(const std::string& text, const std::string& path) {
         throw InputError(path + ", line " + std::to_string(error.source().begin.line) +
                          ": not TOML: " + std::string(error.description()));
     }
-    refuse_other_keys(root, {"title", "authors", "licence", "description", "design", "structures", "generate", "characterize", "shear"}, path);
+    refuse_other_keys(
+        root, {"title", "authors", "licence", "description", "design", "structures", "generate", "characterize", "shear"}, path);
     sweep.card = read_card(root, path);
     const Design design = read_design(root, path);
     const bool whole = read_whole(root, path);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <coagula/common/packing.hpp>
+#include <coagula/io/structure_file.hpp>
 
 #include <cstdint>
 #include <string>
@@ -57,10 +58,12 @@ std::vector<std::string> structures_in_set(const std::string& path);
 /// Writes one structure of a set as a file of its own. Throws InputError where the set does not hold it.
 void extract_structure(const std::string& set, const std::string& id, const std::string& path, bool overwrite);
 
-/// SHA-256 of all data sets of a file of one structure in the order of their paths, the history left out.
-std::string structure_sha256(const std::string& file);
+/// Writes the file of one structure, from which a set is put together, as write_structure does; over one of its name.
+/// @return SHA-256 of all its data sets in the order of their paths, the history left out (hexadecimal).
+std::string write_part(const std::string& path, const Structure& structure, const std::vector<Dataset>& results,
+                       const Provenance& provenance, const std::vector<Addition>& later);
 
-/// The same of all structures of a set, by their ids.
+/// The SHA-256 of all structures of a set, as write_part gives it, by their ids.
 std::vector<std::pair<std::string, std::string>> structure_sums(const std::string& set);
 
 /// The packing as it is read again after it was written: lengths go through nanometres.
