@@ -74,6 +74,7 @@ set(coagula_slow_tests
   "cli[.]bad_input[.]Generation[.]unreachable_coordination"
   "cli[.]bad_packings[.].*"
   "cli[.]brownian[.]Restart[.].*"
+  "cli[.]lammps_engine[.](Runs|Statistics)[.].*"
   "cli[.]calibrate[.]Calibrate[.]methods_agree"
   "cli[.]determinism[.].*"
   "cli[.]rheometer[.]Rheometer[.]a_killed_run.*"

@@ -21,6 +21,9 @@ struct ReducedUnits {
           time(length * length * 6 * std::numbers::pi * options.viscosity * length / (options.slowing * energy)) {}
 };
 
+/// The force begins to fade at this share of the cut-off gap.
+inline constexpr double fading_share = 0.8;
+
 /// How the force is shared between the two tables; gaps in units of the mean radius.
 struct ForceRanges {
     double near_start;  ///< up to here everything is near

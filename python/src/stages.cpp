@@ -109,7 +109,7 @@ std::shared_ptr<Stage> generated(const Arguments& arguments, const Packing* inpu
     }
     stage->earlier = std::move(made.structure.earlier);
     stage->time = made.structure.time;
-    stage->provenance = describe_call(arguments, input, clock);
+    stage->provenance = describe_call(arguments, input, clock, stage->findings.engine);
     return stage;
 }
 
@@ -168,7 +168,7 @@ std::shared_ptr<Stage> shear(const Options& options, const std::string& call, co
     auto stage = std::make_shared<Stage>();
     stage->findings = std::move(sheared.findings);
     stage->bonds = std::make_shared<ContactNetwork>(std::move(sheared.bonds));
-    stage->provenance = describe_call(arguments, packing.get(), clock);
+    stage->provenance = describe_call(arguments, packing.get(), clock, stage->findings.engine);
     return stage;
 }
 

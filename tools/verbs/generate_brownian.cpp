@@ -39,7 +39,8 @@ void run_generate_brownian(const Arguments& arguments) {
     Generated made = generate(stages::brownian_run(arguments, first), first, progress);
     progress.update("writing", 1.0);
     const Results& results = made.findings.results;
-    io::write_structure(output, made.structure, {}, results, describe_call(arguments, first, clock), arguments.flag("force"));
+    io::write_structure(output, made.structure, {}, results, describe_call(arguments, first, clock, made.findings.engine),
+                        arguments.flag("force"));
     Json json = to_json(results, made.findings.group);
     json["particles"] = made.structure.packing.size();
     json["volume_fraction"] = volume_fraction(made.structure.packing);

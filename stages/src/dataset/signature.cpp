@@ -18,7 +18,7 @@ namespace {
 /// The option that says where a trajectory ends on which other structures may lie; empty where there is none. The samples of a run
 /// follow from its stop time where their interval is not given.
 std::string stop_of(const Arguments& arguments) {
-    if (arguments.verb() != generate_brownian_verb().name) {
+    if (arguments.verb() != generate_brownian_verb().name || arguments.text("engine") != "builtin") {
         return "";
     }
     if (arguments.has("stop-time") && !arguments.has("sample-interval")) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // generate brownian: coagulation of a stabilised suspension by Brownian dynamics.
+#include "brownian_by_lammps.hpp"
 #include "brownian_checkpoint.hpp"
 #include "brownian_results.hpp"
 #include "potential.hpp"
@@ -102,6 +103,11 @@ void add_conditions(std::vector<Option>& options) {
     not_read_with(options, {"gravity", "snapshots", "heterogeneity"}, "shear-amplitude");
     read_only_with(options, {"plateau-time", "plateau-change"}, "stop-plateau", {"coordination", "mean-gap"});
     read_only_with(options, {"checkpoint-interval"}, "checkpoint");
+    // Its styles have no overdamped particles that turn, and nothing here restarts it.
+    not_read_with(
+        options,
+        {"tangential-stiffness", "rolling-stiffness", "gravity", "shear-rate", "shear-amplitude", "integrator", "checkpoint"},
+        "engine", {"lammps"});
 }
 
 Suspension suspension_of(const Arguments& arguments, const Eigen::VectorXd& given, std::uint64_t seed) {
@@ -172,6 +178,33 @@ generators::BrownianRun run_or_resume(const BrownianRun& run, const Packing& sta
     return io::with_checkpoint(path, [&] { return simulate_brownian(start, potential, options, progress, control); });
 }
 
+/// Appends what is known of LAMMPS, which moved the particles.
+void append_engine(Findings& found, const LammpsBrownianRun& made) {
+    const std::string group = found.group + "/engine/";
+    found.engine = "LAMMPS " + made.version;
+    found.results.push_back(io::text(group + "name", found.engine, "program that moved the particles, with its version"));
+    found.results.push_back(
+        io::scalar(group + "memory", made.memory, "s", "mass times mobility: a particle forgets its velocity in this time"));
+    found.table.emplace_back("moved by", found.engine);
+}
+
+/// Wrong options of the potential and of the engine shall not wait for the equilibration.
+void check_motion(const BrownianRun& run, const Packing* start, double radius) {
+    if (run.lammps) {
+        const Eigen::VectorXd& radii = start != nullptr ? start->radii : run.suspension->placed.radii;
+        check_for_lammps(radii, start != nullptr ? &start->cell : nullptr, run.motion.cutoff_gap);
+    }
+    if (start != nullptr || std::isnan(radius)) {
+        return;
+    }
+    const PairPotential potential = make_potential(run.forces, radius);
+    if (run.lammps) {
+        choose_inertial_step(potential, radius, radius, run.motion);
+    } else {
+        choose_time_step(potential, radius, radius, run.motion);
+    }
+}
+
 /// What follows from the range of the attraction where it is not given: how far forces reach, and what counts as a contact.
 void take_ranges(const Arguments& arguments, BrownianRun& run, double radius) {
     const double range = run.forces.depletion->range_of(radius);
@@ -226,10 +259,6 @@ BrownianRun brownian_run(const Arguments& arguments, const Packing* start, const
     }
     run.forces = pair_forces(arguments);
     const double radius = radii.size() > 0 ? radii.mean() : arguments.optional_quantity("radius").value_or(unset);
-    // Wrong options of the potential shall not wait for the equilibration.
-    if (start == nullptr && !std::isnan(radius)) {
-        choose_time_step(make_potential(run.forces, radius), radius, radius, run.motion);
-    }
     if (start != nullptr) {
         check_beside_start(arguments);
     } else {
@@ -238,6 +267,8 @@ BrownianRun brownian_run(const Arguments& arguments, const Packing* start, const
     if (run.forces.depletion) {
         take_ranges(arguments, run, start != nullptr ? mean_radius(*start) : run.suspension->placed.radii.mean());
     }
+    run.lammps = engine_of(arguments);
+    check_motion(run, start, radius);
     run.heterogeneity = arguments.flag("heterogeneity");
     run.checkpoint = {arguments.text("checkpoint", ""), fingerprint(arguments)};
     if (arguments.has("checkpoint-interval")) {  // a sweep has none
@@ -250,6 +281,12 @@ Generated generate(const BrownianRun& run, const Packing* start, const Progress&
     BrownianOptions options = run.motion;
     const Packing first = start != nullptr ? *start : made_suspension(run, progress);
     const PairPotential potential = make_potential(run.forces, mean_radius(first));
+    if (run.lammps) {
+        LammpsBrownianRun made = brownian_by_lammps(*run.lammps, first, potential, options, progress);
+        Generated generated = described(run, first, potential, options, std::move(made.run), progress);
+        append_engine(generated.findings, made);
+        return generated;
+    }
     generators::BrownianRun made = run_or_resume(run, first, potential, options, progress);
     return described(run, first, potential, options, std::move(made), progress);
 }
@@ -257,6 +294,9 @@ Generated generate(const BrownianRun& run, const Packing* start, const Progress&
 Generated Trajectory::next(const BrownianRun& run, const Progress& progress) {
     if (!start_) {
         start_ = made_suspension(run, progress);
+    }
+    if (run.lammps) {
+        return generate(run, &*start_, progress);
     }
     const PairPotential potential = make_potential(run.forces, mean_radius(*start_));
     std::optional<BrownianCheckpoint> reached;
@@ -342,6 +382,8 @@ Verb generate_brownian_verb() {
         output("HDF5 file to write"),
         flag("force", "replace an existing file")};
     options.insert(options.end(), rest.begin(), rest.end());
+    const std::vector<Option> engine = engine_options();
+    options.insert(options.end() - 3, engine.begin(), engine.end());
     add_conditions(options);
     return {.name = "generate brownian",
             .summary = "coagulate a stabilised suspension by Brownian dynamics with DLVO forces or depletion attraction",

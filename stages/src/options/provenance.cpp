@@ -28,13 +28,13 @@ std::string version_text() {
     return text;
 }
 
-io::Provenance describe_call(const Arguments& arguments, const Packing* input, const Stopwatch& clock) {
+io::Provenance describe_call(const Arguments& arguments, const Packing* input, const Stopwatch& clock, const std::string& engine) {
     io::Provenance entry;
     entry.stage = arguments.verb();
     entry.command_line = arguments.call();
     entry.options = arguments.to_json().dump();
     entry.seed = arguments.has("seed") ? arguments.count("seed") : -1;
-    entry.version = version_text();
+    entry.version = version_text() + (engine.empty() ? "" : ", " + engine);
     entry.positions_sha256 = input != nullptr ? io::positions_sha256(*input) : std::string{};
     return finished(std::move(entry), clock);
 }

@@ -26,6 +26,7 @@ struct Findings {
     Table table = {};
     Results bond_results = {};  ///< one value per bond each: for the file only
     std::vector<io::BondField> bond_fields = {};
+    std::string engine = {};              ///< another program that computed them, with its version; empty: none
     std::vector<std::string> notes = {};  ///< sentences that a user should know
 };
 

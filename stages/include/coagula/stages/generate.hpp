@@ -10,6 +10,7 @@
 #include <coagula/io/structure_file.hpp>
 #include <coagula/stages/arguments.hpp>
 #include <coagula/stages/checkpointing.hpp>
+#include <coagula/stages/engine.hpp>
 #include <coagula/stages/findings.hpp>
 
 #include <Eigen/Core>
@@ -84,7 +85,8 @@ struct BrownianRun {
     std::optional<Suspension> suspension;  ///< none: the run goes on from a packing
     bool heterogeneity = false;            ///< is measured at the start, at the snapshots and at the end
     Checkpointing checkpoint;
-    double checkpoint_interval = 60;  ///< wall-clock time [s]
+    double checkpoint_interval = 60;          ///< wall-clock time [s]
+    std::optional<LammpsEngine> lammps = {};  ///< moves the particles; the suspension before it coagulates is made without it
 };
 
 Verb generate_brownian_verb();

@@ -24,8 +24,10 @@ private:
 std::string version_text();
 
 /// The entry of this call.
-/// @param input packing that went in; null for a generator or an import.
-io::Provenance describe_call(const Arguments& arguments, const Packing* input, const Stopwatch& clock);
+/// @param input packing that went in; null for a generator or an import. @param engine another program that did the work, with its
+/// version; empty: none.
+io::Provenance describe_call(const Arguments& arguments, const Packing* input, const Stopwatch& clock,
+                             const std::string& engine = {});
 
 /// The entry with the time of now and the seconds of the clock.
 io::Provenance finished(io::Provenance entry, const Stopwatch& clock);
