@@ -14,11 +14,11 @@ MODULUS_UNIT = NORMAL_STIFFNESS / 2 / RADIUS  # normal stiffness of a contact ov
 
 
 class OtherProgramTest(ProgramTest):
-    def packing_bonded(self, tolerance):
-        self.succeed("generate", "vem", "--particles", PARTICLES, "--voids", PARTICLES // 2, "--volume-fraction", VOLUME_FRACTION,
+    def packing_bonded(self, tolerance, particles=PARTICLES):
+        self.succeed("generate", "vem", "--particles", particles, "--voids", particles // 2, "--volume-fraction", VOLUME_FRACTION,
                      "--radius", RADIUS, "--seed", 1, "--quiet", "-o", "packing.h5")
         self.succeed("export", "packing.h5", "--format", "csv", "-o", "packing.csv")
-        edge, positions = read_packing(self.folder / "packing.csv", PARTICLES, VOLUME_FRACTION)
+        edge, positions = read_packing(self.folder / "packing.csv", particles, VOLUME_FRACTION)
         return bond(edge, positions, tolerance)
 
     def moduli_by_coagula(self, network, tolerance, shear_stiffness):

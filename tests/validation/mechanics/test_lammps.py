@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shear moduli of networks of central springs by LAMMPS (harmonic bonds, minimised energy) and by coagula."""
+"""The shear moduli of networks by LAMMPS and by coagula: central springs (harmonic bonds, minimised energy), and bonds that resist
+sliding (rigid bodies that come to rest)."""
 
 import unittest
 
 import lammps_shear
-from other_program import MODULUS_UNIT, OtherProgramTest
+from other_program import MODULUS_UNIT, NORMAL_STIFFNESS, OtherProgramTest
 
 STRAIN = 1e-7
 
@@ -38,6 +39,14 @@ class Lammps(OtherProgramTest):
         for plane in lammps_shear.PLANES:
             self.assertLess(abs(moduli["relaxed"][plane] / moduli["affine"][plane]), 1e-6)
             self.assertLess(abs(sheared["storage_modulus"][plane] / sheared["affine_modulus"]), 1e-6)
+
+    def test_bonds_that_resist_sliding(self):
+        # Large networks have motions so soft that they take very long to come to rest.
+        network = self.packing_bonded(0.01, 300)
+        sheared = self.moduli_by_coagula(network, 0.01, 0.1 * NORMAL_STIFFNESS)
+        moduli = {"xz": lammps_shear.modulus_with_sliding(self.folder, network, 0.1, "xz")}
+        self.compare("LAMMPS", network, moduli, sheared["storage_modulus"], 3e-3)
+        self.assertGreater(sheared["storage_modulus"]["xz"] / sheared["affine_modulus"], 0.01)
 
 
 if __name__ == "__main__":
