@@ -86,6 +86,27 @@ class Runs(ProgramTest):
         self.assertTrue((one == same).all())
         self.assertFalse((one == other).any())
 
+    def test_a_set_of_both_engines(self):
+        self.write("sweep.toml", '''title = "engines"
+[[generate]]
+verb = "brownian"
+particles = 200
+volume-fraction = 0.4
+radius = "0.25um"
+surface-potential = 0
+equilibration-time = "10us"
+stop-time = ["10us", "30us"]
+engine = ["builtin", "lammps"]
+seed = 1
+''')
+        self.succeed("dataset", "run", "sweep.toml", "-o", "set.h5", "--quiet")
+        with h5py.File(self.folder / "set.h5") as file:
+            engines = [name.decode() for name in file["index/engine"]]
+            for engine, identity in zip(engines, file["index/id"]):
+                history = file["structures"][identity.decode()]["provenance/0001_generate_brownian"]["version"][()].decode()
+                self.assertEqual("LAMMPS" in history, engine == "lammps", history)
+        self.assertEqual(sorted(engines), ["builtin"] * 2 + ["lammps"] * 2)
+
 
 @needs_lammps
 class Statistics(ProgramTest):

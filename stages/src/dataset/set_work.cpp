@@ -19,8 +19,8 @@ namespace coagula::stages {
 namespace {
 
 /// An entry of the history without times: equal sets have equal bytes.
-io::Provenance timeless_call(const Arguments& arguments, const Packing* input) {
-    io::Provenance entry = describe_call(arguments, input, Stopwatch());
+io::Provenance timeless_call(const Arguments& arguments, const Packing* input, const std::string& engine = {}) {
+    io::Provenance entry = describe_call(arguments, input, Stopwatch(), engine);
     entry.time = "";
     entry.seconds = 0;
     return entry;
@@ -82,7 +82,7 @@ bool succeeds(SetRecord& record, const Work& work) {
 
 /// @return its checksum.
 std::string write_row(const std::string& path, const SetRow& row, const Generated& made, const std::vector<io::Addition>& found) {
-    const io::Provenance entry = timeless_call(row.generate, nullptr);
+    const io::Provenance entry = timeless_call(row.generate, nullptr, made.findings.engine);
     if (row.whole) {
         return io::write_part(path, made.structure, kept_results(made.findings), entry, found);
     }
