@@ -27,10 +27,35 @@ std::string stop_of(const Arguments& arguments) {
     return arguments.has("stop-coordination") ? "stop-coordination" : arguments.has("stop-time") ? "stop-time" : "";
 }
 
+/// Whether an option has its default, given or not.
+bool is_default(const Arguments& arguments, const Option& option) {
+    if (!arguments.given(option.name)) {
+        return true;
+    }
+    switch (option.kind) {
+        case Option::Kind::count:
+            return !option.fallback.empty() &&
+                   static_cast<double>(arguments.count(option.name)) == parse_quantity(option.fallback, "1", option.range);
+        case Option::Kind::quantity:
+            return !option.fallback.empty() &&
+                   arguments.quantity(option.name) == parse_quantity(option.fallback, option.unit, option.range);
+        case Option::Kind::text:
+            return arguments.text(option.name) == option.fallback;
+        case Option::Kind::flag:
+            return false;
+    }
+    return false;
+}
+
 }  // namespace
 
-Signature signature_of(const Arguments& arguments) {
+Signature signature_of(const Verb& verb, const Arguments& arguments) {
     nlohmann::ordered_json options = arguments.to_json();
+    for (const Option& option : verb.options) {  // options of later versions do not change the signature of a call without them
+        if (is_default(arguments, option)) {
+            options.erase(option.name);
+        }
+    }
     const std::vector<std::string> files = arguments.files(Option::File::read);
     for (auto& value : options) {
         if (value.is_string() && std::find(files.begin(), files.end(), value.get<std::string>()) != files.end() &&

@@ -9,12 +9,12 @@
 namespace coagula::stages {
 
 struct Signature {
-    std::string text;           ///< verb and options; files count by what they hold, not by their names
+    std::string text;           ///< verb and options that are not the default; files count by what they hold
     std::string of_trajectory;  ///< the same without the end of a run, where other structures may lie on its trajectory
     double stop = 0;            ///< that end; 0 where there is none
 };
 
 /// Reads the files that the options name.
-Signature signature_of(const Arguments& arguments);
+Signature signature_of(const Verb& verb, const Arguments& arguments);
 
 }  // namespace coagula::stages

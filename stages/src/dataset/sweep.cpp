@@ -282,7 +282,7 @@ public:
         try {
             Arguments arguments(section_.verb, {values, call_of(section_.verb, values), Caller::file});
             check_(arguments);
-            Signature signature = signature_of(arguments);
+            Signature signature = signature_of(section_.verb, arguments);
             return checked_.emplace(values, std::pair{std::move(arguments), std::move(signature)}).first->second;
         } catch (const InputError& error) {
             throw InputError(section_.where + ": " + error.what());
