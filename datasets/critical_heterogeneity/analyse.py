@@ -208,6 +208,8 @@ def main():
     tuned = [row for row in ours if row["generator"] != "depletion gel"]
     print("G' at k_s/k_n = 0.1 predicted for a generator that the fit has not seen: share of the variance (90 % interval), rms error")
     print_predictors(ours, column(ours, "G_0.1"))
+    print("\nthe same without depletion gels")
+    print_predictors(tuned, column(tuned, "G_0.1"))
     print("\nthe same with networks that were diluted at random, of 1000 particles")
     with_diluted = ours + [row for row in rows if row["generator"] == "diluted"]
     print_predictors(with_diluted, column(with_diluted, "G_0.1"))

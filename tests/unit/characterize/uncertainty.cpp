@@ -54,9 +54,14 @@ bool needs_no_error(const std::string& name) {
                                                  "transport/formation_factor/grid_error",
                                                  "transport/tortuosity/grid_error",
                                                  "transport/voxels_per_radius"};
+    // Clusters and shortest ways belong to the network as a whole: its sub-volumes do not tell how they vary.
+    static const std::set<std::string> of_the_whole = {"largest_fraction", "mean_size", "weighted_mean_size"};
+    const bool whole = name.starts_with("betweenness/") ||
+                       ((name.starts_with("dense_clusters/") || name.starts_with("coordination_percolation/")) &&
+                        of_the_whole.contains(name.substr(name.rfind('/') + 1)));
     const std::string last = name.substr(name.find('/') + 1);
     const bool check = last == "largest_zero" || last == "smallest_nonzero" || last == "trace_defect";
-    return exempt.contains(name) || check || name.starts_with("uncertainty/");
+    return exempt.contains(name) || check || whole || name.starts_with("uncertainty/");
 }
 
 std::vector<std::string> scalars_of(const MeasureResult& found) {
