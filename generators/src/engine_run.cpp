@@ -69,8 +69,7 @@ double cutoff_gap(const BrownianOptions& options, double mean_radius) {
     return std::isnan(options.cutoff_gap) ? mean_radius : options.cutoff_gap;
 }
 
-std::function<double(double)> force_within_cutoff(const PairPotential& potential, const BrownianOptions& options,
-                                                  double mean_radius) {
+ForceByGap force_within_cutoff(const PairPotential& potential, const BrownianOptions& options, double mean_radius) {
     const ReducedUnits units(mean_radius, options);
     const ForceRanges ranges = choose_ranges(potential, units, options);
     return [potential, ranges, length = units.length](double gap) {

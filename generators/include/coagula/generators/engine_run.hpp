@@ -21,10 +21,12 @@ struct InertialStep {
 InertialStep choose_inertial_step(const PairPotential& potential, double mean_radius, double closest_gap,
                                   const BrownianOptions& options);
 
-/// The force [N] that a run takes from the potential, by the gap [m] of two particles of mean radius: it fades to zero before the
-/// cut-off gap. Throws std::invalid_argument for a cut-off gap out of range.
-std::function<double(double)> force_within_cutoff(const PairPotential& potential, const BrownianOptions& options,
-                                                  double mean_radius);
+/// The force [N] on two particles by the gap between them [m].
+using ForceByGap = std::function<double(double)>;
+
+/// The force that a run takes from the potential, for particles of mean radius: it fades to zero before the cut-off gap. Throws
+/// std::invalid_argument for a cut-off gap out of range.
+ForceByGap force_within_cutoff(const PairPotential& potential, const BrownianOptions& options, double mean_radius);
 
 /// The gap beyond which there is no force [m].
 double cutoff_gap(const BrownianOptions& options, double mean_radius);
