@@ -159,7 +159,7 @@ LammpsProcess::~LammpsProcess() {
     }
 }
 
-void LammpsProcess::send(const std::string& lines) {
+void LammpsProcess::send(const std::string& lines) const {
     for (std::size_t done = 0; done < lines.size();) {
         const ssize_t count = ::send(commands_, lines.data() + done, lines.size() - done, MSG_NOSIGNAL);
         if (count < 0 && errno != EINTR) {

@@ -25,7 +25,7 @@ public:
     ~LammpsProcess();
 
     /// Lines of commands.
-    void send(const std::string& lines);
+    void send(const std::string& lines) const;
     /// Waits until the file is there, which LAMMPS makes at once by a rename, and calls `meanwhile` now and then. Throws
     /// std::runtime_error with the last error of LAMMPS when it ends without it.
     void wait_for(const std::filesystem::path& file, const std::function<void()>& meanwhile);
@@ -36,7 +36,7 @@ public:
 
 private:
     bool ended();
-    void pause(const std::function<void()>& meanwhile);
+    static void pause(const std::function<void()>& meanwhile);
     [[noreturn]] void fail() const;
 
     std::filesystem::path folder_;
