@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a Brownian run may start from, when it is sampled and when it ends, whatever moves its particles.
+// The schedule says from what a Brownian run may start, when it is sampled and when it ends, whatever moves its particles.
 #pragma once
 
 #include <coagula/generators/brownian_dynamics.hpp>
@@ -37,7 +37,7 @@ public:
     /// The first step after this one at which a sample or a snapshot is due.
     std::int64_t next_due(std::int64_t step) const;
 
-    /// What ends the run at this step; empty as long as it goes on.
+    /// Names what ends the run at this step; the name is empty as long as the run goes on.
     std::string ended_by(std::int64_t step, const BrownianSeries& series) const;
     /// The share of the run that is done, by its time or by its contacts.
     double share_done(std::int64_t step, const BrownianSeries& series) const;

@@ -96,6 +96,8 @@ class Sweeps(ProgramTest):
 
     def test_same_structure_twice(self):
         self.refuse(self.GOOD + self.GOOD, "same options")
+        self.refuse(self.GOOD + self.GOOD + "seed = 1\n", "same options")  # which is the default
+        self.refuse(self.GOOD + self.GOOD + 'contact-tolerance = "0.01"\n', "same options")
 
     def test_nested_values(self):
         self.refuse(self.GOOD + "voids = [[10]]\n", "'voids'", "must be a number")
@@ -234,6 +236,12 @@ class Runs(ProgramTest):
         self.assertEqual(found["failed"], 0)
         self.assertEqual(values(self.folder / "set.h5"), values(self.folder / "whole.h5"))
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if not name.startswith(".")), ["set.h5", "sweep.toml", "whole.h5"])
+
+    def test_ids_stay_in_later_versions(self):
+        """Options that a sweep does not give have no part in them, so that a new one does not make all structures anew."""
+        self.run_set("set.h5")
+        with h5py.File(self.folder / "set.h5") as file:
+            self.assertEqual([name.decode() for name in file["index/id"][:2]], ["e21ac4074d533334", "a260fae2647e78d7"])
 
     def test_what_killed_runs_leave_behind_goes(self):
         parts = self.folder / "set.h5.parts"

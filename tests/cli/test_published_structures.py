@@ -9,6 +9,11 @@ import unittest
 
 from support import ProgramTest
 
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
 FOLDER = pathlib.Path(os.environ["COAGULA_DATASETS"]) / "schenker2012"
 
 
@@ -31,6 +36,17 @@ class PublishedStructures(ProgramTest):
 
     def test_structures_have_their_checksums(self):
         self.assertIn("all with the checksums", self.succeed("dataset", "verify", FOLDER / "structures.h5", "--sample", "0"))
+
+    @unittest.skipIf(h5py is None, "h5py is not installed (Debian: python3-h5py)")
+    def test_a_structure_is_measured_as_in_the_table(self):
+        row = self.table()[6]
+        with h5py.File(FOLDER / "structures.h5") as whole, h5py.File(self.folder / "structure.h5", "w") as alone:
+            for name in whole["structures"][row["id"]]:
+                whole.copy(f"structures/{row['id']}/{name}", alone)
+        found = self.succeed_json("characterize", "structure.h5", "--only", "coordination,doh,topology")
+        self.assertAlmostEqual(found["coordination"], float(row["coordination"]), places=12)
+        self.assertAlmostEqual(found["doh"]["a"], float(row["doh.a"]), places=9)
+        self.assertAlmostEqual(found["topology"]["triangles"], float(row["topology.triangles"]), places=12)
 
     def test_a_structure_has_a_page(self):
         row = self.table()[6]

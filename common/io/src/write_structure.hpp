@@ -8,7 +8,7 @@
 
 namespace coagula::io {
 
-/// What write_structure writes. @param path for messages.
+/// Builds the file that write_structure writes. @param path is named in messages.
 hdf5::File built_structure(const std::string& path, const Structure& structure, const std::vector<ParticleField>& fields,
                            const std::vector<Dataset>& results, const Provenance& provenance, const std::vector<Addition>& later);
 

@@ -45,45 +45,34 @@ SetRow small_row(const SetRow& row) {
     return small;
 }
 
-/// Of one particle; seconds are those of one processor.
+/// What a particle costs; the times are those of one processor.
 struct Cost {
     double generating = 0;  ///< [s]
     double stages = 0;      ///< measuring and shearing [s]
     double bytes = 0;       ///< in the set
 };
 
-/// The time that one structure takes [s].
-double timed(const SetRow& row, const SetParts& parts, bool with_structure) {
-    const int threads = omp_get_max_threads();
-    omp_set_num_threads(1);
-    const Stopwatch clock;
-    compute_rows({&row}, parts, with_structure);
-    const double seconds = clock.seconds();
-    omp_set_num_threads(threads);
-    const std::optional<SetRecord> record = parts.record(row.id);
-    if (!record || !record->done) {
-        throw InputError("the structure " + row.generate.call() + " with " + std::to_string(row.generate.count("particles")) +
-                         " particles cannot be made: " + (record ? record->message : "nothing came of it"));
-    }
-    return seconds;
-}
-
-/// Computes one structure and removes it again.
+/// Computes one structure on one processor and removes it again.
 Cost measured_cost(const SetRow& row, const SetRun& run) {
     const ScratchFolder scratch;
     const SetParts parts((scratch.path() / row.id).string());
     fs::create_directories(parts.folder());
     const SetRow small = small_row(row);
-    SetRow alone = small;
-    alone.characterize.reset();
-    alone.shear.reset();
-    const double generating = timed(alone, parts, false);
-    const double all = timed(small, parts, run.keep_structures);
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const Stopwatch clock;
+    const double generating = compute_rows({&small}, parts, run.keep_structures);
+    const double all = clock.seconds();
+    omp_set_num_threads(threads);
+    const std::optional<SetRecord> record = parts.record(row.id);
+    if (!record || !record->done) {
+        throw InputError("the structure " + small.generate.call() + " with " + std::to_string(small.generate.count("particles")) +
+                         " particles cannot be made: " + (record ? record->message : "nothing came of it"));
+    }
     std::error_code missing;
     const auto bytes = fs::file_size(parts.structure(row.id), missing);
     const double particles = particles_of(small);
-    return {generating / particles, std::max(all - generating, 0.0) / particles,
-            missing ? 0 : static_cast<double>(bytes) / particles};
+    return {generating / particles, (all - generating) / particles, missing ? 0 : static_cast<double>(bytes) / particles};
 }
 
 /// The last row of every trajectory of each generator.

@@ -89,17 +89,19 @@ std::string write_row(const std::string& path, const SetRow& row, const Generate
     return io::write_part(path, {.packing = made.structure.packing, .bonds = {}, .time = made.structure.time}, {}, entry, {});
 }
 
-/// Rows that share a generated structure.
-void compute_structure(std::span<const SetRow* const> rows, Trajectory& trajectory, const SetParts& parts, bool with_structures) {
+/// Rows that share a generated structure. @return how long it took to generate it [s].
+double compute_structure(std::span<const SetRow* const> rows, Trajectory& trajectory, const SetParts& parts, bool with_structures) {
     std::optional<Generated> made;
     std::optional<BondPotential> bonds;
     std::optional<Packing> packing;  // as a file holds it: what is found is what a call for that file would find
     SetRecord common{.id = {}, .version = version_text()};
+    const Stopwatch clock;
     succeeds(common, [&] {
         made = made_structure(rows.front()->generate, trajectory);
         packing = io::packing_as_stored(made->structure.packing);
         bonds = bond_potential_in(made->findings.results);
     });
+    const double generating = clock.seconds();
     Measured measured;
     for (const SetRow* row : rows) {
         SetRecord record = common;
@@ -117,6 +119,7 @@ void compute_structure(std::span<const SetRow* const> rows, Trajectory& trajecto
         }
         parts.keep(record);
     }
+    return generating;
 }
 
 }  // namespace
@@ -134,16 +137,18 @@ void SetParts::keep(const SetRecord& record) const {
     io::write_file((folder_ / (record.id + ".json")).string(), record_text(record), true);
 }
 
-void compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts, bool with_structures) {
+double compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts, bool with_structures) {
     Trajectory trajectory;
+    double generating = 0;
     for (std::size_t first = 0; first < rows.size();) {
         std::size_t end = first + 1;
         while (end < rows.size() && rows[end]->made_of == rows[first]->made_of) {
             ++end;
         }
-        compute_structure(std::span(rows).subspan(first, end - first), trajectory, parts, with_structures);
+        generating += compute_structure(std::span(rows).subspan(first, end - first), trajectory, parts, with_structures);
         first = end;
     }
+    return generating;
 }
 
 }  // namespace coagula::stages

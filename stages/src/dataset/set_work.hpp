@@ -28,7 +28,7 @@ private:
 
 /// Computes rows of one trajectory and keeps them; those that share a generated structure stand together, in the order of their
 /// stops. What goes wrong in a structure becomes its record; what goes wrong in keeping it is thrown.
-/// @param with_structures whether their files are kept.
-void compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts, bool with_structures);
+/// @param with_structures whether their files are kept. @return how long the generators took [s].
+double compute_rows(const std::vector<const SetRow*>& rows, const SetParts& parts, bool with_structures);
 
 }  // namespace coagula::stages

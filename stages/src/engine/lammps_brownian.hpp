@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What LAMMPS reads for a Brownian run. Lengths in radii, energies in kB T, times in R^2/D; the mobility of a particle is then 1,
-// and its mass is the time in which its velocity is forgotten.
+// These are the files and commands that LAMMPS reads for a Brownian run. Lengths are in radii, energies in kB T and times in
+// R^2/D; the mobility of a particle is then 1, and its mass is the time in which its velocity is forgotten.
 #pragma once
 
 #include <coagula/common/packing.hpp>

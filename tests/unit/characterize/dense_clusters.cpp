@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the measure of dense clusters says of crystals and of a column of triangles.
+// The measure of dense clusters is held against crystals and a column of triangles, where all is known.
 #include <coagula/characterize/measure.hpp>
 
 #include "named_results.hpp"

@@ -25,8 +25,8 @@ struct CoordinationPercolation {
     Index windings() const { return clusters.empty() ? 0 : static_cast<Index>(clusters.front().windings.size()); }
 };
 
-/// With 3: the criterion for the onset of rigidity of arXiv:2307.13315. With 6: isostatic particles (Tsurusawa et al., Science
-/// Advances 5 (2019) eaav6090). Contacts to particles with fewer contacts count, too: it is no k-core.
+/// Three contacts are the criterion of arXiv:2307.13315 for the onset of rigidity; particles with six are isostatic (Tsurusawa et
+/// al., Science Advances 5 (2019) eaav6090). Contacts to particles with fewer contacts count, too: it is no k-core.
 /// Throws std::invalid_argument when the contacts belong to another packing.
 CoordinationPercolation measure_coordination_percolation(const Packing& packing, const ContactNetwork& contacts, int least);
 
