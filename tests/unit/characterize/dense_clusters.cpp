@@ -33,14 +33,15 @@ TEST(DenseClusters, OfFaceCentredCubicAndOfCubes) {
 
 /// Regular triangles of touching spheres, one above the other around the box: prisms.
 TEST(DenseClusters, OfAColumnOfTriangles) {
-    constexpr int layers = 5;
+    constexpr Index layers = 5;
+    const auto height = static_cast<double>(2 * layers);
     Packing packing;
-    packing.cell = Cell::periodic({20, 20, 2.0 * layers});
+    packing.cell = Cell::periodic({20, 20, height});
     packing.radii = Eigen::VectorXd::Ones(3 * layers);
     packing.positions.resize(3, 3 * layers);
-    for (int layer = 0; layer < layers; ++layer) {
-        packing.positions.middleCols(3 * layer, 3) << 5, 7, 6, 5, 5, 5 + std::sqrt(3.0), 2.0 * layer + 1, 2.0 * layer + 1,
-            2.0 * layer + 1;
+    for (Index layer = 0; layer < layers; ++layer) {
+        const auto level = static_cast<double>(2 * layer + 1);
+        packing.positions.middleCols(3 * layer, 3) << 5, 7, 6, 5, 5, 5 + std::sqrt(3.0), level, level, level;
     }
     const MeasureResult found = run_measures(MeasureInput(packing), {"dense_clusters"});
     EXPECT_EQ(scalar(found, "dense_clusters/triangles/mean_size"), 3);
