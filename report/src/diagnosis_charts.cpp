@@ -4,9 +4,11 @@
 #include "html.hpp"
 #include "page_axis.hpp"
 
+#include <coagula/diagnose/observable.hpp>
+
 #include <algorithm>
 #include <array>
-#include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,40 +17,48 @@ namespace coagula::report {
 namespace {
 
 using diagnose::Diagnosis;
+using diagnose::find_observable;
 using diagnose::Measurement;
+using diagnose::Observable;
+using diagnose::observable_named;
 using diagnose::PredictedRow;
 
 /// Observables that share a figure: an elastic and a viscous one, those near the plane and along z, or one alone.
 struct Pair {
-    std::array<std::string, 2> observables;
-    std::array<std::string, 2> symbols;
+    std::array<const Observable*, 2> observables;  ///< the second is null where one is alone
+    std::string name;                              ///< of both, in a sentence; empty: each has its own
     std::string title;
-    std::string label;  ///< of the axis; empty: moduli with their unit
+    std::string label;  ///< of the axis; empty: it follows from the values
     std::string size;   ///< what errors of predictions are measured against
     double unit = 1;
 
-    bool of_moduli() const { return label.empty(); }
-    bool of_neighbours() const { return observables.front() == "neighbours_plane"; }
+    bool is(std::size_t part, const std::string& key) const {
+        return observables.at(part) != nullptr && observables.at(part)->key == key;
+    }
+    bool has(const std::string& key) const { return is(0, key) || is(1, key); }
+    std::string symbol(std::size_t part) const {
+        return observables.at(part) == nullptr ? "" : std::string(observables.at(part)->symbol);
+    }
+    bool of_moduli() const { return observables.front()->unit == "Pa"; }
     /// Moduli and viscosities of samples differ by factors.
-    bool scales() const { return of_moduli() || observables.front() == "viscosity"; }
+    bool scales() const { return of_moduli() || observables.front()->unit == "Pa.s"; }
 };
 
-const std::array<Pair, 5> pairs{{
-    {{"storage_modulus", "loss_modulus"}, {"G′", "G″"}, "Moduli", "", "|G*|"},
-    {{"third_harmonic_storage", "third_harmonic_loss"},
-     {"G₃′", "G₃″"},
-     "Third harmonic of the stress",
-     "third over first harmonic [%]",
-     "|G*|",
-     0.01},
-    {{"neighbours_plane", "neighbours_axis"},
-     {"near the plane", "along z"},
-     "Neighbours in shells of distance",
-     "neighbours in a shell",
-     "one neighbour"},
-    {{"exclusion_probability", ""}, {"pores", ""}, "Pores", "share of the void space farther away", "the void space"},
-    {{"viscosity", ""}, {"viscosity", ""}, "Viscosity in steady flow", "viscosity [Pa s]", "the viscosity"},
-}};
+const std::array<Pair, 5>& pairs() {
+    const auto both = [](std::string_view first, std::string_view second) {
+        return std::array{&observable_named(first), find_observable(second)};
+    };
+    static const std::array<Pair, 5> all{{
+        {both("storage_modulus", "loss_modulus"), "", "Moduli", "", "|G*|"},
+        {both("third_harmonic_storage", "third_harmonic_loss"), "the third harmonic", "Third harmonic of the stress",
+         "third over first harmonic [%]", "|G*|", 0.01},
+        {both("neighbours_plane", "neighbours_axis"), "the neighbours", "Neighbours in shells of distance", "neighbours in a shell",
+         "one neighbour"},
+        {both("exclusion_probability", ""), "the pores", "Pores", "share of the void space farther away", "the void space"},
+        {both("viscosity", ""), "the viscosity", "Viscosity in steady flow", "", "the viscosity"},
+    }};
+    return all;
+}
 
 /// The rows of one table that belong to a pair, with the place of each along the axis.
 struct Shown {
@@ -60,14 +70,14 @@ struct Shown {
 
 Shown rows_of(const Measurement& table, std::size_t number, const Diagnosis& diagnosis, const Pair& pair) {
     const diagnose::Column* column = diagnose::axis_of(table);
-    Shown shown{.pair = pair, .x = axis_named(pair.of_neighbours() ? "distance" : column == nullptr ? "" : column->name)};
+    const std::string own_axis(pair.observables.front()->axis);
+    Shown shown{.pair = pair, .x = axis_named(!own_axis.empty() ? own_axis : column == nullptr ? "" : column->name)};
     for (std::size_t k = 0; k < diagnosis.rows.size(); ++k) {
         const PredictedRow& row = diagnosis.rows[k];
-        const bool belongs = std::find(pair.observables.begin(), pair.observables.end(), row.observable) != pair.observables.end();
-        if (row.measurement == number && belongs) {
-            const double place = pair.of_neighbours() ? row.distance
-                                 : column == nullptr  ? static_cast<double>(row.row + 1)
-                                                      : column->values[row.row];
+        if (row.measurement == number && pair.has(row.observable)) {
+            const double place = !own_axis.empty()   ? row.distance
+                                 : column == nullptr ? static_cast<double>(row.row + 1)
+                                                     : column->values[row.row];
             shown.x.include(place);
             shown.rows.push_back(k);
             shown.places.push_back(place / shown.x.unit);
@@ -101,7 +111,7 @@ Json curve(const Shown& shown, const Diagnosis& diagnosis, std::size_t part, con
     Json x = Json::array();
     Json y = Json::array();
     for (std::size_t k = 0; k < shown.rows.size(); ++k) {
-        if (diagnosis.rows[shown.rows[k]].observable == shown.pair.observables.at(part)) {
+        if (shown.pair.is(part, diagnosis.rows[shown.rows[k]].observable)) {
             x.push_back(shown.places[k]);
             y.push_back(finite_or_null(value(shown.rows[k])));
         }
@@ -116,7 +126,7 @@ Json joined(Json first, const Json& second) {
 
 bool has(const Shown& shown, const Diagnosis& diagnosis, std::size_t part) {
     return std::any_of(shown.rows.begin(), shown.rows.end(),
-                       [&](std::size_t k) { return diagnosis.rows[k].observable == shown.pair.observables.at(part); });
+                       [&](std::size_t k) { return shown.pair.is(part, diagnosis.rows[k].observable); });
 }
 
 /// What the points of both observables have in common.
@@ -159,10 +169,9 @@ Json data_chart(const Shown& shown, const Diagnosis& diagnosis, const std::strin
             const auto of = [&](double PredictedRow::*value) {
                 return curve(shown, diagnosis, part, [&](std::size_t k) { return diagnosis.rows[k].*value / y.unit; });
             };
-            series.push_back(joined(joined(points(shown, diagnosis, part), of(&PredictedRow::measured)),
-                                    {{"name", shown.pair.symbols.at(part)},
-                                     {"colour", "--ink"},
-                                     {"error", of(&PredictedRow::standard_deviation)["y"]}}));
+            series.push_back(joined(
+                joined(points(shown, diagnosis, part), of(&PredictedRow::measured)),
+                {{"name", shown.pair.symbol(part)}, {"colour", "--ink"}, {"error", of(&PredictedRow::standard_deviation)["y"]}}));
         }
     }
     return {{"title", shown.pair.title}, {"x", shown.x.json()}, {"y", y.json()}, {"series", std::move(series)}, {"height", 360}};
@@ -212,7 +221,7 @@ Json gain_series(const Shown& shown, const Diagnosis& diagnosis, const std::stri
         for (const diagnose::HeldOutPrediction& held : diagnosis.gain.predictions) {
             const auto found = std::find(shown.rows.begin(), shown.rows.end(), held.row);
             const PredictedRow& row = diagnosis.rows.at(held.row);
-            if (found != shown.rows.end() && row.observable == shown.pair.observables.at(part)) {
+            if (found != shown.rows.end() && shown.pair.is(part, row.observable)) {
                 x.push_back(shown.places[static_cast<std::size_t>(found - shown.rows.begin())]);
                 y.push_back(finite_or_null(100 * (held.*model - row.measured) / level_of(shown, diagnosis, held.row)));
             }
@@ -238,17 +247,14 @@ std::string Charts::place(Json chart) {
 }
 
 std::string symbol_of(const std::string& observable) {
-    if (observable == "complex_modulus" || observable == "phase") {
-        return observable == "phase" ? "the phase" : "|G*|";
+    for (const Pair& pair : pairs()) {
+        const bool of_pair = pair.observables.front()->key.starts_with(observable) || pair.is(1, observable);
+        if (of_pair && !pair.name.empty()) {
+            return pair.name;
+        }
     }
-    if (observable.ends_with("_modulus")) {
-        return observable == "loss_modulus" ? "G''" : "G'";
-    }
-    return observable.starts_with("third_harmonic")     ? "the third harmonic"
-           : observable.starts_with("neighbours")       ? "the neighbours"
-           : observable == pairs[3].observables.front() ? "the pores"
-           : observable == pairs[4].observables.front() ? "the viscosity"
-                                                        : "all numbers";
+    const Observable* found = find_observable(observable);
+    return found != nullptr ? std::string(found->phrase) : "all numbers";
 }
 
 namespace {
@@ -257,11 +263,10 @@ namespace {
 std::string missing_values(const Measurement& table, const Pair& pair) {
     std::string list;
     for (std::size_t part = 0; part < pair.observables.size(); ++part) {
-        const auto count = std::count_if(table.left_out.begin(), table.left_out.end(), [&](const diagnose::LeftOutCell& cell) {
-            return cell.column == pair.observables.at(part);
-        });
+        const auto count = std::count_if(table.left_out.begin(), table.left_out.end(),
+                                         [&](const diagnose::LeftOutCell& cell) { return pair.is(part, cell.column); });
         if (count > 0) {
-            list += (list.empty() ? "" : " and ") + std::to_string(count) + " of " + pair.symbols.at(part);
+            list += (list.empty() ? "" : " and ") + std::to_string(count) + " of " + pair.symbol(part);
         }
     }
     return list.empty() ? "" : "<p class=\"soft\">Left out, and not drawn: " + list + " (see cells left out).</p>\n";
@@ -272,7 +277,7 @@ std::string missing_values(const Measurement& table, const Pair& pair) {
 std::string table_charts(Charts& charts, const Measurement& table, std::size_t number, const Diagnosis& diagnosis,
                          const std::string& cause) {
     std::string html;
-    for (const Pair& pair : pairs) {
+    for (const Pair& pair : pairs()) {
         const Shown shown = rows_of(table, number, diagnosis, pair);
         if (!shown.rows.empty()) {
             html += "<div class=\"pair\">\n" + charts.place(data_chart(shown, diagnosis, cause)) +
@@ -285,7 +290,7 @@ std::string table_charts(Charts& charts, const Measurement& table, std::size_t n
 std::string gain_charts(Charts& charts, const Measurement& table, std::size_t number, const Diagnosis& diagnosis) {
     using diagnose::HeldOutPrediction;
     std::string html;
-    for (const Pair& pair : pairs) {
+    for (const Pair& pair : pairs()) {
         const Shown shown = rows_of(table, number, diagnosis, pair);
         Json series = gain_series(shown, diagnosis, "base model", "--base", &HeldOutPrediction::base);
         for (Json& one : gain_series(shown, diagnosis, "with the cause", "--extended", &HeldOutPrediction::extended)) {
@@ -297,8 +302,8 @@ std::string gain_charts(Charts& charts, const Measurement& table, std::size_t nu
         if (!series.empty()) {
             html += charts.place(
                 {{"title", table.label + ": rows held out"},
-                 {"note", "Error of the prediction by models that have not seen these rows. Circles: " + pair.symbols[0] +
-                              (pair.symbols[1].empty() ? "." : "; triangles: " + pair.symbols[1] + ".")},
+                 {"note", "Error of the prediction by models that have not seen these rows. Circles: " + pair.symbol(0) +
+                              (pair.symbol(1).empty() ? "." : "; triangles: " + pair.symbol(1) + ".")},
                  {"x", shown.x.json()},
                  {"y", {{"label", "predicted less measured [% of " + pair.size + "]"}}},
                  {"series", std::move(series)}});

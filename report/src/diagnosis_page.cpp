@@ -8,6 +8,7 @@
 #include "html.hpp"
 #include "verdict_sentences.hpp"
 
+#include <coagula/diagnose/observable.hpp>
 #include <coagula/report/diagnosis_results.hpp>
 
 #include <algorithm>
@@ -97,7 +98,8 @@ std::string below_zero(const Diagnosis& found, std::size_t table) {
     bool measured = false;
     bool base = false;
     for (const diagnose::PredictedRow& row : found.rows) {
-        measured = measured || (row.measurement == table && row.observable.ends_with("_modulus") && row.measured <= 0);
+        measured =
+            measured || (row.measurement == table && diagnose::observable_named(row.observable).unit == "Pa" && row.measured <= 0);
         base = base || (row.measurement == table && row.observable == "loss_modulus" && row.base <= 0);
     }
     return measured ? " Moduli below zero are shown: a logarithmic axis is linear about zero."

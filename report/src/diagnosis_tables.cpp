@@ -3,10 +3,11 @@
 
 #include "html.hpp"
 
-#include <array>
+#include <coagula/diagnose/observable.hpp>
+
 #include <cmath>
 #include <numbers>
-#include <utility>
+#include <string>
 #include <vector>
 
 namespace coagula::report {
@@ -32,12 +33,9 @@ std::string conditions_of(const diagnose::Measurement& table) {
 }
 
 std::string image_table(const diagnose::Diagnosis& diagnosis, std::size_t number, const std::string& cause) {
-    constexpr std::array<std::pair<const char*, const char*>, 3> differences{
-        {{"localisation_plane", "scatter of a centre in the plane, over the diameter"},
-         {"localisation_axis", "along z"},
-         {"unmatched_share", "share of the centres that the next image does not have"}}};
     std::vector<std::vector<std::string>> rows;
-    for (const auto& [observable, words] : differences) {
+    for (const std::string observable : {"localisation_plane", "localisation_axis", "unmatched_share"}) {
+        const std::string words(diagnose::observable_named(observable).symbol);
         for (const diagnose::PredictedRow& row : diagnosis.rows) {
             if (row.measurement == number && row.observable == observable) {
                 rows.push_back({words, printed(row.measured) + " ± " + printed(row.standard_deviation), printed(row.base)});

@@ -195,7 +195,7 @@ Eigen::VectorXcd Forward::exact_amplitude_factors(const Settings& settings) cons
     std::map<std::size_t, Run> runs;  // by table
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
-        if (!std::isfinite(observation.strain) || observation.third_harmonic) {
+        if (!std::isfinite(observation.strain) || is<Harmonic>(observation)) {
             continue;
         }
         const auto [found, added] = runs.try_emplace(observation.measurement);
@@ -229,7 +229,7 @@ Eigen::MatrixXcd Forward::amplitude_factors(const Settings& given, bool exact) c
         const Observation& observation = observations_[k];
         if (const std::size_t first = first_of_row_[k]; first < k && bonds[first].before == bonds[k].before) {
             factors.row(static_cast<Index>(k)) = factors.row(static_cast<Index>(first));
-        } else if (std::isfinite(observation.strain) && !observation.third_harmonic) {
+        } else if (std::isfinite(observation.strain) && !is<Harmonic>(observation)) {
             factors.row(static_cast<Index>(k)) = breaking_response(settings, observation, bonds[k]).transpose();
         }
     }

@@ -2,7 +2,6 @@
 #include "forward.hpp"
 
 #include "data/median.hpp"
-#include "observables/pore_curves.hpp"
 #include "responses/imaged_centres.hpp"
 #include "responses/pore_response.hpp"
 #include "shared_errors.hpp"
@@ -32,7 +31,7 @@ Eigen::VectorXcd newtonian_moduli(const std::vector<Observation>& observations) 
     Eigen::VectorXcd moduli(static_cast<Index>(observations.size()));
     for (Index row = 0; row < moduli.size(); ++row) {
         const Observation& one = observations[static_cast<std::size_t>(row)];
-        moduli[row] = Complex(0, is_steady(one) ? 1 : one.angular_frequency);
+        moduli[row] = Complex(0, is<Viscosity>(one) ? 1 : one.angular_frequency);
     }
     return moduli;
 }
@@ -43,7 +42,7 @@ Conditions conditions_of(const Observation& observation) {
 
 /// Whether the material's own modulus is in the number.
 bool shows_network(const Observation& observation) {
-    return is_modulus(observation) && !observation.third_harmonic && !is_fluid(observation);
+    return is_modulus_or_viscosity(observation) && !is_fluid(observation);
 }
 
 /// Of every observation the first one that shows the same G*, G'' beside G' of a row; else itself.
@@ -52,8 +51,7 @@ std::vector<std::size_t> first_of_rows(const std::vector<Observation>& observati
     std::vector<std::size_t> all;
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& one = observations[k];
-        const bool shows_modulus = is_modulus(one) && !one.third_harmonic;
-        all.push_back(shows_modulus ? firsts.try_emplace({one.measurement, one.row}, k).first->second : k);
+        all.push_back(is_modulus_or_viscosity(one) ? firsts.try_emplace({one.measurement, one.row}, k).first->second : k);
     }
     return all;
 }
@@ -150,7 +148,7 @@ void Forward::scale(UncertainModuli& moduli, const Model& model, bool exact) con
         Complex& factor = factors[static_cast<Index>(k)];
         if (const std::size_t first = first_of_row_[k]; first < k) {
             factor = factors[static_cast<Index>(first)];
-        } else if (is_modulus(observations_[k])) {
+        } else if (is_modulus_or_viscosity(observations_[k])) {
             model.for_each<ScalesMaterial>(
                 [&](const ScalesMaterial& effect, Values values) { factor *= effect.factor(observations_[k], values, sample); });
         }
@@ -163,7 +161,7 @@ void Forward::scale(UncertainModuli& moduli, const Model& model, bool exact) con
 void Forward::replace_fluids(UncertainModuli& moduli) const {
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         if (const Observation& observation = observations_[k]; is_fluid(observation)) {
-            const double per_viscosity = is_steady(observation) ? 1 : observation.angular_frequency;
+            const double per_viscosity = is<Viscosity>(observation) ? 1 : observation.angular_frequency;
             moduli.mean[static_cast<Index>(k)] = Complex(0, observation.fluid_viscosity * per_viscosity);
             moduli.changes.row(static_cast<Index>(k)).setZero();
             moduli.dragged[static_cast<Index>(k)] = 0;
@@ -183,7 +181,7 @@ UncertainModuli Forward::network(const Model& model, bool exact) const {
         Complex& modulus = moduli[static_cast<Index>(k)];
         if (const std::size_t first = first_of_row_[k]; first < k) {
             modulus = moduli[static_cast<Index>(first)];
-        } else if (observation.third_harmonic) {
+        } else if (is<Harmonic>(observation)) {
             modulus = third_harmonic(settings, observation, bonds[k]);
         } else if (shows_network(observation)) {
             const Conditions here = conditions_of(observation);
@@ -251,18 +249,19 @@ const UncertainModuli& Forward::remembered_material(const Model& model, bool exa
 
 /// What coordinates and pore curves show.
 double Forward::seen_of_structure(const Settings& settings, const Observation& observation, bool exact) const {
-    if (std::isfinite(observation.distance)) {
+    if (const auto* seen = as<Neighbours>(observation)) {
         double sum = 0;
-        for (std::size_t shell = observation.row; shell < observation.row + observation.shells; ++shell) {
+        for (std::size_t shell = observation.row; shell < observation.row + seen->shells; ++shell) {
             sum += neighbours(simulator_, settings, shell, exact);
         }
         return sum;
     }
-    if (observation.difference) {
-        return repeated_images(simulator_, settings, exact)[static_cast<std::size_t>(*observation.difference)];
+    if (const auto* images = as<ImageDifference>(observation)) {
+        return repeated_images(simulator_, settings, exact)[static_cast<std::size_t>(images->quantity)];
     }
     return exclusion_probability(simulator_, settings,
-                                 observation.pore_radius * simulator_.radius() / experiment_.sample.particle_radius, exact);
+                                 std::get<Pore>(observation.what).radius * simulator_.radius() / experiment_.sample.particle_radius,
+                                 exact);
 }
 
 /// What the instrument shows of every observation, of these moduli of the material at a normal stiffness of 1 N/m.
@@ -273,16 +272,16 @@ Eigen::VectorXd Forward::seen(const Model& model, const Eigen::VectorXcd& moduli
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
         const auto i = static_cast<Index>(k);
-        if (observation.third_harmonic) {
-            predicted[i] = observation.loss ? moduli[i].imag() : moduli[i].real();
-        } else if (!is_modulus(observation)) {
+        if (is<Harmonic>(observation)) {
+            predicted[i] = part_of(moduli[i], observation);
+        } else if (!is_modulus_or_viscosity(observation)) {
             predicted[i] = seen_of_structure(settings, observation, exact);
         } else {
             const double scale = scales(observation) ? settings.normal_stiffness : 1.0;
             const auto first = static_cast<Index>(first_of_row_[k]);
             const bool known = first < i && moduli[i] == moduli[first];
             shown[i] = known ? shown[first] : seen_by_instrument(model, k, scale * moduli[i]);
-            predicted[i] = observation.loss ? shown[i].imag() : shown[i].real();
+            predicted[i] = part_of(shown[i], observation);
         }
     }
     return predicted;

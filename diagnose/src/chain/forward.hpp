@@ -78,7 +78,7 @@ public:
 
     /// Whether an observation is in proportion to the stiffness of the particles, or to the viscosity of a Newtonian material.
     bool scales(const Observation& observation) const {
-        return is_modulus(observation) && !is_fluid(observation) && experiment_.material.kind != MaterialKind::smooth;
+        return is_modulus_or_viscosity(observation) && !is_fluid(observation) && experiment_.material.kind != MaterialKind::smooth;
     }
 
 private:

@@ -51,7 +51,7 @@ Prediction Forward::change_by_stiffness(const Model& model, const Prediction& he
         Prediction change(Eigen::VectorXd::Zero(here.values.size()));
         for (Index row = 0; row < change.values.size(); ++row) {
             const Observation& one = observations_[static_cast<std::size_t>(row)];
-            change.values[row] = scales(one) && !one.third_harmonic ? std::expm1(step) * here.values[row] : 0.0;
+            change.values[row] = scales(one) ? std::expm1(step) * here.values[row] : 0.0;
         }
         change.level_slope = change.values;
         return change;

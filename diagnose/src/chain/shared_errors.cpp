@@ -2,7 +2,6 @@
 #include "shared_errors.hpp"
 
 #include "data/table_cells.hpp"
-#include "observables/pore_curves.hpp"
 #include "responses/imaged_centres.hpp"
 #include "responses/pore_response.hpp"
 
@@ -26,7 +25,8 @@ Eigen::MatrixXd errors_of_images(const std::vector<Observation>& observations, S
     std::size_t image = observations.size();  // the measurement whose own errors are the last columns
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& observation = observations[k];
-        if (!std::isfinite(observation.distance)) {
+        const auto* seen = as<Neighbours>(observation);
+        if (seen == nullptr) {
             continue;
         }
         if (all.cols() == 0) {
@@ -35,10 +35,10 @@ Eigen::MatrixXd errors_of_images(const std::vector<Observation>& observations, S
         }
         if (image != observation.measurement) {
             image = observation.measurement;
-            own = neighbour_errors_of_image(simulator, observation.centres, observation.mutual);
+            own = neighbour_errors_of_image(simulator, seen->centres, seen->mutual);
             add_columns(all, own.cols());
         }
-        const auto shells = Eigen::seqN(static_cast<Index>(observation.row), static_cast<Index>(observation.shells));
+        const auto shells = Eigen::seqN(static_cast<Index>(observation.row), static_cast<Index>(seen->shells));
         all.row(static_cast<Index>(k)).head(of_structures.cols()) = of_structures(shells, Eigen::all).colwise().sum();
         all.row(static_cast<Index>(k)).tail(own.cols()) = own(shells, Eigen::all).colwise().sum();
     }
@@ -52,9 +52,9 @@ Eigen::MatrixXd errors_of_pores(const Experiment& experiment, const std::vector<
     std::vector<std::size_t> rows;
     std::vector<double> radii;
     for (std::size_t k = 0; k < observations.size(); ++k) {
-        if (is_pore(observations[k])) {
+        if (const auto* pore = as<Pore>(observations[k])) {
             rows.push_back(k);
-            radii.push_back(observations[k].pore_radius * simulator.radius() / experiment.sample.particle_radius);
+            radii.push_back(pore->radius * simulator.radius() / experiment.sample.particle_radius);
         }
     }
     Eigen::MatrixXd all(static_cast<Index>(observations.size()), 0);

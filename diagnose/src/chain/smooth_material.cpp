@@ -2,6 +2,7 @@
 #include "smooth_material.hpp"
 
 #include "data/median.hpp"
+#include "observables/coordinate.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -32,17 +33,17 @@ struct Places {
     bool vary = false;
 };
 
-Places places_of(const std::vector<Observation>& observations, double Observation::*coordinate) {
+Places places_of(const std::vector<Observation>& observations, Coordinate coordinate) {
     double low = std::numeric_limits<double>::infinity();
     double high = 0;
     for (const Observation& one : observations) {
-        const double value = one.*coordinate;
+        const double value = coordinate_of(one, coordinate);
         low = value > 0 ? std::min(low, value) : low;
         high = value > 0 ? std::max(high, value) : high;
     }
     Places places{Eigen::ArrayXd::Constant(static_cast<Index>(observations.size()), low), high > 1.05 * low};
     for (std::size_t k = 0; k < observations.size(); ++k) {
-        const double value = observations[k].*coordinate;
+        const double value = coordinate_of(observations[k], coordinate);
         places.at[static_cast<Index>(k)] = value > 0 ? value : low;
     }
     return places;
@@ -142,19 +143,19 @@ private:
 /// Of oscillations, or of steady flow.
 Eigen::MatrixXcd functions_of(const std::vector<Observation>& observations, bool ages) {
     Functions functions(observations);
-    const Places frequency = places_of(observations, &Observation::angular_frequency);
-    const Places rate = places_of(observations, &Observation::shear_rate);
-    if (is_steady(observations.front()) && rate.vary) {
+    const Places frequency = places_of(observations, Coordinate::angular_frequency);
+    const Places rate = places_of(observations, Coordinate::shear_rate);
+    if (is<Viscosity>(observations.front()) && rate.vary) {
         functions.add_flow(rate.at);
-    } else if (!is_steady(observations.front()) && frequency.vary) {
+    } else if (!is<Viscosity>(observations.front()) && frequency.vary) {
         functions.add_relaxation(frequency.at);
     } else {
         functions.add_constants();
     }
-    if (const Places strain = places_of(observations, &Observation::set_strain); strain.vary) {
+    if (const Places strain = places_of(observations, Coordinate::strain); strain.vary) {
         functions.add_bumps(strain.at);
     }
-    if (const Places age = places_of(observations, &Observation::time); ages && age.vary) {
+    if (const Places age = places_of(observations, Coordinate::time); ages && age.vary) {
         functions.add_bumps(age.at);
     }
     return functions.columns();
@@ -172,8 +173,8 @@ SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, boo
         const Observation& one = observations[static_cast<std::size_t>(k)];
         values_[k] = one.value;
         stated[k] = std::isfinite(one.standard_error) ? one.standard_error : 0;
-        rows.at(is_steady(one) ? 1 : 0).push_back(k);
-        parts.at(is_steady(one) ? 1 : 0).push_back(one);
+        rows.at(is<Viscosity>(one) ? 1 : 0).push_back(k);
+        parts.at(is<Viscosity>(one) ? 1 : 0).push_back(one);
     }
     const Eigen::ArrayXd sizes = complex_moduli(observations, values_);
     weights_ = (relative * sizes.max(smallest * sizes.maxCoeff())).max(stated).inverse();
@@ -188,7 +189,7 @@ SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, boo
     }
     Eigen::MatrixXd seen(size, functions_.cols());
     for (Index row = 0; row < size; ++row) {
-        const bool loss = observations[static_cast<std::size_t>(row)].loss;
+        const bool loss = is_loss(observations[static_cast<std::size_t>(row)]);
         seen.row(row) = ((loss ? Complex(0, -1) : Complex(1)) * functions_.row(row)).real();
     }
     start_ = best(Eigen::VectorXd::Zero(seen.cols()), Eigen::VectorXd::Zero(size), seen);

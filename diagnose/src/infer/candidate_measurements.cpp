@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "candidate_measurements.hpp"
 
+#include "observables/image_observations.hpp"
+
 #include <coagula/common/logarithmic_steps.hpp>
 
 #include <algorithm>
@@ -218,9 +220,9 @@ std::vector<Candidate> flow_candidates(const Experiment& experiment, const std::
     double slowest = std::numeric_limits<double>::infinity();
     double fastest = 0;
     for (const Observation& one : observations) {
-        if (is_steady(one)) {
-            slowest = std::min(slowest, one.shear_rate);
-            fastest = std::max(fastest, one.shear_rate);
+        if (const auto* viscosity = as<Viscosity>(one)) {
+            slowest = std::min(slowest, viscosity->shear_rate);
+            fastest = std::max(fastest, viscosity->shear_rate);
         }
     }
     const double duration = habits_of(observations).duration;
@@ -268,20 +270,17 @@ Candidate images_again(const Experiment& experiment, const Measurement& table) {
 
 std::vector<Candidate> candidates_for(const Experiment& experiment, const std::vector<Observation>& observations) {
     std::vector<Candidate> candidates;
-    const auto oscillates = [](const Observation& one) { return is_modulus(one) && !is_steady(one); };
-    if (std::any_of(observations.begin(), observations.end(), oscillates)) {
+    if (std::any_of(observations.begin(), observations.end(), is<Modulus>)) {
         candidates = shear_candidates(experiment, observations);
     }
-    if (std::any_of(observations.begin(), observations.end(), is_steady)) {
+    if (std::any_of(observations.begin(), observations.end(), is<Viscosity>)) {
         const std::vector<Candidate> flows = flow_candidates(experiment, observations);
         candidates.insert(candidates.end(), flows.begin(), flows.end());
     }
     const auto& tables = experiment.measurements;
     const auto image = std::find_if(tables.begin(), tables.end(),
                                     [](const Measurement& table) { return table.kind == MeasurementKind::coordinates; });
-    const bool again =
-        std::any_of(observations.begin(), observations.end(), [](const Observation& one) { return one.difference.has_value(); });
-    if (image != tables.end() && !again) {
+    if (image != tables.end() && std::none_of(observations.begin(), observations.end(), is<ImageDifference>)) {
         candidates.push_back(images_again(experiment, *image));
     }
     return candidates;

@@ -7,7 +7,6 @@
 #include <coagula/common/special_functions.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -73,19 +72,20 @@ Eigen::MatrixXd waves(Index rows) {
 
 /// Each observable along each coordinate over all tables.
 void add_smooth(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
-    std::vector<std::string> observables;
+    std::vector<const Observable*> shown;  // by each observation
+    std::vector<const Observable*> kinds;
     for (const Observation& observation : observations) {
-        if (std::find(observables.begin(), observables.end(), observable_of(observation)) == observables.end()) {
-            observables.emplace_back(observable_of(observation));
+        shown.push_back(&observable_of(observation));
+        if (std::find(kinds.begin(), kinds.end(), shown.back()) == kinds.end()) {
+            kinds.push_back(shown.back());
         }
     }
-    for (const std::string& observable : observables) {
+    for (const Observable* kind : kinds) {
         for (const Coordinate coordinate : all_coordinates()) {
-            MisfitStatistic one{.observable = observable, .coordinate = coordinate};
-            for (Index row = 0; row < static_cast<Index>(observations.size()); ++row) {
-                const Observation& observation = observations[static_cast<std::size_t>(row)];
-                if (observable == observable_of(observation) && std::isfinite(coordinate_of(observation, coordinate))) {
-                    one.rows.push_back(row);
+            MisfitStatistic one{.observable = std::string(kind->key), .coordinate = coordinate};
+            for (std::size_t row = 0; row < observations.size(); ++row) {
+                if (shown[row] == kind && std::isfinite(coordinate_of(observations[row], coordinate))) {
+                    one.rows.push_back(static_cast<Index>(row));
                 }
             }
             one.rows = swept(observations, one.rows, coordinate);
@@ -104,7 +104,7 @@ void add_smooth(const std::vector<Observation>& observations, std::vector<Misfit
 void add_harmonics(const std::vector<Observation>& observations, std::vector<MisfitStatistic>& all) {
     MisfitStatistic one{.observable = "third_harmonic"};
     for (Index row = 0; row < static_cast<Index>(observations.size()); ++row) {
-        if (observations[static_cast<std::size_t>(row)].third_harmonic) {
+        if (is<Harmonic>(observations[static_cast<std::size_t>(row)])) {
             one.rows.push_back(row);
         }
     }
@@ -239,57 +239,6 @@ Eigen::ArrayXd standardised(const Eigen::ArrayXd& values) {
 }
 
 }  // namespace
-
-std::span<const Coordinate> all_coordinates() {
-    static constexpr std::array all{Coordinate::strain,
-                                    Coordinate::angular_frequency,
-                                    Coordinate::shear_rate,
-                                    Coordinate::time,
-                                    Coordinate::gap,
-                                    Coordinate::plate_radius,
-                                    Coordinate::heterogeneity,
-                                    Coordinate::coordination,
-                                    Coordinate::volume_fraction,
-                                    Coordinate::distance,
-                                    Coordinate::pore_radius};
-    return all;
-}
-
-const char* name_of(Coordinate coordinate) {
-    constexpr std::array<const char*, 12> names{
-        "strain",        "angular_frequency", "shear_rate",      "time",     "gap",         "plate_radius",
-        "heterogeneity", "coordination",      "volume_fraction", "distance", "pore_radius", "none"};
-    return names.at(static_cast<std::size_t>(coordinate));
-}
-
-double coordinate_of(const Observation& observation, Coordinate coordinate) {
-    switch (coordinate) {
-        case Coordinate::strain:
-            return observation.set_strain;
-        case Coordinate::angular_frequency:
-            return observation.angular_frequency;
-        case Coordinate::shear_rate:
-            return observation.shear_rate;
-        case Coordinate::time:
-            return observation.time;
-        case Coordinate::gap:
-            return observation.gap;
-        case Coordinate::plate_radius:
-            return observation.plate_radius;
-        case Coordinate::heterogeneity:
-            return observation.heterogeneity;
-        case Coordinate::coordination:
-            return observation.coordination;
-        case Coordinate::volume_fraction:
-            return observation.volume_fraction;
-        case Coordinate::distance:
-            return observation.distance;
-        case Coordinate::pore_radius:
-            return observation.pore_radius;
-        default:
-            return 0;
-    }
-}
 
 Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& causes, std::uint64_t seed, int bootstrap,
                  const Progress& progress) {

@@ -3,42 +3,20 @@
 #pragma once
 
 #include "departures.hpp"
+#include "observables/coordinate.hpp"
 
 #include <coagula/common/progress.hpp>
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace coagula::diagnose {
 
-/// Along which quantity residuals are looked at.
-enum class Coordinate {
-    strain,
-    angular_frequency,
-    shear_rate,
-    time,
-    gap,
-    plate_radius,
-    heterogeneity,
-    coordination,
-    volume_fraction,
-    distance,
-    pore_radius,
-    none
-};
-/// All but none.
-std::span<const Coordinate> all_coordinates();
-
-const char* name_of(Coordinate coordinate);
-/// Of one observation.
-double coordinate_of(const Observation& observation, Coordinate coordinate);
-
 /// One way to fail: a smooth departure of one observable of some tables along a coordinate, the samples, a step towards a
 /// mechanism, or the whole; of all tables or of those of one kind.
 struct MisfitStatistic {
-    std::string observable;  ///< of observable_of(), "third_harmonic", "sample_effect", "normal_stiffness" or "all"
+    std::string observable;  ///< key of an observable, "third_harmonic", "sample_effect", "normal_stiffness" or "all"
     Coordinate coordinate = Coordinate::none;
     bool autocorrelation = false;     ///< of neighbours along the coordinate, else the size of smooth components
     std::vector<Index> rows = {};     ///< observations that take part, sorted along the coordinate

@@ -70,9 +70,10 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
         const auto i = static_cast<Index>(k);
-        diagnosis.rows.push_back({observation.measurement, observation.row, observable_of(observation), observation.value,
-                                  deviation[i], by_base.values[i], by_extended.values[i], base_fitted[i], extended_fitted[i],
-                                  in_any(folds, k), base_residual[i], extended_residual[i], observation.distance});
+        diagnosis.rows.push_back({observation.measurement, observation.row, std::string(observable_of(observation).key),
+                                  observation.value, deviation[i], by_base.values[i], by_extended.values[i], base_fitted[i],
+                                  extended_fitted[i], in_any(folds, k), base_residual[i], extended_residual[i],
+                                  is<Neighbours>(observation) ? as<Neighbours>(observation)->distance : unset});
     }
 }
 

@@ -4,7 +4,7 @@
 #include <coagula/diagnose/stated_errors.hpp>
 
 #include <algorithm>
-#include <string>
+#include <string_view>
 
 namespace coagula::diagnose {
 
@@ -12,7 +12,8 @@ namespace {
 
 Column& column_of(Experiment& experiment, const Observation& one) {
     std::vector<Column>& columns = experiment.measurements[one.measurement].columns;
-    return *std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == observable_of(one); });
+    const std::string_view name = observable_of(one).key;
+    return *std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ DataSet with_errors_of_the_rest(const DataSet& data, const std::vector<bool>& he
     Experiment rest = all;
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& one = data.observations[k];
-        if (held_out[k] && is_modulus(one)) {
+        if (held_out[k] && is_modulus_or_viscosity(one)) {
             column_of(rest, one).values[one.row] = unset;
         }
     }

@@ -56,8 +56,7 @@ Eigen::VectorXd turned(const DataSet& data, const Eigen::VectorXd& prediction) {
     Eigen::VectorXd change = (level.square() - prediction.array().square()).max(0).sqrt().matrix();
     for (Index row = 0; row < change.size(); ++row) {
         const Observation& one = data.observations[static_cast<std::size_t>(row)];
-        const bool oscillates = is_modulus(one) && !one.third_harmonic && !is_steady(one);
-        change[row] *= !oscillates ? 0.0 : one.loss ? 1.0 : -1.0;
+        change[row] *= !is<Modulus>(one) ? 0.0 : is_loss(one) ? 1.0 : -1.0;
     }
     return change;
 }
@@ -218,7 +217,7 @@ double change_along(const Eigen::VectorXd& rank, const std::vector<Observation>&
         Eigen::Array2d sums{0, 0};
         Eigen::Array2d counts{0, 0};
         for (Index row = 0; row < rank.size(); ++row) {
-            if (observations[static_cast<std::size_t>(row)].loss == loss && (rank[row] <= 0.1 || rank[row] >= 0.9)) {
+            if (is_loss(observations[static_cast<std::size_t>(row)]) == loss && (rank[row] <= 0.1 || rank[row] >= 0.9)) {
                 const Index end = rank[row] <= 0.1 ? 0 : 1;
                 sums[end] += share[row];
                 counts[end] += 1;

@@ -55,7 +55,7 @@ double squares(const DataSet& held, const Eigen::VectorXd& prediction) {
     double sum = 0;
     for (Index k = 0; k < held.size(); ++k) {
         const Observation& one = held.observations[static_cast<std::size_t>(k)];
-        const double level = is_modulus(one) ? sizes[k] : relative_to(one, one.value);
+        const double level = is_modulus_or_viscosity(one) ? sizes[k] : relative_to(one, one.value);
         sum += std::pow((one.value - prediction[k]) / std::max(level, 1e-300), 2);
     }
     return sum;

@@ -51,7 +51,7 @@ bool Inference::level_is_open() const {
     const auto& observations = errors_.data().observations;
     return std::isnan(known_scale(forward_.experiment()).error) &&
            std::any_of(observations.begin(), observations.end(),
-                       [](const Observation& one) { return is_modulus(one) && one.structures == 0; });
+                       [](const Observation& one) { return is_modulus_or_viscosity(one) && one.structures == 0; });
 }
 
 double Inference::stiffness_departure(double log_stiffness) const {

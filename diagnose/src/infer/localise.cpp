@@ -42,23 +42,6 @@ std::string value_text(double value, Coordinate coordinate) {
     }
 }
 
-/// An observable in words.
-std::string spoken(const std::string& observable) {
-    if (observable.starts_with("neighbours")) {
-        return observable.ends_with("axis") ? "the number of neighbours along z" : "the number of neighbours in the plane";
-    }
-    if (observable == "exclusion_probability") {
-        return "the share of the void space in larger pores";
-    }
-    if (observable.starts_with("third_harmonic")) {
-        return observable.ends_with("loss") ? "the viscous part of the third harmonic" : "the elastic part of the third harmonic";
-    }
-    if (observable == "viscosity") {
-        return "the viscosity";
-    }
-    return observable == "loss_modulus" ? "G''" : "G'";
-}
-
 /// The row from which on the residuals differ most from those before; rows at one place stay together.
 std::size_t change_point(const std::vector<Index>& rows, const Eigen::VectorXd& residual, const std::vector<double>& places) {
     double total = 0;
@@ -150,21 +133,22 @@ void add_departures_of_images(const std::vector<Observation>& observations, cons
                               std::vector<Failure>& failures) {
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& one = observations[k];
+        const auto* images = as<ImageDifference>(one);
         const double departure = one.value - prediction[static_cast<Index>(k)];
         const double score = departure / one.standard_error;
-        if (!one.difference || score < noticeable) {
+        if (images == nullptr || score < noticeable) {
             continue;
         }
-        const bool unmatched = *one.difference == ImageDifference::unmatched;
+        const bool unmatched = images->quantity == ImageQuantity::unmatched;
         failures.push_back(
-            {.observable = observable_of(one),
+            {.observable = std::string(observable_of(one).key),
              .axis = "frame",
              .log_bayes_factor = log_bayes_factor_of(score),
              .from = unset,
              .departure = departure,
              .sentence = unmatched ? three_digits(100 * one.value) + " % of the centres of an image are not in the next one"
                                    : "images of the same particles scatter: a centre by " + three_digits(one.value) +
-                                         " diameters " + (*one.difference == ImageDifference::plane ? "in the plane" : "along z")});
+                                         " diameters " + (images->quantity == ImageQuantity::plane ? "in the plane" : "along z")});
         failures.back().sentence += ", " + deviations_text(score) + " exact centres";
     }
 }
@@ -204,11 +188,10 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
                         const std::vector<Observation>& observations, const Eigen::VectorXd& residual,
                         const Eigen::VectorXd& prediction) {
     const double scale = prediction.cwiseAbs().maxCoeff();
-    const bool third_harmonic = statistic.observable.starts_with("third_harmonic");
+    const Observable& observable = observable_named(statistic.observable);
     const bool of_base_zero =
         std::all_of(statistic.rows.begin(), statistic.rows.end(), [&](Index row) { return prediction[row] == 0; });
-    const bool of_modulus = statistic.observable.ends_with("_modulus");
-    const bool of_scale = statistic.observable == "loss_modulus" || (of_modulus && of_base_zero);
+    const bool of_scale = observable.key == "loss_modulus" || (observable.unit == "Pa" && of_base_zero);
     std::vector<double> places;
     for (const Index row : statistic.rows) {
         places.push_back(coordinate_of(observations[static_cast<std::size_t>(row)], statistic.coordinate));
@@ -224,17 +207,16 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
     failure.from = places[place];
     failure.departure = late;
     const std::string axis = spoken_axis(statistic, is_clocked(statistic, experiment, observations));
-    const std::string of = of_scale                                          ? " (of the largest predicted modulus)"
-                           : third_harmonic                                  ? " (of the first)"
-                           : statistic.coordinate == Coordinate::pore_radius ? " (of the void space)"
-                                                                             : "";
+    const std::string whole(of_scale ? "the largest predicted modulus" : observable.whole);
+    const std::string of = whole.empty() ? "" : " (of " + whole + ")";
+    const std::string subject(observable.phrase);
     if (is_level(early, late)) {
-        failure.sentence = spoken(statistic.observable) + " lies " + (late < 0 ? "below" : "above") + " the base model all along " +
-                           axis + ": mean difference " + three_digits(100 * 0.5 * (early + late)) + " %" + of;
+        failure.sentence = subject + " lies " + (late < 0 ? "below" : "above") + " the base model all along " + axis +
+                           ": mean difference " + three_digits(100 * 0.5 * (early + late)) + " %" + of;
     } else {
-        failure.sentence = spoken(statistic.observable) + way_of(early, late, of_base_zero) + " along " + axis +
-                           ": mean difference " + three_digits(100 * early) + " % before and " + three_digits(100 * late) +
-                           " % from " + value_text(failure.from, statistic.coordinate) + " on" + of;
+        failure.sentence = subject + way_of(early, late, of_base_zero) + " along " + axis + ": mean difference " +
+                           three_digits(100 * early) + " % before and " + three_digits(100 * late) + " % from " +
+                           value_text(failure.from, statistic.coordinate) + " on" + of;
     }
     return failure;
 }
@@ -299,10 +281,10 @@ Moved moved_by(const SmoothRemainder& remainder, const DataSet& data, const Eige
     Moved moved;
     moved.share = (remainder.departure.array() / complex_moduli(data.observations, prediction).max(1e-300)).matrix();
     moved.share.cwiseAbs().maxCoeff(&moved.largest);
-    const char* observable = observable_of(data.observations[static_cast<std::size_t>(moved.largest)]);
+    const Observable& observable = observable_of(data.observations[static_cast<std::size_t>(moved.largest)]);
     constexpr double part = 0.5;
     for (Index row = 0; row < data.size(); ++row) {
-        if (observable_of(data.observations[static_cast<std::size_t>(row)]) == std::string(observable) &&
+        if (&observable_of(data.observations[static_cast<std::size_t>(row)]) == &observable &&
             moved.share[row] * moved.share[moved.largest] > 0 &&
             std::abs(moved.share[row]) > part * std::abs(moved.share[moved.largest])) {
             moved.rows.push_back(row);
@@ -316,7 +298,7 @@ Moved moved_by(const SmoothRemainder& remainder, const DataSet& data, const Eige
 std::string place_of(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction) {
     const Moved moved = moved_by(remainder, data, prediction);
     const auto& observations = data.observations;
-    std::string text = spoken(observable_of(observations[static_cast<std::size_t>(moved.largest)])) + " lies " +
+    std::string text = std::string(observable_of(observations[static_cast<std::size_t>(moved.largest)]).phrase) + " lies " +
                        (moved.share[moved.largest] < 0 ? "below" : "above") + " the model by up to " +
                        three_digits(100 * std::abs(moved.share[moved.largest])) + " % of |G*|";
     for (const Coordinate coordinate : remainder.along) {

@@ -96,13 +96,13 @@ private:
 };
 
 /// Places and heights of nodes about the best one, in cells along the edges of its cell.
-struct Neighbours {
+struct NodesAround {
     Eigen::MatrixXd places;   ///< nodes x axes
     Eigen::VectorXd heights;  ///< log weights less that of the best node
 };
 
 /// Nodes within a cell to either side of the best one; within two where there are none on the other side.
-Neighbours neighbours_of_best(const PosteriorGrid& grid) {
+NodesAround neighbours_of_best(const PosteriorGrid& grid) {
     constexpr double near = 1.01;
     constexpr double least = 0.4;
     const std::size_t best = grid.best();
@@ -121,7 +121,7 @@ Neighbours neighbours_of_best(const PosteriorGrid& grid) {
             kept.push_back(k);
         }
     }
-    Neighbours neighbours{away(kept, Eigen::all), Eigen::VectorXd(static_cast<Index>(kept.size()))};
+    NodesAround neighbours{away(kept, Eigen::all), Eigen::VectorXd(static_cast<Index>(kept.size()))};
     for (std::size_t k = 0; k < kept.size(); ++k) {
         neighbours.heights[static_cast<Index>(k)] =
             grid.nodes[static_cast<std::size_t>(kept[k])].log_weight - grid.nodes[best].log_weight;
@@ -149,7 +149,7 @@ struct Paraboloid {
 };
 
 /// By least squares, high nodes above all; none where there are too few nodes.
-std::optional<Paraboloid> paraboloid_through(const Neighbours& neighbours) {
+std::optional<Paraboloid> paraboloid_through(const NodesAround& neighbours) {
     constexpr double lightness = 0.1;  // of low nodes
     const Index axes = neighbours.places.cols();
     const Index terms = 1 + axes + axes * (axes + 1) / 2;

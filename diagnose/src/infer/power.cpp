@@ -83,12 +83,12 @@ private:
 
 double Planned::deviation(std::size_t k, double value, double complex_modulus) const {
     const Observation& one = observations_[k];
-    if (one.third_harmonic) {
+    if (is<Harmonic>(one)) {
         return std::hypot(one.standard_error, third_harmonic_error * value);
     }
     const double weight = std::isfinite(one.strain) ? 1 / one.strain : 1.0;
     const double row = std::hypot(options_.noise.stated_floor * weight, options_.noise.stated_relative * value);
-    return one.loss ? std::hypot(row, options_.noise.stated_phase * complex_modulus) : row;
+    return is_loss(one) ? std::hypot(row, options_.noise.stated_phase * complex_modulus) : row;
 }
 
 Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) const {
@@ -113,14 +113,14 @@ Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) 
     for (std::size_t k = 0; k < count; ++k) {
         const Observation& one = observations_[k];
         Measurement& table = drawn.measurements[one.measurement];
-        const double scale = one.third_harmonic ? 1.0 : factor[table.sample];
+        const double scale = is<Harmonic>(one) ? 1.0 : factor[table.sample];
         const auto i = static_cast<Index>(k);
         const double unlike = structures[i] * normal_number(seed, first_step + number, count + factor.size() + k);
         const double truth = scale * (expected[i] + unlike);
         const double complex_modulus = scale * sizes[i];
         const double value = truth + deviation(k, truth, complex_modulus) * normal_number(seed, first_step + number, k);
         const auto column = std::find_if(table.columns.begin(), table.columns.end(),
-                                         [&](const Column& each) { return each.name == observable_of(one); });
+                                         [&](const Column& each) { return each.name == observable_of(one).key; });
         column->values[one.row] = value;
         column->standard_errors[one.row] = deviation(k, value, complex_modulus);  // who measures knows no more than this
     }
@@ -313,7 +313,7 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     base.normal_stiffness *= power.storage_modulus / modulus;
     power.normal_stiffness = base.normal_stiffness;
     const auto& observations = planned.observations();
-    power.moduli = static_cast<std::size_t>(std::count_if(observations.begin(), observations.end(), is_modulus));
+    power.moduli = static_cast<std::size_t>(std::count_if(observations.begin(), observations.end(), is_modulus_or_viscosity));
     power.third_harmonics = observations.size() - power.moduli;
 
     DiagnosisOptions test_only = options.diagnosis;

@@ -37,8 +37,8 @@ ExpectedErrors errors_of(const DataSet& data) {
     std::vector<double> phase;
     for (Index k = 0; k < data.size(); ++k) {
         const Observation& one = data.observations[static_cast<std::size_t>(k)];
-        if (is_modulus(one)) {
-            (one.of_phase ? phase : relative).push_back(share[k]);
+        if (is_modulus_or_viscosity(one)) {
+            (has_error_of_phase(one) ? phase : relative).push_back(share[k]);
         }
     }
     return {median(relative), median(phase), std::max(data.effect, 0.0)};
@@ -72,12 +72,12 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
     Eigen::ArrayXd deviation(moduli.size());
     for (Index k = 0; k < moduli.size(); ++k) {
         const Observation& one = observations[static_cast<std::size_t>(k)];
-        if (one.third_harmonic) {
+        if (is<Harmonic>(one)) {
             deviation[k] = std::hypot(one.standard_error, third_harmonic_error * moduli[k]);
             continue;
         }
-        if (one.difference) {
-            deviation[k] = error_of(*one.difference, moduli[k], one.centres);
+        if (const auto* images = as<ImageDifference>(one)) {
+            deviation[k] = error_of(images->quantity, moduli[k], images->centres);
             continue;
         }
         const double other = std::sqrt(std::max(0.0, sizes[k] * sizes[k] - moduli[k] * moduli[k]));  // G' of G'', G'' of G'
@@ -116,8 +116,8 @@ Expectation expected_by(const Belief& belief, const Forward& forward, const std:
         for (Index other = 0; other < rows; ++other) {
             const Observation& a = observations[static_cast<std::size_t>(one)];
             const Observation& b = observations[static_cast<std::size_t>(other)];
-            if (a.measurement == b.measurement && is_modulus(a) && is_modulus(b)) {
-                const double torque = a.row == b.row && a.loss != b.loss ? errors.relative : 0.0;
+            if (a.measurement == b.measurement && is_modulus_or_viscosity(a) && is_modulus_or_viscosity(b)) {
+                const double torque = a.row == b.row && is_loss(a) != is_loss(b) ? errors.relative : 0.0;
                 const double phase = torque > 0 ? errors.phase : 0.0;
                 covariance(one, other) +=
                     (errors.sample * errors.sample + torque * torque - phase * phase) * mean[one] * mean[other];

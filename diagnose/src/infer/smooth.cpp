@@ -11,7 +11,7 @@ namespace coagula::diagnose {
 namespace {
 
 bool takes_part(const Observation& one, Departing departing) {
-    return departing == Departing::both || one.loss == (departing == Departing::loss);
+    return departing == Departing::both || is_loss(one) == (departing == Departing::loss);
 }
 
 /// The covariance of a departure of unit size, column by column.
@@ -20,10 +20,15 @@ public:
     /// @param together the product of the correlations along all coordinates, else their mean.
     SmoothCovariance(const std::vector<Observation>& observations, Departing departing, std::vector<Eigen::VectorXd> ranks,
                      bool together, double length)
-        : observations_(observations), departing_(departing), ranks_(std::move(ranks)), together_(together), length_(length) {}
+        : ranks_(std::move(ranks)), together_(together), length_(length) {
+        for (const Observation& one : observations) {
+            const bool departs = takes_part(one, departing) && !is<ImageDifference>(one);
+            kinds_.push_back(!departs ? 0 : 1 + (is_loss(one) ? 1 : 0) + (is<Harmonic>(one) ? 2 : 0));
+        }
+    }
 
     Eigen::VectorXd column(Index number) const {
-        const auto count = static_cast<Index>(observations_.size());
+        const auto count = static_cast<Index>(kinds_.size());
         Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(count);
         Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(count);
         for (const Eigen::VectorXd& rank : ranks_) {
@@ -43,7 +48,7 @@ public:
     /// Cholesky's factor, the largest pivot first, until what is left is small.
     Eigen::MatrixXd factor() const {
         constexpr double least = 1e-4;
-        const auto size = static_cast<Index>(observations_.size());
+        const auto size = static_cast<Index>(kinds_.size());
         Eigen::VectorXd rest(size);
         for (Index row = 0; row < size; ++row) {
             rest[row] = depart_alike(row, row) ? 1.0 : 0.0;
@@ -62,16 +67,13 @@ public:
     }
 
 private:
-    /// Two numbers of one observable, where that departs.
+    /// Whether two numbers are of one kind, where that departs.
     bool depart_alike(Index number, Index row) const {
-        const Observation& one = observations_[static_cast<std::size_t>(number)];
-        const Observation& other = observations_[static_cast<std::size_t>(row)];
-        return one.loss == other.loss && one.third_harmonic == other.third_harmonic && !one.difference && !other.difference &&
-               takes_part(one, departing_);
+        const int kind = kinds_[static_cast<std::size_t>(number)];
+        return kind != 0 && kind == kinds_[static_cast<std::size_t>(row)];
     }
 
-    const std::vector<Observation>& observations_;
-    Departing departing_;
+    std::vector<int> kinds_;  ///< elastic or viscous part, of the first harmonic or the third; 0 where nothing departs
     std::vector<Eigen::VectorXd> ranks_;
     bool together_;
     double length_;

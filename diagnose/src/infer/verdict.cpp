@@ -220,7 +220,7 @@ std::vector<Condition> conditions_of(const Comparison& comparison, const Inferen
     const double over_members = over_one_member(winner, comparison.all);
     // What was counted of structures differs from one to the next by more than a smooth curve that was seen in the other.
     const auto& observations = inference.errors().data().observations;
-    const bool of_moduli = std::all_of(observations.begin(), observations.end(), is_modulus);
+    const bool of_moduli = std::all_of(observations.begin(), observations.end(), is_modulus_or_viscosity);
     const double over_smooth = of_moduli ? gain.rmse_flexible / gain.rmse_extended : unset;
     return {{"beats-free-forms", over_forms, decisive, over_forms > decisive},
             {"beats-other-axes", over_other_axes, favoured, over_other_axes > favoured},

@@ -13,7 +13,7 @@ Mechanism bearing_damping() {
             .kind = {Link::tool, Axis::frequency},
             .parameters = {{"damping", "N.m.s", 1e-9, 1e-4, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
-                const double frequency = is_steady(row) ? 1 : row.angular_frequency;
+                const double frequency = is<Viscosity>(row) ? 1 : row.angular_frequency;
                 return std::isfinite(frequency) ? modulus + std::complex<double>(0, values[0] * frequency / row.torque_per_modulus)
                                                 : modulus;
             }},

@@ -8,7 +8,7 @@ namespace {
 /// A skin of this stiffness around the rim shears with the sample: its torque is 2 pi S R^3 / h per angle between plates, and
 /// 2 pi S R^2 / angle under a cone.
 std::complex<double> with_skin(std::complex<double> modulus, const Observation& row, Values values) {
-    if (!std::isfinite(row.time) || !std::isfinite(row.plate_radius) || row.solvent_trap || is_fluid(row) || is_steady(row)) {
+    if (!std::isfinite(row.time) || !std::isfinite(row.plate_radius) || row.solvent_trap || is_fluid(row) || is<Viscosity>(row)) {
         return modulus;
     }
     const double moment = std::isfinite(row.cone_angle) ? 3 : 4;

@@ -14,7 +14,7 @@ constexpr double unevenness = 1.5;
 
 /// Of Hertz contacts, which the plates press besides their adhesion: (1 + p)^(1/3) where all loads grow alike and are small.
 std::complex<double> pressed(std::complex<double> modulus, const Observation& row, Values values) {
-    if (!std::isfinite(row.normal_force) || !std::isfinite(row.plate_radius) || is_fluid(row) || is_steady(row)) {
+    if (!std::isfinite(row.normal_force) || !std::isfinite(row.plate_radius) || is_fluid(row) || is<Viscosity>(row)) {
         return modulus;
     }
     const double area = std::numbers::pi * row.plate_radius * row.plate_radius;

@@ -13,7 +13,7 @@ Mechanism phase_offset() {
             .kind = {Link::tool, Axis::level},
             .parameters = {{"phase", "rad", -0.02, 0.02, false}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
-                return is_steady(row) ? modulus : modulus * std::polar(1.0, values[0]);
+                return is<Viscosity>(row) ? modulus : modulus * std::polar(1.0, values[0]);
             }},
             .applies = [](const Knows& knows) {
                 return any_measurement(knows.experiment,

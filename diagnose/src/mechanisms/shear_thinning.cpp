@@ -7,7 +7,8 @@ namespace {
 
 /// 1 + excess (1 s-1 / rate)^exponent.
 std::complex<double> thinning(const Observation& row, Values values, const SimulatedSample& /*sample*/) {
-    return is_steady(row) ? 1 + values[0] * std::pow(row.shear_rate, -values[1]) : 1;
+    const auto* viscosity = as<Viscosity>(row);
+    return viscosity != nullptr ? 1 + values[0] * std::pow(viscosity->shear_rate, -values[1]) : 1;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 /// From a place among the rows on, to the last run on that sample.
 std::complex<double> lost(std::complex<double> modulus, const Observation& row, Values values) {
-    const bool behind = !is_steady(row) && row.sample_place <= values[0] && row.place > values[0];
+    const bool behind = !is<Viscosity>(row) && row.sample_place <= values[0] && row.place > values[0];
     return behind ? modulus * values[1] : modulus;
 }
 

@@ -32,7 +32,7 @@ double share_of_bonds(const std::vector<ShearedSpan>& history, double until, Val
 }
 
 std::complex<double> left_by_shear(const Observation& row, Values values, const SimulatedSample& sample) {
-    if (!std::isfinite(row.time) || is_steady(row)) {
+    if (!std::isfinite(row.time) || is<Viscosity>(row)) {
         return 1;
     }
     const double share = share_of_bonds(sample.history.of(row.measurement), row.time, values);

@@ -10,7 +10,7 @@ Mechanism tool_compliance() {
             .kind = {Link::tool, Axis::radius},
             .parameters = {{"compliance", "rad/(N.m)", 5e-4, 1e-2, true}},
             .effect = ChangesTool{[](std::complex<double> modulus, const Observation& row, Values values) {
-                if (is_steady(row)) {
+                if (is<Viscosity>(row)) {
                     return modulus;
                 }
                 return modulus / (1.0 + values[0] * row.torque_per_modulus * modulus);

@@ -10,12 +10,13 @@ constexpr double least_offset = 1e-4;   // Pa: 2.5 nN m, about the least torque 
 
 /// One torque is the less stress the wider the plate, as one over the cube of its radius.
 std::complex<double> with_offset(std::complex<double> modulus, const Observation& row, Values values) {
-    if (!is_steady(row)) {
+    const auto* viscosity = as<Viscosity>(row);
+    if (viscosity == nullptr) {
         return modulus;
     }
     const double radius = std::isfinite(row.plate_radius) ? row.plate_radius : usual_radius;
     const double stress = values[0] * std::pow(usual_radius / radius, 3);
-    return modulus + std::complex<double>(0, stress / row.shear_rate);
+    return modulus + std::complex<double>(0, stress / viscosity->shear_rate);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Complex sticking_share(Complex x) {
 /// With a displacement of the sample at each wall of so much [m/Pa] times the stress there. Nothing slips on rough plates, and no
 /// Newtonian fluid does.
 Complex slipping(Complex modulus, const Observation& row, Values values) {
-    if (row.rough_plates || is_fluid(row) || is_steady(row)) {
+    if (row.rough_plates || is_fluid(row) || is<Viscosity>(row)) {
         return modulus;
     }
     if (std::isfinite(row.cone_angle)) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "data_set.hpp"
 
-#include "observables/pore_curves.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -27,7 +25,7 @@ std::vector<Index> partners_of(const std::vector<Observation>& observations) {
     std::vector<Index> partners(observations.size(), -1);
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& one = observations[k];
-        if (one.other_error == 0 || one.third_harmonic) {
+        if (const auto* modulus = as<Modulus>(one); modulus == nullptr || modulus->other_error == 0) {
             continue;
         }
         const auto [found, first] = storage.try_emplace({one.measurement, one.row}, static_cast<Index>(k));
@@ -51,15 +49,16 @@ RowNoise noise_of(const std::vector<Observation>& observations, const Eigen::Vec
     std::map<std::tuple<std::size_t, bool, bool>, std::map<std::size_t, Index>> chains;  // errors of one kind by row
     for (Index k = 0; k < size; ++k) {
         const Observation& one = observations[static_cast<std::size_t>(k)];
-        chains[{one.measurement, one.of_phase, one.third_harmonic}].emplace(one.row, k);
+        chains[{one.measurement, has_error_of_phase(one), is<Harmonic>(one)}].emplace(one.row, k);
         if (noise.partner[static_cast<std::size_t>(k)] >= 0) {
-            noise.cosine[k] = std::cos(one.turned);
-            noise.sine[k] = std::sin(one.turned);
+            const double turned = std::get<Modulus>(one.what).turned;
+            noise.cosine[k] = std::cos(turned);
+            noise.sine[k] = std::sin(turned);
         }
     }
     const auto axis = [&](Index k) {  // of an error in the plane of G' and G''
-        const bool loss = observations[static_cast<std::size_t>(k)].loss;
-        return loss ? Eigen::Vector2d(-noise.sine[k], noise.cosine[k]) : Eigen::Vector2d(noise.cosine[k], noise.sine[k]);
+        return is_loss(observations[static_cast<std::size_t>(k)]) ? Eigen::Vector2d(-noise.sine[k], noise.cosine[k])
+                                                                  : Eigen::Vector2d(noise.cosine[k], noise.sine[k]);
     };
     for (const auto& [kind, chain] : chains) {
         for (auto before = chain.begin(), here = std::next(before); here != chain.end(); ++before, ++here) {
@@ -169,14 +168,14 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         const Observation& one = data.observations[k];
         const auto row = static_cast<Index>(k);
         data.values[row] = one.value;
-        const double usual = (one.loss ? usual_loss_error : usual_storage_error) * std::abs(one.value);
+        const double usual = (is_loss(one) ? usual_loss_error : usual_storage_error) * std::abs(one.value);
         deviation[row] = std::isfinite(one.standard_error) ? one.standard_error : usual;
         if (deviation[row] > 0) {
             deviation[row] = std::max(deviation[row], least_error * std::abs(one.value));
         }
         if (!(deviation[row] > 0)) {
             const Measurement& table = experiment.measurements[one.measurement];
-            throw InputError(table.label + ": row " + std::to_string(one.row + 1) + " of " + observable_of(one) +
+            throw InputError(table.label + ": row " + std::to_string(one.row + 1) + " of " + std::string(observable_of(one).key) +
                              " has no error: state a noise or standard error above zero");
         }
         const std::string& name = experiment.measurements[one.measurement].sample;
@@ -185,15 +184,16 @@ DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
         if (found == data.sample_names.end()) {
             data.sample_names.push_back(name);
         }
-        if (is_pore(one) || one.difference || one.third_harmonic) {
+        if (is<Pore>(one) || is<ImageDifference>(one) || is<Harmonic>(one)) {
             data.sample.back() = -1;
         }
     }
     data.noise = noise_of(data.observations, deviation);
     for (Index row = 0; row < data.size(); ++row) {
-        const Observation& one = data.observations[static_cast<std::size_t>(row)];
-        if (data.noise.partner[static_cast<std::size_t>(row)] < 0 && one.other_error > 0) {
-            data.noise.deviation[row] = std::hypot(std::cos(one.turned) * deviation[row], std::sin(one.turned) * one.other_error);
+        const auto* modulus = as<Modulus>(data.observations[static_cast<std::size_t>(row)]);
+        if (data.noise.partner[static_cast<std::size_t>(row)] < 0 && modulus != nullptr && modulus->other_error > 0) {
+            data.noise.deviation[row] =
+                std::hypot(std::cos(modulus->turned) * deviation[row], std::sin(modulus->turned) * modulus->other_error);
         }
     }
     return data;

@@ -28,7 +28,7 @@ public:
 
     /// What the true deviation is over the stated one; one draw per estimated noise model.
     double scale(const Observation& one) {
-        const auto [scale, added] = scales_.try_emplace({one.errors.degrees, one.of_phase}, 1.0);
+        const auto [scale, added] = scales_.try_emplace({one.errors.degrees, has_error_of_phase(one)}, 1.0);
         return scale->second = added ? unit_deviation(one.errors.degrees) : scale->second;
     }
 
@@ -41,7 +41,7 @@ public:
 
     /// What the true correlation is where this one is stated; one draw of that of neighbouring rows for torque and phase each.
     double correlation(const Observation& one, double stated) {
-        const auto [drawn, added] = correlations_.try_emplace(one.of_phase, 0.0);
+        const auto [drawn, added] = correlations_.try_emplace(has_error_of_phase(one), 0.0);
         if (added) {
             drawn->second = std::clamp(one.errors.correlation + normal() * one.errors.correlation_error, 0.01, 0.95);
         }

@@ -99,7 +99,7 @@ ErrorModel::ErrorModel(const DataSet& data)
             scaled.push_back(0);
             continue;
         }
-        const auto [found, added] = numbers.try_emplace({degrees, one.of_phase}, degrees_.size() + 1);
+        const auto [found, added] = numbers.try_emplace({degrees, has_error_of_phase(one)}, degrees_.size() + 1);
         if (added) {
             degrees_.push_back(degrees);
         }

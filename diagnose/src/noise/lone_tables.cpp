@@ -5,6 +5,7 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/observable.hpp>
 
 #include <Eigen/Core>
 
@@ -86,17 +87,9 @@ std::string three_digits(double value) {
     return to_text(std::round(value / digit) * digit);
 }
 
-std::string spoken(const std::string& observable) {
-    return observable == "complex_modulus"   ? "|G*|"
-           : observable == "phase"           ? "the phase"
-           : observable == "storage_modulus" ? "G'"
-           : observable == "loss_modulus"    ? "G''"
-                                             : "the " + observable;
-}
-
 std::string sentence_on(const LoneTable& lone) {
     const std::string table = lone.label + (lone.sample.empty() ? "" : ", sample '" + lone.sample + "'");
-    std::string text = table + ": " + spoken(lone.observable);
+    std::string text = table + ": " + std::string(observable_named(lone.observable).phrase);
     if (lone.observable == "phase") {
         text += " lies " + three_digits(std::abs(lone.difference) * 180 / std::numbers::pi) + " degrees " +
                 (lone.difference < 0 ? "below" : "above");

@@ -60,7 +60,7 @@ std::vector<Chain> chains_of(const DataSet& data, Eigen::VectorXd departures, bo
     std::map<std::size_t, std::map<std::size_t, Index>> tables;  // place of each row
     for (Index k = 0; k < data.size(); ++k) {
         const Observation& one = data.observations[static_cast<std::size_t>(k)];
-        if (one.of_phase == of_phase && !one.third_harmonic && one.errors.correlation_error > 0) {
+        if (has_error_of_phase(one) == of_phase && !is<Harmonic>(one) && one.errors.correlation_error > 0) {
             tables[one.measurement].emplace(one.row, k);
         }
     }
@@ -123,7 +123,7 @@ RowCorrelations correlations_shown(const DataSet& data, const Eigen::VectorXd& d
     for (const bool of_phase : {false, true}) {
         const auto& observations = data.observations;
         const auto uncertain = std::find_if(observations.begin(), observations.end(), [&](const Observation& one) {
-            return one.of_phase == of_phase && one.errors.correlation_error > 0;
+            return has_error_of_phase(one) == of_phase && one.errors.correlation_error > 0;
         });
         if (uncertain != observations.end()) {
             const RowCorrelation known{uncertain->errors.correlation, uncertain->errors.correlation_error};
@@ -137,7 +137,7 @@ RowCorrelations correlations_shown(const DataSet& data, const Eigen::VectorXd& d
 void set_correlations(const RowCorrelations& correlations, DataSet& data) {
     for (Index row = 0; row < data.size(); ++row) {
         Observation& one = data.observations[static_cast<std::size_t>(row)];
-        const RowCorrelation& shown = correlations[one.of_phase ? 1 : 0];
+        const RowCorrelation& shown = correlations[has_error_of_phase(one) ? 1 : 0];
         if (one.errors.correlation_error == 0) {
             continue;
         }

@@ -42,15 +42,15 @@ Packing turned(const Packing& packing, Index turns) {
 }
 
 /// Of a periodic structure: the pairs within the reach, and the neighbours of every particle, shells x particles.
-struct Neighbours {
+struct NearPairs {
     ContactNetwork pairs;
     Eigen::MatrixXd counts;
 };
 
-Neighbours neighbours_of(const Packing& packing, double diameter) {
+NearPairs neighbours_of(const Packing& packing, double diameter) {
     Packing seen = packing;
     seen.radii.setConstant(diameter / 2);  // the shells are distances of centres, whatever the sizes
-    Neighbours all{find_contacts(seen, shell_reach - 1), Eigen::MatrixXd::Zero(shell_count, packing.size())};
+    NearPairs all{find_contacts(seen, shell_reach - 1), Eigen::MatrixXd::Zero(shell_count, packing.size())};
     for (Index pair = 0; pair < all.pairs.size(); ++pair) {
         if (const int shell = shell_at(all.pairs.branch.col(pair), diameter); shell >= 0) {
             all.counts(shell, all.pairs.ends(0, pair)) += 1;

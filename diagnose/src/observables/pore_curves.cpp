@@ -25,11 +25,7 @@ std::vector<Observation> pores_in(const Experiment& experiment, std::size_t numb
         const double radius = cell(table, "pore_radius", row);
         const double stated = column.standard_errors.empty() ? unset : column.standard_errors[row];
         if (value > rarest && value < 1 && radius > 0) {
-            all.push_back({.measurement = number,
-                           .row = row,
-                           .value = value,
-                           .standard_error = std::isnan(stated) ? unstated_error_of_curve : stated,
-                           .pore_radius = radius});
+            all.push_back({{}, number, row, Pore{radius}, value, std::isnan(stated) ? unstated_error_of_curve : stated});
         }
     }
     return all;

@@ -4,14 +4,9 @@
 
 #include "observations.hpp"
 
-#include <cmath>
 #include <vector>
 
 namespace coagula::diagnose {
-
-inline bool is_pore(const Observation& observation) {
-    return std::isfinite(observation.pore_radius);
-}
 
 /// The rows of a table of kind pore-curve with a probability between 0.01 and 1, ends excluded: at r = 0 all structures agree, and
 /// beyond 0.01 one largest pore decides. Needs the particle radius.

@@ -166,11 +166,11 @@ RepeatedImages images_of_structure(const Packing& packing, double sigma_plane, d
     return differences.result();
 }
 
-double error_of(ImageDifference difference, double value, double centres) {
-    if (difference == ImageDifference::unmatched) {
+double error_of(ImageQuantity quantity, double value, double centres) {
+    if (quantity == ImageQuantity::unmatched) {
         return std::sqrt(std::max(value * (1 - value), 1 / centres) / centres);
     }
-    const double components = difference == ImageDifference::plane ? 2 : 1;
+    const double components = quantity == ImageQuantity::plane ? 2 : 1;
     return std::max(error_of_median * value / std::sqrt(components * centres), least_error);
 }
 

@@ -14,7 +14,7 @@
 namespace coagula::diagnose {
 
 /// A quantity that differs between two images.
-enum class ImageDifference { plane, axis, unmatched };
+enum class ImageQuantity { plane, axis, unmatched };
 
 struct RepeatedImages {
     /// In the order of the differences: standard deviations of the centres in the plane x-y and along z over the diameter, from the
@@ -39,6 +39,6 @@ RepeatedImages compare_images(const std::vector<Eigen::Matrix3Xd>& images, doubl
 RepeatedImages images_of_structure(const Packing& packing, double sigma_plane, double sigma_axis);
 
 /// Standard error of a difference of this value in so many centres.
-double error_of(ImageDifference difference, double value, double centres);
+double error_of(ImageQuantity quantity, double value, double centres);
 
 }  // namespace coagula::diagnose

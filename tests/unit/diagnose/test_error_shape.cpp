@@ -152,7 +152,7 @@ std::pair<double, double> lag_of_draws(double correlation_error) {
     data.noise.correlation[0] = 0;
     for (std::size_t row = 0; row < rows; ++row) {
         data.noise.previous.push_back(static_cast<Index>(row) - 1);
-        Observation one{0, row};
+        Observation one{{}, 0, row};
         one.errors.correlation = 0.6;
         one.errors.correlation_error = correlation_error;
         data.observations.push_back(one);

@@ -27,7 +27,7 @@ std::vector<std::vector<bool>> folds_of_eight(std::size_t first) {
     experiment.measurements = {table};
     std::vector<Observation> observations;
     for (std::size_t row = first; row < 8; ++row) {
-        observations.push_back({0, row});
+        observations.push_back({{}, 0, row});
     }
     return choose_folds(experiment, observations, 0.3);
 }
@@ -50,7 +50,7 @@ TEST(Gain, HoldsOutEverySampleInTurn) {
     for (const char* sample : {"one", "two", "one", "three"}) {
         table.sample = sample;
         for (std::size_t row = 0; row < 4; ++row) {
-            observations.push_back({experiment.measurements.size(), row});
+            observations.push_back({{}, experiment.measurements.size(), row});
         }
         experiment.measurements.push_back(table);
     }

@@ -53,7 +53,7 @@ std::vector<Complex> response(const std::vector<double>& strains, const Settings
     std::vector<Complex> responses(strains.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const double value = predicted[static_cast<Eigen::Index>(k)] / linear;
-        responses[rows[k].row] += rows[k].loss ? Complex(0, value) : Complex(value, 0);
+        responses[rows[k].row] += is_loss(rows[k]) ? Complex(0, value) : Complex(value, 0);
     }
     return responses;
 }

@@ -21,8 +21,8 @@ TEST(PoreCurves, ArePredictedByTheStructures) {
     const std::vector<Observation> observations = observations_of(experiment);
     ASSERT_GT(observations.size(), 18U);  // all but r = 0 and the largest pores
     ASSERT_LT(observations.size(), 25U);
-    EXPECT_STREQ(observable_of(observations.front()), "exclusion_probability");
-    EXPECT_FALSE(is_modulus(observations.front()));
+    EXPECT_EQ(observable_of(observations.front()).key, "exclusion_probability");
+    EXPECT_FALSE(is_modulus_or_viscosity(observations.front()));
     const Eigen::VectorXd predicted = Forward(experiment, observations, recipe().simulator).predict(Settings{});
     for (const Index row : {0, 7, 17}) {
         double expected = 0;
@@ -96,7 +96,7 @@ TEST(PoreCurves, TablesShareTheErrorsOfTheStructures) {
     const Eigen::MatrixXd errors = shared_errors(experiment, observations, simulator);
     const Eigen::MatrixXd covariance = errors * errors.transpose();
     const Index row = 8;
-    const double of_one = pore_errors(simulator, {}, {observations[static_cast<std::size_t>(row)].pore_radius}).squaredNorm();
+    const double of_one = pore_errors(simulator, {}, {as<Pore>(observations[static_cast<std::size_t>(row)])->radius}).squaredNorm();
     EXPECT_GT(of_one, 1e-6);
     EXPECT_NEAR(covariance(row, row), 1.5 * of_one, 1e-6 * of_one);
     EXPECT_NEAR(covariance(row, row + rows), 0.5 * of_one, 1e-6 * of_one);

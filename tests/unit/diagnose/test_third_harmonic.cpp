@@ -35,7 +35,7 @@ std::vector<Complex> predicted(const Settings& settings, const std::vector<doubl
     std::vector<Complex> all(strains.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const double value = values[static_cast<Eigen::Index>(k)];
-        all[rows[k].row] += rows[k].loss ? Complex(0, value) : Complex(value, 0);
+        all[rows[k].row] += is_loss(rows[k]) ? Complex(0, value) : Complex(value, 0);
     }
     return all;
 }
@@ -204,7 +204,7 @@ TEST(ThirdHarmonic, OfAnOilIsNotThatOfTheSample) {
     experiment.measurements[0].fluid_viscosity = 1;
     const auto rows = observations_of(experiment);
     ASSERT_EQ(rows.size(), 1U);
-    EXPECT_STREQ(observable_of(rows[0]), "loss_modulus");
+    EXPECT_EQ(observable_of(rows[0]).key, "loss_modulus");
 }
 
 /// Bonds that broke at smaller strains of the sweep have no part in the waveform of a later row.

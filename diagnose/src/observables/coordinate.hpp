@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The coordinates along which observations are ordered.
+#pragma once
+
+#include "observations.hpp"
+
+#include <span>
+
+namespace coagula::diagnose {
+
+/// Quantities along which residuals are looked at.
+enum class Coordinate {
+    strain,
+    angular_frequency,
+    shear_rate,
+    time,
+    gap,
+    plate_radius,
+    heterogeneity,
+    coordination,
+    volume_fraction,
+    distance,
+    pore_radius,
+    none
+};
+
+/// All but none.
+std::span<const Coordinate> all_coordinates();
+
+/// "strain", "angular_frequency", ...
+const char* name_of(Coordinate coordinate);
+
+/// Coordinate of one observation; NaN where it has none.
+double coordinate_of(const Observation& observation, Coordinate coordinate);
+
+}  // namespace coagula::diagnose

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Under which conditions the rows of a table were measured.
+#pragma once
+
+#include <coagula/common/checks.hpp>
+#include <coagula/diagnose/measurement.hpp>
+#include <coagula/diagnose/run_clock.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace coagula::diagnose {
+
+/// Conditions of a row of a table; NaN where nobody states them.
+struct RowConditions {
+    double strain = unset;              ///< amplitude
+    double set_strain = unset;          ///< the same where it was set; in a run under a set stress that stress, as a strain
+    double largest_strain = unset;      ///< that the sample has seen up to this row
+    double angular_frequency = unset;   ///< [rad/s]
+    double time = unset;                ///< on the clock of the sample (run_clock.hpp) [s]
+    double age = unset;                 ///< time since the last shear that destroyed the structure [s]
+    double place = unset;               ///< among all rows of all runs, 0 .. 1, sample by sample in their order
+    double sample_place = unset;        ///< place of the first row of the sample
+    double gap = unset;                 ///< [m]
+    double plate_radius = unset;        ///< [m]
+    double torque_per_modulus = unset;  ///< torque per deflection over the modulus [m^3]
+    double cone_angle = unset;          ///< [rad]; NaN where there is no cone
+    double normal_force = unset;        ///< that pushes the plates apart [N]
+    bool rough_plates = false;
+    bool solvent_trap = false;
+    int run = 0;                     ///< number of the run among those on the sample (run_clock.hpp)
+    double fluid_viscosity = unset;  ///< viscosity of a Newtonian fluid in place of the sample [Pa.s]
+    // Members for a structure series.
+    std::size_t structures = 0;  ///< group that stands for the row; 0: all structures
+    double heterogeneity = unset;
+    double coordination = unset;
+    double volume_fraction = unset;
+};
+
+/// Where the rows of a run are among those of all runs, 0 .. 1: one sample after the other, its runs in their order.
+struct RunPlace {
+    double sample = 0;  ///< place of the first row of the sample
+    double first = 0;   ///< place of the first row of the run
+    double per_row = 0;
+};
+
+/// When and where the runs of an experiment were made.
+struct Runs {
+    std::vector<RunTime> times;
+    std::vector<RunPlace> places;
+};
+
+Runs runs_of(const Experiment& experiment);
+
+/// What came before each row of a table in the order of time.
+struct RowsBefore {
+    std::vector<double> count;           ///< number of rows of the table
+    std::vector<double> largest_strain;  ///< that of the row included
+};
+
+/// Conditions of the rows of a table; those of a row are found when they are asked for.
+class ConditionsOfRows {
+public:
+    ConditionsOfRows(const Experiment& experiment, const Runs& runs, std::size_t run);
+
+    /// Throws InputError when a structure series does not say which structures stand for the row.
+    const RowConditions& of(std::size_t row);
+
+private:
+    RowConditions found(std::size_t row) const;
+    const Experiment& experiment_;
+    const Measurement& table_;
+    const RunTime& time_;
+    const RunPlace& place_;
+    std::vector<double> set_strains_;
+    RowsBefore before_;
+    std::vector<std::optional<RowConditions>> rows_;
+};
+
+}  // namespace coagula::diagnose
