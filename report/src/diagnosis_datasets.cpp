@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/report/diagnosis_datasets.hpp>
 
+#include "finding_sentences.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -125,7 +127,7 @@ void add_detection(Results& results, const Diagnosis& found) {
     for (std::size_t k = 0; k < found.failures.size(); ++k) {
         const diagnose::Failure& failure = found.failures[k];
         const std::string place = group + "where/" + std::to_string(k + 1) + "/";
-        results.push_back(io::text(place + "sentence", failure.sentence, failure.observable + " along " + failure.axis));
+        results.push_back(io::text(place + "sentence", sentence_on(failure), failure.observable + " along " + failure.axis));
         results.push_back(io::scalar(place + "log_bayes_factor", failure.log_bayes_factor, "1",
                                      "natural logarithm of the Bayes factor of a smooth deviation against none"));
     }

@@ -5,6 +5,7 @@
 #include "diagnosis_charts.hpp"
 #include "diagnosis_data_page.hpp"
 #include "diagnosis_tables.hpp"
+#include "finding_sentences.hpp"
 #include "html.hpp"
 #include "verdict_sentences.hpp"
 
@@ -73,7 +74,7 @@ std::string detection(const DiagnosisRecord& record, Charts& charts) {
     } else {
         html += "<ul class=\"findings\">\n";
         for (const diagnose::Failure& failure : found.failures) {
-            html += "<li>" + escaped(failure.sentence) + ". <span class=\"soft\">Bayes factor " +
+            html += "<li>" + escaped(sentence_on(failure)) + ". <span class=\"soft\">Bayes factor " +
                     (failure.log_bayes_factor > std::log(1e6) ? "above 10⁶" : printed(std::exp(failure.log_bayes_factor))) +
                     ".</span></li>\n";
         }
@@ -147,7 +148,7 @@ std::string causes(const Diagnosis& found) {
         (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
         " The test of the base model, applied to the best cause, gives p = " + print_number(found.extended_p_value) + "." +
         (found.remainder.detected ? (found.remainder.most ? " Most of the deviation remains: " : " A deviation remains: ") +
-                                        escaped(found.remainder.where) + "."
+                                        escaped(sentence_on(found.remainder)) + "."
                                   : std::string{}) +
         (found.level_alone
              ? " Only the level of the moduli deviates. A wrong value of the structure, the particles or the instrument "
@@ -221,7 +222,7 @@ std::string proposals(const Diagnosis& found) {
     }
     std::vector<std::vector<std::string>> rows;
     for (const diagnose::Proposal& proposal : found.proposals) {
-        rows.push_back({escaped(proposal.what),
+        rows.push_back({escaped(words_for(proposal)),
                         "<span class=\"number\">" + escaped(probability_text(proposal.resolution)) + "</span>",
                         "<span class=\"number\">" + printed(proposal.information) + " bit</span>"});
     }

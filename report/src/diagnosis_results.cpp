@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/report/diagnosis_results.hpp>
 
+#include "finding_sentences.hpp"
 #include "html.hpp"
 #include "verdict_sentences.hpp"
 
@@ -208,7 +209,7 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
                                  {"log_bayes_factor", number(failure.log_bayes_factor)},
                                  {"from", number(failure.from)},
                                  {"unit", unit_of(failure.axis)},
-                                 {"sentence", failure.sentence}});
+                                 {"sentence", sentence_on(failure)}});
     }
     for (const diagnose::PredictedRow& row : diagnosis.rows) {
         json["rows"].push_back(row_json(row));
@@ -222,7 +223,7 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
         json["level_alone"] = diagnosis.level_alone;
         json["remainder"] = {{"detected", diagnosis.remainder.detected},
                              {"p_value", diagnosis.remainder.p_value},
-                             {"where", diagnosis.remainder.where},
+                             {"where", sentence_on(diagnosis.remainder)},
                              {"most", diagnosis.remainder.most}};
         json["gain"] = {{"held_out", gain.held_out},
                         {"chosen", gain.chosen},
@@ -242,7 +243,7 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
     json["proposed_measurements"] = Json::array();
     for (const diagnose::Proposal& proposal : diagnosis.proposals) {
         json["proposed_measurements"].push_back(
-            {{"what", proposal.what}, {"information", proposal.information}, {"predicted_resolution", proposal.resolution}});
+            {{"what", words_for(proposal)}, {"information", proposal.information}, {"predicted_resolution", proposal.resolution}});
     }
     if (!diagnosis.proposals.empty()) {
         json["proposed_measurement"] = json["proposed_measurements"].front();
@@ -260,7 +261,7 @@ Table table_of(const Diagnosis& diagnosis) {
         return lines;
     }
     for (const diagnose::Failure& failure : diagnosis.failures) {
-        lines.emplace_back("where", failure.sentence);
+        lines.emplace_back("where", sentence_on(failure));
     }
     lines.emplace_back("follows", describe(diagnosis.follows));
     lines.emplace_back("95 % set of causes", list_of(diagnosis.credible_set));
@@ -277,12 +278,13 @@ Table table_of(const Diagnosis& diagnosis) {
     }
     if (diagnosis.remainder.detected) {
         lines.emplace_back("remaining deviation",
-                           diagnosis.remainder.where + "   (p-value " + with_unit(diagnosis.remainder.p_value, "1") + ")");
+                           sentence_on(diagnosis.remainder) + "   (p-value " + with_unit(diagnosis.remainder.p_value, "1") + ")");
     }
     lines.emplace_back("gain on held-out data", describe(diagnosis.gain));
     if (!diagnosis.proposals.empty()) {
         const diagnose::Proposal& first = diagnosis.proposals.front();
-        lines.emplace_back("measure next", first.what + "   (decides with probability " + probability_text(first.resolution) + ")");
+        lines.emplace_back("measure next",
+                           words_for(first) + "   (decides with probability " + probability_text(first.resolution) + ")");
     }
     return lines;
 }

@@ -3,6 +3,7 @@
 // over and what to measure next.
 #include "verdict_sentences.hpp"
 
+#include "finding_sentences.hpp"
 #include "html.hpp"
 
 #include <coagula/report/diagnosis_page.hpp>
@@ -272,10 +273,10 @@ std::vector<std::string> verdict_sentences(const Diagnosis& found) {
     }
     if (const Cause* best = extended_cause(found); best != nullptr && found.remainder.detected) {
         sentences.push_back("The best cause, " + best->name + ", leaves " +
-                            (found.remainder.most ? "most of the misfit: " : "a deviation: ") + found.remainder.where + ".");
+                            (found.remainder.most ? "most of the misfit: " : "a deviation: ") + sentence_on(found.remainder) + ".");
     }
     if (!found.proposals.empty() && found.proposals.front().resolution >= likely) {
-        sentences.push_back("To decide, measure " + found.proposals.front().what + ".");
+        sentences.push_back("To decide, measure " + words_for(found.proposals.front()) + ".");
     } else if (found.detected && found.verdict != Verdict::named) {
         const auto& of_base = found.base.parameters;
         const bool of_oil = !of_base.empty() && of_base.front().name == "viscosity";

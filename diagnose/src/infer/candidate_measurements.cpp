@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "candidate_measurements.hpp"
 
-#include "observables/image_observations.hpp"
+#include "observables/structure_observations.hpp"
 
 #include <coagula/common/logarithmic_steps.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <iomanip>
 #include <limits>
 #include <numbers>
-#include <sstream>
+#include <utility>
 
 namespace coagula::diagnose {
 
@@ -108,23 +106,6 @@ private:
     std::vector<double> time_;
 };
 
-/// " (0.333 to 3 mm)".
-std::string millimetres(std::initializer_list<double> lengths) {
-    if (!std::isfinite(*lengths.begin())) {
-        return {};
-    }
-    std::ostringstream text;
-    text << std::setprecision(3);
-    for (const double length : lengths) {
-        text << (text.str().empty() ? " (" : " to ") << 1e3 * length;
-    }
-    return text.str() + " mm)";
-}
-
-std::string minutes(double seconds) {
-    return std::to_string(std::lround(seconds / 60)) + " min";
-}
-
 std::vector<Candidate> shear_candidates(const Experiment& experiment, const std::vector<Observation>& observations) {
     const Habits habits = habits_of(observations);
     const double gap = experiment.instrument.gap;
@@ -136,39 +117,38 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
     up_and_down.insert(up_and_down.end(), up_and_down.rbegin(), up_and_down.rend());
 
     std::vector<Candidate> candidates;
-    const auto add = [&](const std::string& what, const auto&... measurement) {
-        candidates.push_back({what, experiment, {}});
+    const auto add = [&](const std::string& key, std::vector<double> lengths, const auto&... measurement) -> Candidate& {
+        candidates.push_back({key, std::move(lengths), unset, experiment, {}});
         candidates.back().experiment.measurements = {measurement...};
+        return candidates.back();
     };
-    add("a run at constant small strain and frequency over the same time", plan.table(MeasurementKind::time_sweep));
-    const std::string steady = "a run at constant small strain and frequency ";
+    add("time-sweep", {}, plan.table(MeasurementKind::time_sweep));
     const Measurement longer =
         Plan(plan).time(logarithmic_steps(0.01 * habits.duration, 10 * habits.duration, rows)).table(MeasurementKind::time_sweep);
     Measurement trapped = longer;
     trapped.solvent_trap = true;
-    add(steady + "over ten times as long, with the first rows close together", longer);
-    add(steady + "over ten times as long under a solvent trap", trapped);
-    add("a frequency sweep over four decades at the smallest strain",
-        Plan(plan).frequency(frequencies(100)).table(MeasurementKind::frequency_sweep));
+    add("long-time-sweep", {}, longer);
+    add("long-time-sweep-under-trap", {}, trapped);
+    add("frequency-sweep", {}, Plan(plan).frequency(frequencies(100)).table(MeasurementKind::frequency_sweep));
     const Plan sweep = Plan(plan).strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows));
-    add("an amplitude sweep on a fresh sample", sweep.table(MeasurementKind::amplitude_sweep));
-    add("an amplitude sweep on a fresh sample with its waveforms", sweep.with_waveforms());
+    const Measurement amplitudes = sweep.table(MeasurementKind::amplitude_sweep);
+    add("amplitude-sweep", {}, amplitudes);
+    add("amplitude-sweep-with-waveforms", {}, sweep.with_waveforms());
     const double faster = 10 * habits.angular_frequency;
-    add("an amplitude sweep on a fresh sample at ten times the frequency",
+    add("amplitude-sweep-at-high-frequency", {},
         Plan(sweep).frequency(std::vector<double>(rows, faster)).table(MeasurementKind::amplitude_sweep));
-    Measurement again = sweep.table(MeasurementKind::amplitude_sweep);
+    Measurement again = amplitudes;
     again.run_order = 1;
     again.pause = rest * habits.duration;
-    add("an amplitude sweep on a fresh sample, and the same again after a rest of " + minutes(again.pause),
-        sweep.table(MeasurementKind::amplitude_sweep), again);
-    add("an amplitude sweep up and down again", Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
+    add("amplitude-sweep-and-again", {}, amplitudes, again).rest = again.pause;
+    add("amplitude-sweep-up-and-down", {}, Plan(plan).strain(up_and_down).table(MeasurementKind::amplitude_sweep));
     if (std::isfinite(gap)) {
-        add(steady + "on a fresh sample at a third of the gap" + millimetres({gap / 3}) + ", with the first rows close together",
+        add("time-sweep-at-small-gap", {gap / 3},
             Plan(plan)
                 .gap(std::vector<double>(rows, gap / 3))
                 .time(logarithmic_steps(1e-3 * habits.duration, habits.duration, rows))
                 .table(MeasurementKind::time_sweep));
-        add("an amplitude sweep on a fresh sample at a quarter of the gap" + millimetres({0.25 * gap}),
+        add("amplitude-sweep-at-small-gap", {0.25 * gap},
             Plan(sweep).gap(std::vector<double>(rows, 0.25 * gap)).table(MeasurementKind::amplitude_sweep));
     }
     if (experiment.instrument.geometry == Geometry::plate_plate) {
@@ -176,38 +156,33 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
                                .strain(logarithmic_steps(habits.small_strain, habits.large_strain, rows))
                                .table(MeasurementKind::amplitude_sweep);
         cone.cone_angle = usual_cone;
-        add("an amplitude sweep on a fresh sample under a cone of 1 degree, where the strain is the same everywhere", cone);
+        add("amplitude-sweep-under-cone", {}, cone);
     }
+    const double half = 0.5 * experiment.instrument.plate_radius;
     if (experiment.instrument.geometry == Geometry::cone_plate) {
         Measurement rough = plan.table(MeasurementKind::frequency_sweep);
         rough.rough_plates = true;
-        add("a sweep at the smallest strain between a rough cone and a rough plate, at which nothing slips", rough);
-        add("a sweep at the smallest strain under a cone of half the radius" +
-                millimetres({0.5 * experiment.instrument.plate_radius}),
-            plan.table(MeasurementKind::frequency_sweep));
-        candidates.back().experiment.instrument.plate_radius *= 0.5;
+        add("sweep-under-rough-cone", {}, rough);
+        add("sweep-under-small-cone", {half}, plan.table(MeasurementKind::frequency_sweep)).experiment.instrument.plate_radius =
+            half;
     }
     if (std::isfinite(gap)) {
         // A drift in time goes with the gap in one direction and against it in the other.
-        const bool upwards = narrows(experiment);
-        const std::string series = upwards ? "a series of gaps from narrow to wide" + millimetres({gap / 3, 3 * gap})
-                                           : "a series of gaps from wide to narrow" + millimetres({3 * gap, gap / 3});
-        const Measurement plain = Plan(habits, gap, gaps)
-                                      .gap(logarithmic_steps(upwards ? gap / 3 : 3 * gap, upwards ? 3 * gap : gap / 3, gaps))
-                                      .table(MeasurementKind::gap_series);
+        const std::vector<double> ends = narrows(experiment) ? std::vector{gap / 3, 3 * gap} : std::vector{3 * gap, gap / 3};
+        const Measurement plain =
+            Plan(habits, gap, gaps).gap(logarithmic_steps(ends.front(), ends.back(), gaps)).table(MeasurementKind::gap_series);
         Measurement rough = plain;
         rough.rough_plates = true;
         Measurement oil = plain;
         oil.sample = "oil";
         oil.fluid_viscosity = 0.1 * habits.modulus / habits.angular_frequency;  // too soft to turn the tool
-        add(series, plain);
-        add(series + " between rough plates, at which nothing slips", rough);
-        add(series + " with a Newtonian oil of known viscosity", oil);
-        add(series + " between rough plates, at which nothing slips, and one with a Newtonian oil of known viscosity", rough, oil);
-        const double half = 0.5 * experiment.instrument.plate_radius;
-        add("a frequency sweep with a plate of half the radius" + millimetres({half}),
-            Plan(plan).frequency(frequencies(10)).table(MeasurementKind::frequency_sweep));
-        candidates.back().experiment.instrument.plate_radius = half;
+        add("gap-series", ends, plain);
+        add("gap-series-with-rough-plates", ends, rough);
+        add("gap-series-with-oil", ends, oil);
+        add("gap-series-with-rough-plates-and-with-oil", ends, rough, oil);
+        add("frequency-sweep-under-small-plate", {half},
+            Plan(plan).frequency(frequencies(10)).table(MeasurementKind::frequency_sweep))
+            .experiment.instrument.plate_radius = half;
     }
     for (Candidate& candidate : candidates) {
         candidate.observations = observations_of(candidate.experiment);
@@ -215,7 +190,7 @@ std::vector<Candidate> shear_candidates(const Experiment& experiment, const std:
     return candidates;
 }
 
-/// Over the shear rates so far.
+/// Flow curves over the shear rates so far.
 std::vector<Candidate> flow_candidates(const Experiment& experiment, const std::vector<Observation>& observations) {
     double slowest = std::numeric_limits<double>::infinity();
     double fastest = 0;
@@ -236,18 +211,18 @@ std::vector<Candidate> flow_candidates(const Experiment& experiment, const std::
     std::reverse(downwards.columns.front().values.begin(), downwards.columns.front().values.end());
 
     std::vector<Candidate> candidates;
-    const auto add = [&](const std::string& what, const Measurement& measurement) -> Instrument& {
-        candidates.push_back({what, experiment, {}});
+    const auto add = [&](const std::string& key, std::vector<double> lengths, const Measurement& measurement) -> Instrument& {
+        candidates.push_back({key, std::move(lengths), unset, experiment, {}});
         candidates.back().experiment.measurements = {measurement};
         return candidates.back().experiment.instrument;
     };
-    add("a flow curve of a fresh sample from low shear rates to high ones", upwards);
-    add("a flow curve of a fresh sample from high shear rates to low ones", downwards);
+    add("flow-curve-up", {}, upwards);
+    add("flow-curve-down", {}, downwards);
     if (const double half = 0.5 * experiment.instrument.plate_radius; std::isfinite(half)) {
-        add("a flow curve of a fresh sample with a tool of half the radius" + millimetres({half}), upwards).plate_radius = half;
+        add("flow-curve-with-small-tool", {half}, upwards).plate_radius = half;
     }
     if (const double third = experiment.instrument.gap / 3; std::isfinite(third)) {
-        add("a flow curve of a fresh sample at a third of the gap" + millimetres({third}), upwards).gap = third;
+        add("flow-curve-at-small-gap", {third}, upwards).gap = third;
     }
     for (Candidate& candidate : candidates) {
         candidate.observations = observations_of(candidate.experiment);
@@ -255,9 +230,9 @@ std::vector<Candidate> flow_candidates(const Experiment& experiment, const std::
     return candidates;
 }
 
-/// As many particles as were seen so far.
+/// Two images of as many particles as were seen so far.
 Candidate images_again(const Experiment& experiment, const Measurement& table) {
-    Candidate candidate{"the same particles imaged twice, one image after the other", experiment, {}};
+    Candidate candidate{"images-again", {}, unset, experiment, {}};
     Measurement images;
     images.kind = MeasurementKind::coordinates;
     images.label = images.sample = "proposed";

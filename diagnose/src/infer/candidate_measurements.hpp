@@ -11,8 +11,10 @@ namespace coagula::diagnose {
 
 /// A measurement that could be made.
 struct Candidate {
-    std::string what;
-    Experiment experiment;  ///< its tables, each on a fresh sample, whose moduli are still to be filled in
+    std::string measurement;      ///< key, as in Proposal
+    std::vector<double> lengths;  ///< gaps or radius [m]
+    double rest = unset;          ///< between two sweeps [s]
+    Experiment experiment;        ///< its tables, each on a fresh sample, whose moduli are still to be filled in
     std::vector<Observation> observations;
 };
 

@@ -2,9 +2,7 @@
 #include "localise.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -14,33 +12,6 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr double noticeable = 2.5;  ///< standardised score
-
-std::string three_digits(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
-    return text.data();
-}
-
-std::string value_text(double value, Coordinate coordinate) {
-    switch (coordinate) {
-        case Coordinate::strain:
-            return three_digits(100 * value) + " %";
-        case Coordinate::angular_frequency:
-            return three_digits(value) + " rad/s";
-        case Coordinate::shear_rate:
-            return three_digits(value) + " 1/s";
-        case Coordinate::time:
-            return three_digits(value) + " s";
-        case Coordinate::gap:
-            return three_digits(1e3 * value) + " mm";
-        case Coordinate::pore_radius:
-            return three_digits(1e6 * value) + " um";
-        case Coordinate::distance:
-            return three_digits(value) + " diameters";
-        default:
-            return three_digits(value);
-    }
-}
 
 /// The row from which on the residuals differ most from those before; rows at one place stay together.
 std::size_t change_point(const std::vector<Index>& rows, const Eigen::VectorXd& residual, const std::vector<double>& places) {
@@ -77,12 +48,7 @@ double mean_departure(const std::vector<Observation>& observations, const Eigen:
     return sum / static_cast<double>(std::max<std::size_t>(1, to - from));
 }
 
-/// How many standard deviations off, in which direction.
-std::string deviations_text(double score) {
-    return three_digits(std::abs(score)) + " standard deviations " + (score > 0 ? "above" : "below");
-}
-
-/// Of one number that should be standard normal: unit information against none, as for a smooth departure.
+/// Bayes factor of one number that should be standard normal: unit information against none, as for a smooth departure.
 double log_bayes_factor_of(double score) {
     return 0.25 * score * score - 0.5 * std::numbers::ln2;
 }
@@ -96,17 +62,13 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
     const Experiment& experiment = inference.forward().experiment();
     const double known = known_scale(experiment).value;
     const bool newtonian = experiment.material.kind == MaterialKind::newtonian;
-    const std::string unit = newtonian ? " Pa.s" : " N/m";
     if (const double score = inference.stiffness_departure(std::log(stiffness)); std::abs(score) >= least) {
-        failures.push_back(
-            {.observable = newtonian ? "loss_modulus" : "storage_modulus",
-             .axis = newtonian ? "viscosity" : "normal_stiffness",
-             .log_bayes_factor = log_bayes_factor_of(score),
-             .from = stiffness,
-             .departure = stiffness / known - 1,
-             .sentence =
-                 std::string(newtonian ? "the level asks for a viscosity of " : "the level of G' asks for a normal stiffness of ") +
-                 three_digits(stiffness) + unit + ", " + deviations_text(score) + " the known " + three_digits(known) + unit});
+        failures.push_back({.observable = newtonian ? "loss_modulus" : "storage_modulus",
+                            .axis = newtonian ? "viscosity" : "normal_stiffness",
+                            .log_bayes_factor = log_bayes_factor_of(score),
+                            .from = stiffness,
+                            .departure = stiffness / known - 1,
+                            .what = LevelFailure{known, score}});
     }
     const DataSet& data = inference.errors().data();
     if (data.samples() < 2 || data.effect <= 0) {
@@ -121,9 +83,7 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
                                 .log_bayes_factor = log_bayes_factor_of(score),
                                 .from = static_cast<double>(sample + 1),
                                 .departure = effects[sample],
-                                .sentence = "sample '" + data.sample_names[static_cast<std::size_t>(sample)] +
-                                            "' as a whole lies " + three_digits(100 * std::abs(effects[sample])) + " %, " +
-                                            deviations_text(score) + " the base model"});
+                                .what = SampleFailure{data.sample_names[static_cast<std::size_t>(sample)], score}});
         }
     }
 }
@@ -133,32 +93,17 @@ void add_departures_of_images(const std::vector<Observation>& observations, cons
                               std::vector<Failure>& failures) {
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& one = observations[k];
-        const auto* images = as<ImageDifference>(one);
         const double departure = one.value - prediction[static_cast<Index>(k)];
         const double score = departure / one.standard_error;
-        if (images == nullptr || score < noticeable) {
-            continue;
+        if (is<ImageDifference>(one) && score >= noticeable) {
+            failures.push_back({.observable = std::string(observable_of(one).key),
+                                .axis = "frame",
+                                .log_bayes_factor = log_bayes_factor_of(score),
+                                .from = unset,
+                                .departure = departure,
+                                .what = ImageFailure{one.value, score}});
         }
-        const bool unmatched = images->quantity == ImageQuantity::unmatched;
-        failures.push_back(
-            {.observable = std::string(observable_of(one).key),
-             .axis = "frame",
-             .log_bayes_factor = log_bayes_factor_of(score),
-             .from = unset,
-             .departure = departure,
-             .sentence = unmatched ? three_digits(100 * one.value) + " % of the centres of an image are not in the next one"
-                                   : "images of the same particles scatter: a centre by " + three_digits(one.value) +
-                                         " diameters " + (images->quantity == ImageQuantity::plane ? "in the plane" : "along z")});
-        failures.back().sentence += ", " + deviations_text(score) + " exact centres";
     }
-}
-
-/// Which way the measured values go from the early ones to the late ones, against a base model that may be zero.
-std::string way_of(double early, double late, bool of_base_zero) {
-    if (of_base_zero) {
-        return late < 0 ? " falls below the base model" : " rises above the base model";
-    }
-    return late < early ? " falls relative to the base model" : " rises relative to the base model";
 }
 
 /// Whether the departure is the same all along.
@@ -166,21 +111,12 @@ bool is_level(double early, double late) {
     return early * late > 0 && std::abs(late - early) < 0.2 * std::abs(early);
 }
 
-/// Whether tables state the times of these rows.
+/// Whether tables state the times of these rows, if it goes along the time.
 bool is_clocked(const MisfitStatistic& statistic, const Experiment& experiment, const std::vector<Observation>& observations) {
-    return std::all_of(statistic.rows.begin(), statistic.rows.end(), [&](Index row) {
-        const std::size_t table = observations[static_cast<std::size_t>(row)].measurement;
-        return find_column(experiment.measurements[table], "time") != nullptr;
-    });
-}
-
-/// An axis in words.
-std::string spoken_axis(const MisfitStatistic& statistic, bool clocked) {
-    if (statistic.coordinate == Coordinate::angular_frequency) {
-        return "angular frequency";
-    }
-    return statistic.coordinate == Coordinate::time && !clocked ? "time (10 s a row where none is stated)"
-                                                                : std::string(name_of(statistic.coordinate));
+    return statistic.coordinate != Coordinate::time || std::all_of(statistic.rows.begin(), statistic.rows.end(), [&](Index row) {
+               const std::size_t table = observations[static_cast<std::size_t>(row)].measurement;
+               return find_column(experiment.measurements[table], "time") != nullptr;
+           });
 }
 
 /// A smooth departure along an axis.
@@ -199,26 +135,17 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
     const std::size_t place = change_point(statistic.rows, residual, places);
     const double early = mean_departure(observations, prediction, statistic.rows, 0, place, of_scale, scale);
     const double late = mean_departure(observations, prediction, statistic.rows, place, statistic.rows.size(), of_scale, scale);
-    Failure failure;
-    failure.observable = statistic.observable;
-    failure.axis = name_of(statistic.coordinate);
-    // Three components with a unit-information prior against none (Kass and Wasserman 1995).
-    failure.log_bayes_factor = 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size())));
-    failure.from = places[place];
-    failure.departure = late;
-    const std::string axis = spoken_axis(statistic, is_clocked(statistic, experiment, observations));
-    const std::string whole(of_scale ? "the largest predicted modulus" : observable.whole);
-    const std::string of = whole.empty() ? "" : " (of " + whole + ")";
-    const std::string subject(observable.phrase);
-    if (is_level(early, late)) {
-        failure.sentence = subject + " lies " + (late < 0 ? "below" : "above") + " the base model all along " + axis +
-                           ": mean difference " + three_digits(100 * 0.5 * (early + late)) + " %" + of;
-    } else {
-        failure.sentence = subject + way_of(early, late, of_base_zero) + " along " + axis + ": mean difference " +
-                           three_digits(100 * early) + " % before and " + three_digits(100 * late) + " % from " +
-                           value_text(failure.from, statistic.coordinate) + " on" + of;
-    }
-    return failure;
+    return {.observable = statistic.observable,
+            .axis = name_of(statistic.coordinate),
+            // Three components with a unit-information prior against none (Kass and Wasserman 1995).
+            .log_bayes_factor = 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size()))),
+            .from = places[place],
+            .departure = late,
+            .what = SmoothFailure{.before = early,
+                                  .over_largest = of_scale,
+                                  .base_is_zero = of_base_zero,
+                                  .time_is_stated = is_clocked(statistic, experiment, observations),
+                                  .is_the_same = is_level(early, late)}};
 }
 
 }  // namespace
@@ -237,11 +164,7 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
     std::vector<Failure> failures;
     const Experiment& experiment = inference.forward().experiment();
     const auto add = [&](const MisfitStatistic& one) {
-        Failure found = departure_along(one, experiment, observations, residual, prediction);
-        if (std::none_of(failures.begin(), failures.end(),
-                         [&](const Failure& other) { return other.sentence == found.sentence; })) {
-            failures.push_back(std::move(found));
-        }
+        failures.push_back(departure_along(one, experiment, observations, residual, prediction));
     };
     const auto is_told = [&](const MisfitStatistic& one) {
         return std::any_of(failures.begin(), failures.end(),
@@ -252,8 +175,7 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
         if (statistic->score < noticeable) {
             continue;
         }
-        const bool clocked = statistic->coordinate != Coordinate::time || is_clocked(*statistic, experiment, observations);
-        clocked ? add(*statistic) : by_rows.push_back(statistic);
+        is_clocked(*statistic, experiment, observations) ? add(*statistic) : by_rows.push_back(statistic);
     }
     for (const MisfitStatistic* statistic : by_rows) {
         if (!is_told(*statistic)) {
@@ -295,27 +217,22 @@ Moved moved_by(const SmoothRemainder& remainder, const DataSet& data, const Eige
 
 }  // namespace
 
-std::string place_of(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction) {
-    const Moved moved = moved_by(remainder, data, prediction);
-    const auto& observations = data.observations;
-    std::string text = std::string(observable_of(observations[static_cast<std::size_t>(moved.largest)]).phrase) + " lies " +
-                       (moved.share[moved.largest] < 0 ? "below" : "above") + " the model by up to " +
-                       three_digits(100 * std::abs(moved.share[moved.largest])) + " % of |G*|";
-    for (const Coordinate coordinate : remainder.along) {
-        double low = std::numeric_limits<double>::infinity();
-        double high = -low;
+void place(const SmoothRemainder& departing, const DataSet& data, const Eigen::VectorXd& prediction, Remainder& remainder) {
+    const Moved moved = moved_by(departing, data, prediction);
+    remainder.observable = observable_of(data.observations[static_cast<std::size_t>(moved.largest)]).key;
+    remainder.largest = moved.share[moved.largest];
+    for (const Coordinate coordinate : departing.along) {
+        CoordinateRange range{name_of(coordinate), std::numeric_limits<double>::infinity(),
+                              -std::numeric_limits<double>::infinity()};
         for (const Index row : moved.rows) {
-            const double place = coordinate_of(observations[static_cast<std::size_t>(row)], coordinate);
-            low = std::isfinite(place) ? std::min(low, place) : low;
-            high = std::isfinite(place) ? std::max(high, place) : high;
+            const double place = coordinate_of(data.observations[static_cast<std::size_t>(row)], coordinate);
+            range.low = std::isfinite(place) ? std::min(range.low, place) : range.low;
+            range.high = std::isfinite(place) ? std::max(range.high, place) : range.high;
         }
-        if (low <= high) {
-            const std::string axis = coordinate == Coordinate::angular_frequency ? "angular frequency" : name_of(coordinate);
-            text += (text.find(", at ") == std::string::npos ? ", at " : " and ") + axis + " " + value_text(low, coordinate) +
-                    (high > low ? " to " + value_text(high, coordinate) : "");
+        if (range.low <= range.high) {
+            remainder.where.push_back(range);
         }
     }
-    return text;
 }
 
 }  // namespace coagula::diagnose

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sentences that say where the base model fails.
+// Where the base model fails, and what a cause leaves over.
 #pragma once
 
 #include "detection.hpp"
@@ -7,7 +7,6 @@
 
 #include <coagula/diagnose/diagnosis.hpp>
 
-#include <string>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -16,8 +15,8 @@ namespace coagula::diagnose {
 /// level from a known stiffness and those of samples, likewise. If none is above chance, the strongest along an axis.
 std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection);
 
-/// Where a remainder lies and how large it is, in a sentence.
+/// Says where a smooth departure lies and how large it is.
 /// @param prediction of the model that leaves it over.
-std::string place_of(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction);
+void place(const SmoothRemainder& departing, const DataSet& data, const Eigen::VectorXd& prediction, Remainder& remainder);
 
 }  // namespace coagula::diagnose

@@ -161,7 +161,7 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
     for (const Belief& belief : beliefs) {
         causes.push_back(expected_by(belief, forward, observations, errors));
     }
-    Proposal proposal{.what = candidate.what};
+    Proposal proposal{candidate.measurement, candidate.lengths, candidate.rest};
     const double before = entropy(weights);
     std::uint64_t step = 2000000 + 1000 * number;
     for (std::size_t cause = 0; cause < causes.size(); ++cause) {

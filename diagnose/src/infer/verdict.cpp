@@ -285,8 +285,8 @@ void judge(const Comparison& comparison, const Inference& inference, const Hypot
     diagnosis.remainder.detected = comparison.p_value <= options.level;
     diagnosis.remainder.most = diagnosis.remainder.detected && leaves_most(comparison, inference);
     if (diagnosis.remainder.detected) {
-        diagnosis.remainder.where = place_of(*winner.remainder, inference.errors().data(),
-                                             inference.fitted(inference.prediction(winner.remainder->fit.model)));
+        place(*winner.remainder, inference.errors().data(), inference.fitted(inference.prediction(winner.remainder->fit.model)),
+              diagnosis.remainder);
     }
     diagnosis.kinds = kinds_of(comparison, inference.forward().experiment());
     diagnosis.follows = follows_of(diagnosis.kinds, comparison, inference);

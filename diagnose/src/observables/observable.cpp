@@ -29,10 +29,6 @@ constexpr std::array table{
 
 }  // namespace
 
-std::span<const Observable> observables() {
-    return table;
-}
-
 const Observable* find_observable(std::string_view key) {
     const auto* const found = std::find_if(table.begin(), table.end(), [&](const Observable& one) { return one.key == key; });
     return found == table.end() ? nullptr : found;

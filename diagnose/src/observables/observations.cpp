@@ -2,10 +2,9 @@
 #include "observations.hpp"
 
 #include "data/table_cells.hpp"
-#include "image_observations.hpp"
 #include "neighbour_shells.hpp"
-#include "pore_curves.hpp"
 #include "row_conditions.hpp"
+#include "structure_observations.hpp"
 
 #include <algorithm>
 #include <array>
@@ -89,7 +88,7 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
     const Measurement& table = experiment.measurements[run];
     const bool flows = is_flow(table.kind);
     const bool fluid = std::isfinite(table.fluid_viscosity);
-    ConditionsOfRows conditions(experiment, runs, run);
+    const ConditionsOfRows conditions(experiment, runs, run);
     for (const Shown& shown : shown_in(table)) {
         const Column* column = find_column(table, shown.column);
         // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
@@ -129,14 +128,6 @@ const Observable& observable_of(const Observation& observation) {
         return observable_named(is_loss(observation) ? "third_harmonic_loss" : "third_harmonic_storage");
     }
     return observable_named(is_loss(observation) ? "loss_modulus" : "storage_modulus");
-}
-
-bool is_loss(const Observation& observation) {
-    if (const auto* modulus = as<Modulus>(observation)) {
-        return modulus->loss;
-    }
-    const auto* harmonic = as<Harmonic>(observation);
-    return harmonic != nullptr ? harmonic->loss : is<Viscosity>(observation);
 }
 
 bool has_error_of_phase(const Observation& observation) {

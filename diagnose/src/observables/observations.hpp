@@ -91,7 +91,13 @@ inline bool is_modulus_or_viscosity(const Observation& observation) {
 }
 
 /// Whether the value is the viscous part of the stress: G'', a viscosity or G3''.
-bool is_loss(const Observation& observation);
+inline bool is_loss(const Observation& observation) {
+    if (const auto* modulus = as<Modulus>(observation)) {
+        return modulus->loss;
+    }
+    const auto* harmonic = as<Harmonic>(observation);
+    return harmonic != nullptr ? harmonic->loss : is<Viscosity>(observation);
+}
 
 /// The part of a complex modulus or harmonic that the observation shows.
 inline double part_of(std::complex<double> value, const Observation& observation) {

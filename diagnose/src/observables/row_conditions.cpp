@@ -89,17 +89,9 @@ ConditionsOfRows::ConditionsOfRows(const Experiment& experiment, const Runs& run
       time_(runs.times[run]),
       place_(runs.places[run]),
       set_strains_(set_strains(table_)),
-      before_(rows_before(table_, largest_strain_before(experiment, runs.times, run))),
-      rows_(table_.rows()) {}
+      before_(rows_before(table_, largest_strain_before(experiment, runs.times, run))) {}
 
-const RowConditions& ConditionsOfRows::of(std::size_t row) {
-    if (!rows_[row]) {
-        rows_[row] = found(row);
-    }
-    return *rows_[row];
-}
-
-RowConditions ConditionsOfRows::found(std::size_t row) const {
+RowConditions ConditionsOfRows::of(std::size_t row) const {
     const Instrument& instrument = experiment_.instrument;
     const bool series = table_.kind == MeasurementKind::structure_series;
     const bool under_cone = std::isfinite(table_.cone_angle);

@@ -7,7 +7,6 @@
 #include <coagula/diagnose/run_clock.hpp>
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -59,23 +58,21 @@ struct RowsBefore {
     std::vector<double> largest_strain;  ///< that of the row included
 };
 
-/// Conditions of the rows of a table; those of a row are found when they are asked for.
+/// Conditions of the rows of a table.
 class ConditionsOfRows {
 public:
     ConditionsOfRows(const Experiment& experiment, const Runs& runs, std::size_t run);
 
     /// Throws InputError when a structure series does not say which structures stand for the row.
-    const RowConditions& of(std::size_t row);
+    RowConditions of(std::size_t row) const;
 
 private:
-    RowConditions found(std::size_t row) const;
     const Experiment& experiment_;
     const Measurement& table_;
     const RunTime& time_;
     const RunPlace& place_;
     std::vector<double> set_strains_;
     RowsBefore before_;
-    std::vector<std::optional<RowConditions>> rows_;
 };
 
 }  // namespace coagula::diagnose

@@ -255,9 +255,9 @@ TEST(PlateStrainField, IsTiedWithBreakingAtOnceWhereStructuresAreFew) {
 
     // What is proposed decides.
     ASSERT_FALSE(found.proposals.empty());
-    EXPECT_NE(found.proposals.front().what.find("under a cone"), std::string::npos) << found.proposals.front().what;
+    EXPECT_EQ(found.proposals.front().measurement, "amplitude-sweep-under-cone");
     const auto same = std::find_if(found.proposals.begin(), found.proposals.end(),
-                                   [](const Proposal& one) { return one.what == "an amplitude sweep on a fresh sample"; });
+                                   [](const Proposal& one) { return one.measurement == "amplitude-sweep"; });
     ASSERT_NE(same, found.proposals.end());
     EXPECT_LT(same->information, 0.1) << "what the structures leave open stays open";
     Measurement cone = sweep(strains, torque_of_runs(strains, 2e-4, true), Geometry::plate_plate, 0.03, 4).measurements[0];

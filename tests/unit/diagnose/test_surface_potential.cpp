@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Structures that coagulated at another surface potential: what it does to them, and whether it is found in their pores.
 #include "data/knows.hpp"
-#include "observables/pore_curves.hpp"
+#include "observables/observations.hpp"
 #include "remade_structures.hpp"
 #include "responses/pore_response.hpp"
 

@@ -280,9 +280,8 @@ TEST(ThirdHarmonic, NothingInTheWaveformsLeavesAge) {
     EXPECT_EQ(without.verdict, Verdict::tied);
     EXPECT_NE(std::find(without.credible_set.begin(), without.credible_set.end(), "contact-nonlinearity"),
               without.credible_set.end());
-    const auto proposed = std::find_if(without.proposals.begin(), without.proposals.end(), [](const Proposal& one) {
-        return one.what == "an amplitude sweep on a fresh sample with its waveforms";
-    });
+    const auto proposed = std::find_if(without.proposals.begin(), without.proposals.end(),
+                                       [](const Proposal& one) { return one.measurement == "amplitude-sweep-with-waveforms"; });
     ASSERT_NE(proposed, without.proposals.end());
     // All that is open between the two.
     double entropy = 0;

@@ -61,8 +61,8 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
                      .largest = 0.3,
                      .from = 5e-4,
                      .to = 2e-3};
-    found.remainder = {.detected = true, .where = "G' lies above the model by up to 9 % of |G*|"};
-    found.proposals = {{.what = "an oil", .information = 1, .resolution = 0.9}};
+    found.remainder = {.detected = true, .observable = "storage_modulus", .largest = 0.09};
+    found.proposals = {{.measurement = "amplitude-sweep", .information = 1, .resolution = 0.9}};
     for (const diagnose::Verdict verdict :
          {diagnose::Verdict::tied, diagnose::Verdict::none_of_catalogue, diagnose::Verdict::named}) {
         found.verdict = verdict;
@@ -78,7 +78,7 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
         }
         EXPECT_EQ(sentences[sentences.size() - 2],
                   "The best cause, wall-slip, leaves a deviation: G' lies above the model by up to 9 % of |G*|.");
-        EXPECT_EQ(sentences.back(), "To decide, measure an oil.");
+        EXPECT_EQ(sentences.back(), "To decide, measure an amplitude sweep on a fresh sample.");
     }
     found.remainder.most = true;
     EXPECT_NE(verdict_sentences(found)[1].find("leaves most of the misfit: "), std::string::npos);

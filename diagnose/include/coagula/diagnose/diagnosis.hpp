@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace coagula::diagnose {
@@ -98,22 +99,59 @@ struct Condition {
     bool holds = false;
 };
 
+/// A smooth departure along a coordinate; differences of data and base model over the prediction, or as Observable::whole says.
+struct SmoothFailure {
+    double before = 0;           ///< mean difference up to Failure::from
+    bool over_largest = false;   ///< differences are over the largest predicted modulus
+    bool base_is_zero = false;   ///< the base model predicts nothing
+    bool time_is_stated = true;  ///< tables state the times of these rows
+    bool is_the_same = false;    ///< the difference is about the same all along
+};
+
+/// The level of the moduli asks for another stiffness or viscosity than the known one.
+struct LevelFailure {
+    double known = 0;
+    double score = 0;  ///< departure over its standard deviation
+};
+
+/// A sample departs as a whole.
+struct SampleFailure {
+    std::string sample;
+    double score = 0;  ///< departure over its standard deviation
+};
+
+/// Images of the same particles differ more than exact ones.
+struct ImageFailure {
+    double value = 0;
+    double score = 0;  ///< departure over its standard deviation
+};
+
 /// Where the base model fails.
 struct Failure {
-    std::string observable;       ///< "storage_modulus", "loss_modulus"
-    std::string axis;             ///< "strain", "angular_frequency", "time", "gap" ..., "normal_stiffness", "sample"
+    std::string observable;       ///< key of the observable
+    std::string axis;             ///< "strain", "angular_frequency", "time", "gap" ..., "normal_stiffness", "sample", "frame"
     double log_bayes_factor = 0;  ///< of a smooth departure along the axis against none
     double from = 0;  ///< value of the axis from which on it departs; stiffness that is asked for; number of the sample, from 1
     double departure = 0;  ///< mean relative difference of data and base model there
-    std::string sentence;
+    std::variant<SmoothFailure, LevelFailure, SampleFailure, ImageFailure> what = {};
+};
+
+/// Values of a coordinate.
+struct CoordinateRange {
+    std::string coordinate;  ///< its name
+    double low = 0;
+    double high = 0;
 };
 
 /// Deviation that remains beside a model.
 struct Remainder {
     bool detected = false;  ///< p_value is not above the level of the test
     double p_value = 1;     ///< of the test, applied to that model
-    std::string where;      ///< a sentence; empty where nothing is left over
     bool most = false;      ///< with a smooth departure on top the model still leaves more than half of the base model's misfit
+    // Where something is left over:
+    std::string observable = {};              ///< key of the one that departs most
+    double largest = 0;                       ///< its largest departure over |G*|
+    std::vector<CoordinateRange> where = {};  ///< where it departs more than half as far, the same way
 };
 
 /// Predictions of a row by models that were fitted without the held-out rows [Pa].
@@ -141,9 +179,11 @@ struct Gain {
 
 /// A measurement that would tell the causes of a tie apart.
 struct Proposal {
-    std::string what;
-    double information = 0;  ///< expected information gain [bit]
-    double resolution = 0;   ///< probability that one cause is then certain to 95 %
+    std::string measurement;           ///< key: "amplitude-sweep", "gap-series-with-oil" ...
+    std::vector<double> lengths = {};  ///< gaps or radius [m]; NaN where nobody knows them
+    double rest = unset;               ///< between two sweeps [s]
+    double information = 0;            ///< expected information gain [bit]
+    double resolution = 0;             ///< probability that one cause is then certain to 95 %
 };
 
 /// One observation beside the models.

@@ -2,7 +2,6 @@
 // The observables: what a diagnosis compares with its models, with the names that results, sentences and charts give to each.
 #pragma once
 
-#include <span>
 #include <string_view>
 
 namespace coagula::diagnose {
@@ -17,10 +16,7 @@ struct Observable {
     std::string_view whole;   ///< what the number is a share of; empty: it is no share
 };
 
-/// All of them, and |G*| and the phase, which replicates compare in place of moduli.
-std::span<const Observable> observables();
-
-/// Null when there is none of this key.
+/// Also |G*| and the phase, which replicates compare in place of moduli. Null when there is none of this key.
 const Observable* find_observable(std::string_view key);
 
 /// Throws std::out_of_range when there is none of this key.

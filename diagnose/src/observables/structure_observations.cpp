@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "image_observations.hpp"
+#include "structure_observations.hpp"
 
 #include "data/table_cells.hpp"
 #include "neighbour_shells.hpp"
@@ -19,6 +19,8 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr Index fewest_centres = 20;
+constexpr double rarest = 0.01;                   ///< probability; below it one largest pore decides
+constexpr double unstated_error_of_curve = 2e-3;  ///< standard error of a row, sampled in a hundred thousand points
 
 /// The images of a table of centres: one, or those that its column "frame" numbers.
 std::vector<Eigen::Matrix3Xd> images_in(const Measurement& table) {
@@ -118,6 +120,21 @@ std::vector<Observation> planned_images(std::size_t measurement, double centres)
     std::vector<Observation> all;
     for (const ImageQuantity quantity : {ImageQuantity::plane, ImageQuantity::axis, ImageQuantity::unmatched}) {
         all.push_back({{}, measurement, shell_count + all.size(), ImageDifference{quantity, centres}});
+    }
+    return all;
+}
+
+std::vector<Observation> pores_in(const Experiment& experiment, std::size_t number) {
+    const Measurement& table = experiment.measurements[number];
+    const Column& column = *find_column(table, "exclusion_probability");
+    std::vector<Observation> all;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        const double value = column.values[row];
+        const double radius = cell(table, "pore_radius", row);
+        const double stated = column.standard_errors.empty() ? unset : column.standard_errors[row];
+        if (value > rarest && value < 1 && radius > 0) {
+            all.push_back({{}, number, row, Pore{radius}, value, std::isnan(stated) ? unstated_error_of_curve : stated});
+        }
     }
     return all;
 }
