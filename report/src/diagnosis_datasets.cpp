@@ -124,11 +124,11 @@ void add_detection(Results& results, const Diagnosis& found) {
                                  "value of each statistic"));
     results.push_back(io::vector(path + "score", over(found.statistics, [](const auto& one) { return one.score; }), "1",
                                  "standardised value of each statistic"));
-    for (std::size_t k = 0; k < found.failures.size(); ++k) {
-        const diagnose::Failure& failure = found.failures[k];
+    for (std::size_t k = 0; k < found.misfits.size(); ++k) {
+        const diagnose::Misfit& misfit = found.misfits[k];
         const std::string place = group + "where/" + std::to_string(k + 1) + "/";
-        results.push_back(io::text(place + "sentence", sentence_on(failure), failure.observable + " along " + failure.axis));
-        results.push_back(io::scalar(place + "log_bayes_factor", failure.log_bayes_factor, "1",
+        results.push_back(io::text(place + "sentence", sentence_on(misfit), misfit.observable + " along " + misfit.axis));
+        results.push_back(io::scalar(place + "log_bayes_factor", misfit.log_bayes_factor, "1",
                                      "natural logarithm of the Bayes factor of a smooth deviation against none"));
     }
 }

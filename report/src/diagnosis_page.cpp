@@ -68,14 +68,14 @@ std::string detection(const DiagnosisRecord& record, Charts& charts) {
     const Diagnosis& found = record.diagnosis;
     std::string html = heading("Where the base model fails");
     html += paragraph(base_model_text(record.experiment.material));
-    if (found.failures.empty()) {
+    if (found.misfits.empty()) {
         html += paragraph(found.detected ? "It fails as a whole: no smooth deviation along a single axis stands out."
                                          : "It does not fail: every misfit is as small as chance allows.");
     } else {
         html += "<ul class=\"findings\">\n";
-        for (const diagnose::Failure& failure : found.failures) {
-            html += "<li>" + escaped(sentence_on(failure)) + ". <span class=\"soft\">Bayes factor " +
-                    (failure.log_bayes_factor > std::log(1e6) ? "above 10⁶" : printed(std::exp(failure.log_bayes_factor))) +
+        for (const diagnose::Misfit& misfit : found.misfits) {
+            html += "<li>" + escaped(sentence_on(misfit)) + ". <span class=\"soft\">Bayes factor " +
+                    (misfit.log_bayes_factor > std::log(1e6) ? "above 10⁶" : printed(std::exp(misfit.log_bayes_factor))) +
                     ".</span></li>\n";
         }
         html += "</ul>\n";

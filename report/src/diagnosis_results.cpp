@@ -41,7 +41,7 @@ Json cause_json(const Cause& cause) {
             {"parameters", parameters_json(cause)}};
 }
 
-/// Of an axis, that of its column.
+/// Unit of an axis: that of its column.
 std::string unit_of(const std::string& axis) {
     const diagnose::Quantity* quantity = diagnose::find_quantity(axis);
     return quantity != nullptr ? std::string(quantity->unit) : axis == "normal_stiffness" ? "N/m" : "1";
@@ -202,14 +202,14 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
     for (const Cause& cause : diagnosis.causes) {
         json["causes"].push_back(cause_json(cause));
     }
-    for (const diagnose::Failure& failure : diagnosis.failures) {
-        json["where"].push_back({{"observable", failure.observable},
-                                 {"axis", failure.axis},
-                                 {"bayes_factor", number(std::exp(failure.log_bayes_factor))},
-                                 {"log_bayes_factor", number(failure.log_bayes_factor)},
-                                 {"from", number(failure.from)},
-                                 {"unit", unit_of(failure.axis)},
-                                 {"sentence", sentence_on(failure)}});
+    for (const diagnose::Misfit& misfit : diagnosis.misfits) {
+        json["where"].push_back({{"observable", misfit.observable},
+                                 {"axis", misfit.axis},
+                                 {"bayes_factor", number(std::exp(misfit.log_bayes_factor))},
+                                 {"log_bayes_factor", number(misfit.log_bayes_factor)},
+                                 {"from", number(misfit.from)},
+                                 {"unit", unit_of(misfit.axis)},
+                                 {"sentence", sentence_on(misfit)}});
     }
     for (const diagnose::PredictedRow& row : diagnosis.rows) {
         json["rows"].push_back(row_json(row));
@@ -260,8 +260,8 @@ Table table_of(const Diagnosis& diagnosis) {
     if (!diagnosis.detected) {
         return lines;
     }
-    for (const diagnose::Failure& failure : diagnosis.failures) {
-        lines.emplace_back("where", sentence_on(failure));
+    for (const diagnose::Misfit& misfit : diagnosis.misfits) {
+        lines.emplace_back("where", sentence_on(misfit));
     }
     lines.emplace_back("follows", describe(diagnosis.follows));
     lines.emplace_back("95 % set of causes", list_of(diagnosis.credible_set));

@@ -2,10 +2,10 @@
 #include "finding_sentences.hpp"
 
 #include "html.hpp"
+#include "page_axis.hpp"
 
 #include <coagula/diagnose/observable.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -19,30 +19,8 @@ namespace coagula::report {
 
 namespace {
 
-using diagnose::Failure;
+using diagnose::Misfit;
 using diagnose::observable_named;
-
-/// How a coordinate is written in a sentence.
-struct WrittenCoordinate {
-    std::string_view name;
-    std::string_view words;
-    std::string_view unit;
-    double per_unit;
-};
-
-constexpr std::array coordinates{WrittenCoordinate{"strain", "strain", " %", 100},
-                                 WrittenCoordinate{"angular_frequency", "angular frequency", " rad/s", 1},
-                                 WrittenCoordinate{"shear_rate", "shear_rate", " 1/s", 1},
-                                 WrittenCoordinate{"time", "time", " s", 1},
-                                 WrittenCoordinate{"gap", "gap", " mm", 1e3},
-                                 WrittenCoordinate{"distance", "distance", " diameters", 1},
-                                 WrittenCoordinate{"pore_radius", "pore_radius", " um", 1e6}};
-
-WrittenCoordinate written(std::string_view name) {
-    const auto* const found =
-        std::find_if(coordinates.begin(), coordinates.end(), [&](const WrittenCoordinate& one) { return one.name == name; });
-    return found != coordinates.end() ? *found : WrittenCoordinate{name, name, "", 1};
-}
 
 std::string three_digits(double value) {
     std::array<char, 32> text{};
@@ -51,7 +29,7 @@ std::string three_digits(double value) {
 }
 
 std::string value_text(double value, const WrittenCoordinate& coordinate) {
-    return three_digits(coordinate.per_unit * value) + std::string(coordinate.unit);
+    return three_digits(value / coordinate.unit) + std::string(coordinate.symbol);
 }
 
 /// "3.2 standard deviations above".
@@ -67,41 +45,41 @@ std::string way_of(double early, double late, bool base_is_zero) {
     return late < early ? " falls relative to the base model" : " rises relative to the base model";
 }
 
-std::string sentence(const Failure& failure, const diagnose::SmoothFailure& course) {
-    const diagnose::Observable& observable = observable_named(failure.observable);
-    const WrittenCoordinate coordinate = written(failure.axis);
+std::string sentence(const Misfit& misfit, const diagnose::SmoothMisfit& course) {
+    const diagnose::Observable& observable = observable_named(misfit.observable);
+    const WrittenCoordinate coordinate = written_coordinate(misfit.axis);
     const std::string whole(course.over_largest ? "the largest predicted modulus" : observable.whole);
     const std::string of = whole.empty() ? "" : " (of " + whole + ")";
     const std::string axis = std::string(coordinate.words) + (course.time_is_stated ? "" : " (10 s a row where none is stated)");
     const double early = course.before;
-    const double late = failure.departure;
+    const double late = misfit.departure;
     if (course.is_the_same) {
         return std::string(observable.phrase) + " lies " + (late < 0 ? "below" : "above") + " the base model all along " + axis +
                ": mean difference " + three_digits(100 * 0.5 * (early + late)) + " %" + of;
     }
     return std::string(observable.phrase) + way_of(early, late, course.base_is_zero) + " along " + axis + ": mean difference " +
            three_digits(100 * early) + " % before and " + three_digits(100 * late) + " % from " +
-           value_text(failure.from, coordinate) + " on" + of;
+           value_text(misfit.from, coordinate) + " on" + of;
 }
 
-std::string sentence(const Failure& failure, const diagnose::LevelFailure& level) {
-    const bool newtonian = failure.axis == "viscosity";
+std::string sentence(const Misfit& misfit, const diagnose::LevelMisfit& level) {
+    const bool newtonian = misfit.axis == "viscosity";
     const std::string unit = newtonian ? " Pa.s" : " N/m";
     return std::string(newtonian ? "the level asks for a viscosity of " : "the level of G' asks for a normal stiffness of ") +
-           three_digits(failure.from) + unit + ", " + deviations_text(level.score) + " the known " + three_digits(level.known) + unit;
+           three_digits(misfit.from) + unit + ", " + deviations_text(level.score) + " the known " + three_digits(level.known) +
+           unit;
 }
 
-std::string sentence(const Failure& failure, const diagnose::SampleFailure& one) {
-    return "sample '" + one.sample + "' as a whole lies " + three_digits(100 * std::abs(failure.departure)) + " %, " +
+std::string sentence(const Misfit& misfit, const diagnose::SampleMisfit& one) {
+    return "sample '" + one.sample + "' as a whole lies " + three_digits(100 * std::abs(misfit.departure)) + " %, " +
            deviations_text(one.score) + " the base model";
 }
 
-std::string sentence(const Failure& failure, const diagnose::ImageFailure& images) {
-    const std::string text =
-        failure.observable == "unmatched_share"
-            ? three_digits(100 * images.value) + " % of the centres of an image are not in the next one"
-            : "images of the same particles scatter: a centre by " + three_digits(images.value) + " diameters " +
-                  (failure.observable == "localisation_plane" ? "in the plane" : "along z");
+std::string sentence(const Misfit& misfit, const diagnose::ImageMisfit& images) {
+    const std::string text = misfit.observable == "unmatched_share"
+                                 ? three_digits(100 * images.value) + " % of the centres of an image are not in the next one"
+                                 : "images of the same particles scatter: a centre by " + three_digits(images.value) +
+                                       " diameters " + (misfit.observable == "localisation_plane" ? "in the plane" : "along z");
     return text + ", " + deviations_text(images.score) + " exact centres";
 }
 
@@ -126,8 +104,7 @@ const std::map<std::string, std::string>& measurements() {
         {"time-sweep", steady + "over the same time"},
         {"long-time-sweep", steady + "over ten times as long, with the first rows close together"},
         {"long-time-sweep-under-trap", steady + "over ten times as long under a solvent trap"},
-        {"time-sweep-at-small-gap",
-         steady + "on a fresh sample at a third of the gapLENGTHS, with the first rows close together"},
+        {"time-sweep-at-small-gap", steady + "on a fresh sample at a third of the gapLENGTHS, with the first rows close together"},
         {"frequency-sweep", "a frequency sweep over four decades at the smallest strain"},
         {"frequency-sweep-under-small-plate", "a frequency sweep with a plate of half the radiusLENGTHS"},
         {"amplitude-sweep", sweep},
@@ -137,8 +114,7 @@ const std::map<std::string, std::string>& measurements() {
         {"amplitude-sweep-up-and-down", "an amplitude sweep up and down again"},
         {"amplitude-sweep-at-small-gap", sweep + " at a quarter of the gapLENGTHS"},
         {"amplitude-sweep-under-cone", sweep + " under a cone of 1 degree, where the strain is the same everywhere"},
-        {"sweep-under-rough-cone",
-         "a sweep at the smallest strain between a rough cone and a rough plate, at which nothing slips"},
+        {"sweep-under-rough-cone", "a sweep at the smallest strain between a rough cone and a rough plate, at which nothing slips"},
         {"sweep-under-small-cone", "a sweep at the smallest strain under a cone of half the radiusLENGTHS"},
         {"gap-series", "GAPS"},
         {"gap-series-with-rough-plates", "GAPS between rough plates, at which nothing slips"},
@@ -155,8 +131,8 @@ const std::map<std::string, std::string>& measurements() {
 
 }  // namespace
 
-std::string sentence_on(const Failure& failure) {
-    return std::visit([&](const auto& what) { return sentence(failure, what); }, failure.what);
+std::string sentence_on(const Misfit& misfit) {
+    return std::visit([&](const auto& what) { return sentence(misfit, what); }, misfit.what);
 }
 
 std::string sentence_on(const diagnose::Remainder& remainder) {
@@ -168,7 +144,7 @@ std::string sentence_on(const diagnose::Remainder& remainder) {
                        three_digits(100 * std::abs(remainder.largest)) + " % of |G*|";
     std::string link = ", at ";
     for (const diagnose::CoordinateRange& range : remainder.where) {
-        const WrittenCoordinate coordinate = written(range.coordinate);
+        const WrittenCoordinate coordinate = written_coordinate(range.coordinate);
         text += link + std::string(coordinate.words) + " " + value_text(range.low, coordinate) +
                 (range.high > range.low ? " to " + value_text(range.high, coordinate) : "");
         link = " and ";

@@ -9,7 +9,7 @@
 namespace coagula::report {
 
 /// "G' falls relative to the base model along strain: mean difference -2 % before and -30 % from 1 % on".
-std::string sentence_on(const diagnose::Failure& failure);
+std::string sentence_on(const diagnose::Misfit& misfit);
 
 /// "G'' lies above the model by up to 9 % of |G*|, at angular frequency 1 rad/s to 10 rad/s"; empty where nothing is left over.
 std::string sentence_on(const diagnose::Remainder& remainder);

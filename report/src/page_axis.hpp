@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace coagula::report {
@@ -33,21 +33,38 @@ struct PageAxis {
     Json json() const { return {{"label", label}, {"logarithmic", logarithmic()}}; }
 };
 
+/// How a coordinate is written.
+struct WrittenCoordinate {
+    std::string_view name;    ///< that of its column
+    std::string_view label;   ///< of an axis
+    std::string_view words;   ///< in a sentence
+    std::string_view symbol;  ///< of the unit after a value in a sentence
+    double unit = 1;          ///< in SI units
+};
+
+inline constexpr std::array written_coordinates{
+    WrittenCoordinate{"strain", "strain amplitude γ₀ [%]", "strain", " %", 0.01},
+    WrittenCoordinate{"angular_frequency", "angular frequency ω [rad/s]", "angular frequency", " rad/s"},
+    WrittenCoordinate{"time", "time t [s]", "time", " s"},
+    WrittenCoordinate{"shear_rate", "shear rate [1/s]", "shear_rate", " 1/s"},
+    WrittenCoordinate{"gap", "gap h [mm]", "gap", " mm", 1e-3},
+    WrittenCoordinate{"heterogeneity", "degree of heterogeneity a", "heterogeneity", ""},
+    WrittenCoordinate{"coordination", "coordination number C", "coordination", ""},
+    WrittenCoordinate{"volume_fraction", "volume fraction φ", "volume_fraction", ""},
+    WrittenCoordinate{"distance", "distance [diameters]", "distance", " diameters"},
+    WrittenCoordinate{"pore_radius", "distance from the nearest particle surface [µm]", "pore_radius", " um", 1e-6}};
+
+/// A coordinate that the list lacks is written as its name.
+inline WrittenCoordinate written_coordinate(std::string_view name) {
+    const auto* const found = std::find_if(written_coordinates.begin(), written_coordinates.end(),
+                                           [&](const WrittenCoordinate& one) { return one.name == name; });
+    return found != written_coordinates.end() ? *found : WrittenCoordinate{name, "row", name, ""};
+}
+
 /// The axis of a table by the name of its column.
-inline PageAxis axis_named(const std::string& name) {
-    static const std::map<std::string, std::pair<std::string, double>> known{
-        {"strain", {"strain amplitude γ₀ [%]", 0.01}},
-        {"angular_frequency", {"angular frequency ω [rad/s]", 1.0}},
-        {"time", {"time t [s]", 1.0}},
-        {"shear_rate", {"shear rate [1/s]", 1.0}},
-        {"gap", {"gap h [mm]", 1e-3}},
-        {"heterogeneity", {"degree of heterogeneity a", 1.0}},
-        {"coordination", {"coordination number C", 1.0}},
-        {"volume_fraction", {"volume fraction φ", 1.0}},
-        {"distance", {"distance [diameters]", 1.0}},
-        {"pore_radius", {"distance from the nearest particle surface [µm]", 1e-6}}};
-    const auto found = known.find(name);
-    return found == known.end() ? PageAxis{.label = "row"} : PageAxis{.label = found->second.first, .unit = found->second.second};
+inline PageAxis axis_named(std::string_view name) {
+    const WrittenCoordinate found = written_coordinate(name);
+    return {.label = std::string(found.label), .unit = found.unit};
 }
 
 /// The unit that a modulus is shown in.

@@ -35,7 +35,7 @@ std::string gained(const diagnose::Gain& gain) {
                                     change_of_density(gain, print_number) + ".";
 }
 
-/// Of a member "a + b" of the credible set, what is none of these causes.
+/// Returns what is none of these causes in a member "a + b" of the credible set.
 std::string without(std::string member, const std::vector<std::string>& causes) {
     const std::string joint = " + ";
     for (const std::string& cause : causes) {

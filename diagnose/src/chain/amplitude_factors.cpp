@@ -36,7 +36,8 @@ Settings with_weakest_bonds(Settings settings) {
     return settings;
 }
 
-/// At each observation: a strain over how much stronger bonds are at its frequency than at 1 Hz, and the largest of these before.
+/// Returns for each observation its strain over how much stronger bonds are at its frequency than at 1 Hz, and the largest of
+/// these strains before.
 std::vector<BondStrain> Forward::bond_strains(const Settings& settings) const {
     if (settings.strength_per_decade == 0 && !bond_strains_.empty()) {
         return bond_strains_;
@@ -98,7 +99,8 @@ std::vector<Yielded> Forward::exact_breaking_response(const Settings& settings, 
     return mean;
 }
 
-/// Of these strains of all observations those in the runs that were made on the sample before this table, in their order.
+/// Selects from the strains of all observations those in the runs that were made on the sample before this table, in their
+/// order.
 std::vector<double> Forward::strains_before(std::size_t table, const std::vector<double>& strains) const {
     const std::vector<Measurement>& tables = experiment_.measurements;
     std::vector<std::pair<int, double>> earlier;
@@ -117,7 +119,7 @@ std::vector<double> Forward::strains_before(std::size_t table, const std::vector
     return in_order;
 }
 
-/// Those strains of a table and of the runs before it on the sample that were larger than all before.
+/// Selects the strains of a table, and of the runs before it on the sample, that were larger than all before.
 std::vector<double> Forward::growing_strains(std::size_t table, const std::vector<double>& strains) const {
     std::vector<double> all = strains_before(table, strains);
     for (std::size_t k = 0; k < observations_.size(); ++k) {

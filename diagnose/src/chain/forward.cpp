@@ -26,7 +26,7 @@ Settings of_material(Settings settings) {
     return settings;
 }
 
-/// Of a viscosity of 1 Pa.s; that itself in steady flow.
+/// Returns the moduli of a viscosity of 1 Pa.s; in steady flow the viscosity itself.
 Eigen::VectorXcd newtonian_moduli(const std::vector<Observation>& observations) {
     Eigen::VectorXcd moduli(static_cast<Index>(observations.size()));
     for (Index row = 0; row < moduli.size(); ++row) {
@@ -45,7 +45,7 @@ bool shows_network(const Observation& observation) {
     return is_modulus_or_viscosity(observation) && !is_fluid(observation);
 }
 
-/// Of every observation the first one that shows the same G*, G'' beside G' of a row; else itself.
+/// Returns for every observation the first one that shows the same G*, as G' does beside G'' of a row; else itself.
 std::vector<std::size_t> first_of_rows(const std::vector<Observation>& observations) {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> firsts;
     std::vector<std::size_t> all;
@@ -56,7 +56,7 @@ std::vector<std::size_t> first_of_rows(const std::vector<Observation>& observati
     return all;
 }
 
-/// Those mechanisms that change the material.
+/// Selects the mechanisms that change the material.
 std::vector<ActingMechanism> acting_on_material(const Model& model) {
     std::vector<ActingMechanism> some;
     std::copy_if(model.acting.begin(), model.acting.end(), std::back_inserter(some),
@@ -99,7 +99,7 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
     shared_ = shared_errors(experiment_, observations_, simulator_);
 }
 
-/// Under plates or a cone, by a tool.
+/// Modulus that plates or cone and the tool show of one of the material.
 Complex Forward::seen_by_instrument(const Model& model, std::size_t number, Complex modulus) const {
     const Observation& observation = observations_[number];
     model.for_each<ChangesGeometry>(
@@ -139,7 +139,7 @@ UncertainModuli Forward::material(const Model& model, bool exact) const {
     return moduli;
 }
 
-/// By what changes the material in a row.
+/// Multiplies the moduli by the factors of the causes that change the material in a row.
 void Forward::scale(UncertainModuli& moduli, const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const SimulatedSample sample{experiment_, simulator_, settings, history_, exact};
@@ -169,8 +169,8 @@ void Forward::replace_fluids(UncertainModuli& moduli) const {
     }
 }
 
-/// For a normal stiffness of 1 N/m; third harmonics over the first as they are. The mean over the structures, with errors in how
-/// they yield and are dragged on.
+/// Moduli of the network for a normal stiffness of 1 N/m, and third harmonics over the first: means over the structures, with
+/// errors in how these yield and are dragged on.
 UncertainModuli Forward::network(const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const std::vector<BondStrain> bonds = bond_strains(settings);
@@ -298,7 +298,7 @@ Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
     return smooth_ ? predict(model, smooth_->start()) : seen(model, remembered_material(model, exact).mean, exact);
 }
 
-/// Of structures as the model has them.
+/// Errors that all rows share, of structures as the model has them.
 const Eigen::MatrixXd& Forward::shared_errors_of(const Model& model) const {
     const StructureChange change = change_of(model.simulated());
     if (change != shared_change_) {

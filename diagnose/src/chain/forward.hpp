@@ -59,8 +59,8 @@ public:
     /// How a prediction changes where the logarithm of the stiffness grows by a small step and its errors stay.
     Prediction change_by_stiffness(const Model& model, const Prediction& here, double step) const;
 
-    /// Whether the prediction of a model bends with its errors.
-    bool bends(const Model& model) const { return remembered_material(model, false).logarithms.cols() > 0; }
+    /// Whether the prediction of a model is not linear in its errors.
+    bool is_nonlinear(const Model& model) const { return remembered_material(model, false).logarithms.cols() > 0; }
     /// How many errors the prediction of a model has.
     Index errors_of(const Model& model) const { return remembered_material(model, false).errors() + shared_.cols(); }
 

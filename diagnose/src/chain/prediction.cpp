@@ -59,7 +59,7 @@ Prediction Forward::change_by_stiffness(const Model& model, const Prediction& he
     Model stiffer = model;
     stiffer.settings.normal_stiffness *= std::exp(step);
     const UncertainModuli& material = remembered_material(stiffer, false);
-    const Eigen::VectorXd& errors = here.errors.about;
+    const Eigen::VectorXd& errors = here.errors.linearised_at;
     const Eigen::MatrixXd& shared = shared_errors_of(stiffer);
     const Eigen::VectorXcd moduli = material.with(errors.head(material.errors()));
     const Eigen::VectorXd values = seen(stiffer, moduli, false);
@@ -75,14 +75,14 @@ bool Forward::shows_in_proportion(const Model& model) {
     });
 }
 
-/// Of what the instrument shows by the logarithm of the level of the material. @param values at these moduli of it.
+/// Slope of what the instrument shows by the logarithm of the level of the material. @param values at these moduli of it.
 Eigen::VectorXd Forward::level_slope(const Model& model, const Eigen::VectorXcd& moduli, const Eigen::VectorXd& values) const {
     return shows_in_proportion(model) ? values
                                       : Eigen::VectorXd((seen(model, (1 + small_step) * moduli, false) - values) / small_step);
 }
 
-/// Of what the instrument shows by the errors of the material. @param moduli and how these change them. @param values at the
-/// moduli.
+/// Slopes of what the instrument shows by the errors of the material. @param moduli and how these change them. @param values at
+/// the moduli.
 Eigen::MatrixXd Forward::changes_by_instrument(const Model& model, const Eigen::MatrixXcd& moduli,
                                                const Eigen::VectorXd& values) const {
     const auto tangents = moduli.rightCols(moduli.cols() - 1);

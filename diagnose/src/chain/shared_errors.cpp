@@ -12,12 +12,12 @@ namespace coagula::diagnose {
 
 namespace {
 
-/// Of zeros.
+/// Adds columns of zeros.
 void add_columns(Eigen::MatrixXd& errors, Index count) {
     errors.conservativeResizeLike(Eigen::MatrixXd::Zero(errors.rows(), errors.cols() + count));
 }
 
-/// Those of the structures, which all images share, then each image's own.
+/// Errors of images: those of the structures, which all images share, then each image's own.
 Eigen::MatrixXd errors_of_images(const std::vector<Observation>& observations, Simulator& simulator) {
     Eigen::MatrixXd all(static_cast<Index>(observations.size()), 0);
     Eigen::MatrixXd of_structures;

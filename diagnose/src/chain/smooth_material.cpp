@@ -140,7 +140,7 @@ private:
     Eigen::MatrixXcd columns_;
 };
 
-/// Of oscillations, or of steady flow.
+/// Functions that describe observations of oscillations, or of steady flow.
 Eigen::MatrixXcd functions_of(const std::vector<Observation>& observations, bool ages) {
     Functions functions(observations);
     const Places frequency = places_of(observations, Coordinate::angular_frequency);

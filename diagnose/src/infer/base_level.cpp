@@ -29,10 +29,10 @@ double Inference::log_level(Model model) const {
 }
 
 /// Far from the data the density has long tails, in which a search may stay: it begins where the model lies among the data, or
-/// where it was before if that is not far from there, nearer to the data, or the prediction bends.
+/// where it was before if that is not far from there, nearer to the data, or the prediction is nonlinear.
 double Inference::better_start(const Model& model, double before) const {
     constexpr double far = 0.5;
-    if (!scales_ || forward_.bends(model)) {
+    if (!scales_ || forward_.is_nonlinear(model)) {
         return before;
     }
     const double level = log_level(model);

@@ -72,7 +72,7 @@ RowCorrelations correlations_by_base(const Forward& forward, const DataSet& data
     const Inference inference(forward, errors);
     const Prediction base = inference.prediction(inference.fit({}).model);
     const Eigen::VectorXd effects = errors.effects(base);
-    Eigen::VectorXd left = data.values - base.with(effects.tail(base.errors.about.size()));
+    Eigen::VectorXd left = data.values - base.with(effects.tail(base.errors.linearised_at.size()));
     for (Index row = 0; row < data.size(); ++row) {
         const Index sample = data.sample[static_cast<std::size_t>(row)];
         left[row] -= sample >= 0 ? base.level_slope[row] * effects[sample] : 0.0;

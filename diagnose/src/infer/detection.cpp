@@ -36,8 +36,8 @@ bool varies(const std::vector<Observation>& observations, const std::vector<Inde
     return high > low * 1.05 + 1e-300;
 }
 
-/// Those of these rows whose tables go through the coordinate, where some do: elsewhere it is what else those tables have in
-/// common.
+/// Selects the rows whose tables go through the coordinate, where some do: along others it says only what else those tables
+/// have in common.
 std::vector<Index> swept(const std::vector<Observation>& observations, const std::vector<Index>& rows, Coordinate coordinate) {
     std::map<std::size_t, std::vector<Index>> tables;
     for (const Index row : rows) {
@@ -81,7 +81,7 @@ void add_smooth(const std::vector<Observation>& observations, std::vector<Misfit
         }
     }
     for (const Observable* kind : kinds) {
-        for (const Coordinate coordinate : all_coordinates()) {
+        for (const Coordinate coordinate : all_coordinates) {
             MisfitStatistic one{.observable = std::string(kind->key), .coordinate = coordinate};
             for (std::size_t row = 0; row < observations.size(); ++row) {
                 if (shown[row] == kind && std::isfinite(coordinate_of(observations[row], coordinate))) {
@@ -177,7 +177,7 @@ std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit
     return all;
 }
 
-/// Of each column.
+/// Value of the statistic for each column of residuals.
 Eigen::RowVectorXd evaluate(const MisfitStatistic& statistic, const Eigen::MatrixXd& residuals) {
     if (!statistic.cause.empty()) {
         return (statistic.directions.transpose() * residuals).colwise().maxCoeff().array().max(0).square();

@@ -162,7 +162,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
         predict_rows(data, inference, base.model, base.model, folds, diagnosis);
         return diagnosis;
     }
-    diagnosis.failures = localise(inference, base, detection);
+    diagnosis.misfits = localise(inference, base, detection);
 
     const Comparison comparison = compare(base, possible, inference, options, Effort::whole, progress);
     const Compared& winner = comparison.all[comparison.winner];

@@ -43,10 +43,10 @@ Prediction rows_of(const Prediction& all, const std::vector<Index>& rows) {
     return {all.values(rows), all.level_slope(rows), std::move(errors)};
 }
 
-/// Of every row, about those errors that the known rows alone make most probable.
+/// Predicts every row about the errors that the known rows alone make most probable.
 Prediction predicted(const Forward& everywhere, const Inference& known, const Model& model) {
-    return everywhere.bends(model) ? everywhere.prediction(model, known.prediction(model).errors.about)
-                                   : everywhere.prediction(model);
+    return everywhere.is_nonlinear(model) ? everywhere.prediction(model, known.prediction(model).errors.linearised_at)
+                                          : everywhere.prediction(model);
 }
 
 /// Sum of the squares of the relative differences. |G*| of a row is what both of its moduli are compared with.
@@ -226,7 +226,7 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
         const Fit extended = chosen(inference, base, possible, options);
         const auto predicted_by = [&](const Model& model) {
             const Prediction all_rows = predicted(everywhere, inference, model);
-            return shown(all_rows, errors.effects(rows_of(all_rows, known_rows)).tail(all_rows.errors.about.size()));
+            return shown(all_rows, errors.effects(rows_of(all_rows, known_rows)).tail(all_rows.errors.linearised_at.size()));
         };
         const Eigen::VectorXd by_base = predicted_by(base.model);
         const Eigen::VectorXd better = predicted_by(extended.model);

@@ -82,15 +82,15 @@ struct Inference::AlongStiffness {
 Prediction Inference::prediction(const Model& model, const Eigen::MatrixXd& further, int most_steps) const {
     constexpr double converged = 0.1;  // standard errors: half of its square is what the density may lack
     constexpr double farthest = 8;     // all errors together
-    if (!forward_.bends(model)) {
+    if (!forward_.is_nonlinear(model)) {
         return forward_.prediction(model);
     }
     const bool near = last_errors_.size() == forward_.errors_of(model);
     Prediction here = near ? forward_.prediction(model, last_errors_) : forward_.prediction(model);
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(here.errors.about.size());
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(here.errors.linearised_at.size());
     double longest = 1;
     for (int steps = 0; steps < most_steps; ++steps) {
-        const Eigen::VectorXd& place = here.errors.about;
+        const Eigen::VectorXd& place = here.errors.linearised_at;
         const Eigen::VectorXd whole = errors_.effects(here, further).tail(place.size()) - place;
         longest *= whole.dot(step) < 0 ? 0.5 : 1.0;
         const Eigen::VectorXd next = place + std::min(1.0, longest / whole.norm()) * whole;
@@ -100,7 +100,7 @@ Prediction Inference::prediction(const Model& model, const Eigen::MatrixXd& furt
         }
         here = forward_.prediction(model, place + step);
     }
-    last_errors_ = here.errors.about;
+    last_errors_ = here.errors.linearised_at;
     return here;
 }
 
@@ -121,7 +121,8 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
     return {value + prior, rise / (2 * step), bend / (step * step)};
 }
 
-/// As a whole it may exceed that at the middle of the deviations by far: the data may ask for larger ones.
+/// Density at a stiffness. As a whole it may exceed that at the middle of the deviations by far, because the data may ask for
+/// larger ones.
 double Inference::density_at(Model model, double log_stiffness, Accuracy accuracy) const {
     model.settings.normal_stiffness = std::exp(log_stiffness);
     return errors_.log_density(prediction(model), {}, accuracy) + log_prior(log_stiffness);
@@ -163,7 +164,7 @@ Node Inference::best_stiffness(const Model& model, double start, double least) c
     return {place, along.deviation(), found, found + along.log_width()};
 }
 
-/// Of the base model at its best stiffness, or at a higher maximum where there is one.
+/// Returns the node of the base model at its best stiffness, or at a higher maximum where there is one.
 Node Inference::highest_of_base(const Node& found) const {
     if (!scales_) {
         return found;
@@ -263,14 +264,15 @@ Eigen::MatrixXd Inference::jacobian(const Fit& fit, const Eigen::MatrixXd& furth
     constexpr double step = 1e-4;
     Model moved = fit.model;
     moved.settings.normal_stiffness *= std::exp(step);
-    slopes.col(0) = (errors_.whiten(forward_.predict(moved, about.errors.about)) - here) / step;
+    slopes.col(0) = (errors_.whiten(forward_.predict(moved, about.errors.linearised_at)) - here) / step;
     for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
         std::vector<double> values = fit.values();
         const double place = parameters[axis].place_of(values[axis]);
         const double change = place > 0.5 ? -step : step;
         values[axis] = parameters[axis].at(place + change);
         const Model beside(fit.hypothesis, values, fit.model.settings.normal_stiffness);
-        slopes.col(static_cast<Index>(axis) + 1) = (errors_.whiten(forward_.predict(beside, about.errors.about)) - here) / change;
+        slopes.col(static_cast<Index>(axis) + 1) =
+            (errors_.whiten(forward_.predict(beside, about.errors.linearised_at)) - here) / change;
     }
     // Sample effects and the errors of the prediction are fitted, too.
     const Eigen::MatrixXd effects = errors_.directions(about);

@@ -48,7 +48,7 @@ inline constexpr int many_steps = 20;
 
 /// What to show of a prediction with these errors: of one that stands at some, its straight lines there; of any other itself.
 inline Eigen::VectorXd shown(const Prediction& prediction, const Eigen::VectorXd& errors) {
-    return prediction.errors.about.isZero(0) ? prediction.values : prediction.with(errors);
+    return prediction.errors.linearised_at.isZero(0) ? prediction.values : prediction.with(errors);
 }
 
 /// A hypothesis at a place of its prior.
@@ -81,13 +81,13 @@ public:
     /// Largest log density of the data by the base model, whatever the stiffness.
     double density_of_free_level() const;
 
-    /// The prediction about those of its own errors that the data make most probable, where it bends with these.
+    /// The prediction about those of its own errors that the data make most probable, where it is not linear in these.
     /// @param further whitened directions, of unit deviation each, in which the data may depart besides.
     Prediction prediction(const Model& model, const Eigen::MatrixXd& further = {}, int most_steps = many_steps) const;
 
     /// What to show of a prediction: with those errors that the data ask for where it stands at such, else without.
     Eigen::VectorXd fitted(const Prediction& prediction) const {
-        return shown(prediction, errors_.effects(prediction).tail(prediction.errors.about.size()));
+        return shown(prediction, errors_.effects(prediction).tail(prediction.errors.linearised_at.size()));
     }
 
     /// The prediction as the fit has it and residuals are measured from: with the most probable effects of the samples and errors
@@ -121,7 +121,7 @@ private:
     const Forward& forward_;
     const ErrorModel& errors_;
     bool scales_;
-    mutable Eigen::VectorXd last_errors_;  ///< about which the last prediction that bends was made: those of the next are near
+    mutable Eigen::VectorXd last_errors_;  ///< about which the last nonlinear prediction was made: those of the next are near
     double log_level_;                     ///< logarithm of the stiffness [N/m] that the base model needs for half of the moduli
 };
 

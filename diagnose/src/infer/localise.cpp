@@ -56,19 +56,19 @@ double log_bayes_factor_of(double score) {
 /// What differs as a whole: the modulus from that of a known stiffness (where nothing else stands out, however little, for then it
 /// is what the test found), samples from each other.
 void add_departures_of_level(const Inference& inference, const Fit& base, const Prediction& prediction,
-                             std::vector<Failure>& failures) {
-    const double least = failures.empty() ? 0.0 : noticeable;
+                             std::vector<Misfit>& misfits) {
+    const double least = misfits.empty() ? 0.0 : noticeable;
     const double stiffness = base.model.settings.normal_stiffness;
     const Experiment& experiment = inference.forward().experiment();
     const double known = known_scale(experiment).value;
     const bool newtonian = experiment.material.kind == MaterialKind::newtonian;
     if (const double score = inference.stiffness_departure(std::log(stiffness)); std::abs(score) >= least) {
-        failures.push_back({.observable = newtonian ? "loss_modulus" : "storage_modulus",
-                            .axis = newtonian ? "viscosity" : "normal_stiffness",
-                            .log_bayes_factor = log_bayes_factor_of(score),
-                            .from = stiffness,
-                            .departure = stiffness / known - 1,
-                            .what = LevelFailure{known, score}});
+        misfits.push_back({.observable = newtonian ? "loss_modulus" : "storage_modulus",
+                           .axis = newtonian ? "viscosity" : "normal_stiffness",
+                           .log_bayes_factor = log_bayes_factor_of(score),
+                           .from = stiffness,
+                           .departure = stiffness / known - 1,
+                           .what = LevelMisfit{known, score}});
     }
     const DataSet& data = inference.errors().data();
     if (data.samples() < 2 || data.effect <= 0) {
@@ -78,30 +78,30 @@ void add_departures_of_level(const Inference& inference, const Fit& base, const 
     for (Index sample = 0; sample < data.samples(); ++sample) {
         const double score = effects[sample] / data.effect;
         if (std::abs(score) >= noticeable) {
-            failures.push_back({.observable = "storage_modulus",
-                                .axis = "sample",
-                                .log_bayes_factor = log_bayes_factor_of(score),
-                                .from = static_cast<double>(sample + 1),
-                                .departure = effects[sample],
-                                .what = SampleFailure{data.sample_names[static_cast<std::size_t>(sample)], score}});
+            misfits.push_back({.observable = "storage_modulus",
+                               .axis = "sample",
+                               .log_bayes_factor = log_bayes_factor_of(score),
+                               .from = static_cast<double>(sample + 1),
+                               .departure = effects[sample],
+                               .what = SampleMisfit{data.sample_names[static_cast<std::size_t>(sample)], score}});
         }
     }
 }
 
 /// What images of the same particles differ by, which the base model knows nothing of.
 void add_departures_of_images(const std::vector<Observation>& observations, const Eigen::VectorXd& prediction,
-                              std::vector<Failure>& failures) {
+                              std::vector<Misfit>& misfits) {
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& one = observations[k];
         const double departure = one.value - prediction[static_cast<Index>(k)];
         const double score = departure / one.standard_error;
         if (is<ImageDifference>(one) && score >= noticeable) {
-            failures.push_back({.observable = std::string(observable_of(one).key),
-                                .axis = "frame",
-                                .log_bayes_factor = log_bayes_factor_of(score),
-                                .from = unset,
-                                .departure = departure,
-                                .what = ImageFailure{one.value, score}});
+            misfits.push_back({.observable = std::string(observable_of(one).key),
+                               .axis = "frame",
+                               .log_bayes_factor = log_bayes_factor_of(score),
+                               .from = unset,
+                               .departure = departure,
+                               .what = ImageMisfit{one.value, score}});
         }
     }
 }
@@ -120,9 +120,8 @@ bool is_clocked(const MisfitStatistic& statistic, const Experiment& experiment, 
 }
 
 /// A smooth departure along an axis.
-Failure departure_along(const MisfitStatistic& statistic, const Experiment& experiment,
-                        const std::vector<Observation>& observations, const Eigen::VectorXd& residual,
-                        const Eigen::VectorXd& prediction) {
+Misfit departure_along(const MisfitStatistic& statistic, const Experiment& experiment, const std::vector<Observation>& observations,
+                       const Eigen::VectorXd& residual, const Eigen::VectorXd& prediction) {
     const double scale = prediction.cwiseAbs().maxCoeff();
     const Observable& observable = observable_named(statistic.observable);
     const bool of_base_zero =
@@ -141,16 +140,16 @@ Failure departure_along(const MisfitStatistic& statistic, const Experiment& expe
             .log_bayes_factor = 0.5 * (statistic.value - 3 * std::log(static_cast<double>(statistic.rows.size()))),
             .from = places[place],
             .departure = late,
-            .what = SmoothFailure{.before = early,
-                                  .over_largest = of_scale,
-                                  .base_is_zero = of_base_zero,
-                                  .time_is_stated = is_clocked(statistic, experiment, observations),
-                                  .is_the_same = is_level(early, late)}};
+            .what = SmoothMisfit{.before = early,
+                                 .over_largest = of_scale,
+                                 .base_is_zero = of_base_zero,
+                                 .time_is_stated = is_clocked(statistic, experiment, observations),
+                                 .is_the_same = is_level(early, late)}};
 }
 
 }  // namespace
 
-std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection) {
+std::vector<Misfit> localise(const Inference& inference, const Fit& base, const Detection& detection) {
     const std::vector<Observation>& observations = inference.errors().data().observations;
     const Prediction fitted = inference.prediction(base.model);
     const Eigen::VectorXd prediction = inference.as_fitted(fitted);  // that of the residuals, and of the curve that the page draws
@@ -161,14 +160,13 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
             along.push_back(&statistic);
         }
     }
-    std::vector<Failure> failures;
+    std::vector<Misfit> misfits;
     const Experiment& experiment = inference.forward().experiment();
     const auto add = [&](const MisfitStatistic& one) {
-        failures.push_back(departure_along(one, experiment, observations, residual, prediction));
+        misfits.push_back(departure_along(one, experiment, observations, residual, prediction));
     };
     const auto is_told = [&](const MisfitStatistic& one) {
-        return std::any_of(failures.begin(), failures.end(),
-                           [&](const Failure& other) { return other.observable == one.observable; });
+        return std::any_of(misfits.begin(), misfits.end(), [&](const Misfit& other) { return other.observable == one.observable; });
     };
     std::vector<const MisfitStatistic*> by_rows;  // along a time that nobody has stated
     for (const MisfitStatistic* statistic : along) {
@@ -182,12 +180,12 @@ std::vector<Failure> localise(const Inference& inference, const Fit& base, const
             add(*statistic);
         }
     }
-    add_departures_of_level(inference, base, fitted, failures);
-    add_departures_of_images(observations, inference.fitted(fitted), failures);
-    if (failures.empty() && !along.empty()) {
+    add_departures_of_level(inference, base, fitted, misfits);
+    add_departures_of_images(observations, inference.fitted(fitted), misfits);
+    if (misfits.empty() && !along.empty()) {
         add(*along.front());
     }
-    return failures;
+    return misfits;
 }
 
 namespace {

@@ -13,7 +13,7 @@ namespace coagula::diagnose {
 
 /// Departures from the base model of each observable along each axis whose score is above chance, strongest first; then that of the
 /// level from a known stiffness and those of samples, likewise. If none is above chance, the strongest along an axis.
-std::vector<Failure> localise(const Inference& inference, const Fit& base, const Detection& detection);
+std::vector<Misfit> localise(const Inference& inference, const Fit& base, const Detection& detection);
 
 /// Says where a smooth departure lies and how large it is.
 /// @param prediction of the model that leaves it over.

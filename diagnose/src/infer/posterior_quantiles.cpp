@@ -134,7 +134,7 @@ struct Paraboloid {
     Eigen::VectorXd slope;
     Eigen::MatrixXd bend;
 
-    /// To its maximum, at most one cell; along each axis by itself where it has none.
+    /// Step to the maximum, at most one cell; where there is none, along each axis by itself.
     Eigen::VectorXd step() const {
         const Eigen::LLT<Eigen::MatrixXd> down(-bend);
         Eigen::VectorXd whole = Eigen::VectorXd::Zero(slope.size());
@@ -148,7 +148,7 @@ struct Paraboloid {
     double gain(const Eigen::VectorXd& step) const { return slope.dot(step) + 0.5 * step.dot(bend * step); }
 };
 
-/// By least squares, high nodes above all; none where there are too few nodes.
+/// Fits a paraboloid by least squares, high nodes above all; returns none where there are too few nodes.
 std::optional<Paraboloid> paraboloid_through(const NodesAround& neighbours) {
     constexpr double lightness = 0.1;  // of low nodes
     const Index axes = neighbours.places.cols();

@@ -40,7 +40,7 @@ Prediction about_known_stiffness(const Inference& inference, const Model& model,
         Model beside = model;
         beside.settings.normal_stiffness *= std::exp(step);
         const double way = std::log(known / model.settings.normal_stiffness) / step;
-        prediction.values += way * (forward.predict(beside, prediction.errors.about) - prediction.values);
+        prediction.values += way * (forward.predict(beside, prediction.errors.linearised_at) - prediction.values);
     }
     return prediction;
 }
@@ -54,8 +54,8 @@ void move_to(Start& start, const Inference& inference, Fit fit, const Eigen::Mat
 
 /// The prediction of a start beside further departures, which leave less to its own errors.
 Prediction beside_departures(const Inference& inference, const Start& start, const Eigen::MatrixXd& further) {
-    const bool bends = inference.forward().bends(start.fit.model);
-    return bends ? about_known_stiffness(inference, start.fit.model, further) : start.prediction;
+    const bool nonlinear = inference.forward().is_nonlinear(start.fit.model);
+    return nonlinear ? about_known_stiffness(inference, start.fit.model, further) : start.prediction;
 }
 
 Start start_of(const Inference& inference, const Fit& fit) {
@@ -182,8 +182,8 @@ Eigen::MatrixXd draws_of(const Inference& inference, const Start& start, const F
     return draws;
 }
 
-/// Of the data without a remainder. The integral over what follows may find a lower maximum than the fit has found, where part of
-/// the data lies far off; then it is that about the fit.
+/// Density of the data without a remainder. Where part of the data lies far off, the integral over what follows may find a
+/// lower maximum than the fit has found; then the density about the fit counts.
 double density_alone(const ErrorModel& errors, const Start& start) {
     const Index follow = start.following.cols();
     const Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(follow, follow) + start.following.transpose() * start.following;
@@ -194,7 +194,7 @@ double density_alone(const ErrorModel& errors, const Start& start) {
 /// Density of the data beside a departure in these whitened directions, for every amplitude.
 std::vector<double> densities_beside(const Inference& inference, const Start& start, const Eigen::MatrixXd& white) {
     const ErrorModel& errors = inference.errors();
-    if (!inference.forward().bends(start.fit.model)) {
+    if (!inference.forward().is_nonlinear(start.fit.model)) {
         return errors.log_densities(start.prediction, beside(start.following, white), white.cols(), smooth_amplitudes);
     }
     std::vector<double> densities;
@@ -205,7 +205,7 @@ std::vector<double> densities_beside(const Inference& inference, const Start& st
     return densities;
 }
 
-/// Of all departures at a start.
+/// Finds the best of all departures at a start.
 SmoothRemainder remainder_at(const Inference& inference, const Start& start, const SmoothDepartures& departures, double alone) {
     const ErrorModel& errors = inference.errors();
     const Eigen::VectorXd level = complex_moduli(errors.data().observations, inference.fitted(start.prediction));

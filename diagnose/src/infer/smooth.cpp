@@ -86,7 +86,7 @@ struct Varying {
 
 std::vector<Varying> varying_coordinates(const std::vector<Observation>& observations) {
     std::vector<Varying> varying;
-    for (const Coordinate coordinate : all_coordinates()) {
+    for (const Coordinate coordinate : all_coordinates) {
         Eigen::VectorXd rank = rank_along(observations, coordinate);
         if (rank.maxCoeff() > 0) {
             varying.push_back({coordinate, std::move(rank)});

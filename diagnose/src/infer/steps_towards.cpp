@@ -17,7 +17,7 @@ public:
           mechanism_(mechanism),
           basis_(basis),
           hypothesis_(fit.hypothesis),
-          model_errors_(about.errors.about),
+          model_errors_(about.errors.linearised_at),
           here_(inference.errors().whiten(about.values)) {
         hypothesis_.push_back(&mechanism);
     }

@@ -3,7 +3,7 @@
 
 namespace coagula::diagnose::mechanisms {
 
-/// From what an air bearing has to a worn one; T = (K G* + i b w) theta (Ewoldt, Johnston and Caretta 2015).
+/// The range goes from what an air bearing has to a worn one; T = (K G* + i b w) theta (Ewoldt, Johnston and Caretta 2015).
 Mechanism bearing_damping() {
     return {.name = "bearing-damping",
             .term = "friction in the instrument's bearing damps the tool in proportion to its speed",

@@ -21,7 +21,7 @@ bool has_open_rim(const Knows& knows) {
 
 }  // namespace
 
-/// From films that a water-based sample shows within an hour (0.01 N/m) to crusts of a slurry.
+/// The range goes from films that a water-based sample shows within an hour (0.01 N/m) to crusts of a slurry.
 Mechanism drying_rim() {
     return {.name = "drying-rim",
             .term = "a skin dries at the rim and is sheared with the sample",

@@ -9,10 +9,12 @@ namespace {
 
 /// Pressure over that of the contacts, below which networks come apart.
 constexpr double least_pressure = -0.3;
-/// By which the modulus of networks stays behind the cube root of the load, because loads are uneven and some contacts open.
+/// Factor by which the modulus of networks stays behind the cube root of the load, because loads are uneven and some contacts
+/// open.
 constexpr double unevenness = 1.5;
 
-/// Of Hertz contacts, which the plates press besides their adhesion: (1 + p)^(1/3) where all loads grow alike and are small.
+/// Modulus of Hertz contacts, which the plates press besides their adhesion: (1 + p)^(1/3) where all loads grow alike and are
+/// small.
 std::complex<double> pressed(std::complex<double> modulus, const Observation& row, Values values) {
     if (!std::isfinite(row.normal_force) || !std::isfinite(row.plate_radius) || is_fluid(row) || is<Viscosity>(row)) {
         return modulus;

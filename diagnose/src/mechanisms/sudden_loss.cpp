@@ -5,7 +5,7 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-/// From a place among the rows on, to the last run on that sample.
+/// The loss acts from a place among the rows on, to the last run on that sample.
 std::complex<double> lost(std::complex<double> modulus, const Observation& row, Values values) {
     const bool behind = !is<Viscosity>(row) && row.sample_place <= values[0] && row.place > values[0];
     return behind ? modulus * values[1] : modulus;

@@ -16,7 +16,7 @@ double approached(double share, double rate, double duration, Values values) {
     return end + (share - end) * std::exp(-total * std::max(duration, 0.0));
 }
 
-/// From a sample that has rested long to a time on its clock.
+/// Share of the bonds at a time on the clock of a sample that had rested long before.
 double share_of_bonds(const std::vector<ShearedSpan>& history, double until, Values values) {
     double share = 1;
     double clock = 0;

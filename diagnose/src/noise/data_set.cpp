@@ -19,7 +19,7 @@ constexpr double usual_storage_error = 0.03;     ///< of a number over it, where
 constexpr double usual_loss_error = 0.05;
 constexpr double least_error = 1e-4;  ///< of a number over it: what no instrument reads better
 
-/// For each number the one of the same row that its error is turned towards, -1 if there is none.
+/// Returns for each number the one of the same row that its error is turned towards, -1 if there is none.
 std::vector<Index> partners_of(const std::vector<Observation>& observations) {
     std::map<std::pair<std::size_t, std::size_t>, Index> storage;
     std::vector<Index> partners(observations.size(), -1);

@@ -32,7 +32,7 @@ public:
         return scale->second = added ? unit_deviation(one.errors.degrees) : scale->second;
     }
 
-    /// Of unit variance, with its tail.
+    /// Draws an error of unit variance, with its tail.
     double error(const Observation& one) {
         const double tail = one.errors.tail;
         const double drawn = normal();

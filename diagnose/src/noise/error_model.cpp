@@ -112,7 +112,8 @@ ErrorModel::ErrorModel(const DataSet& data)
     saturated_ = scales.log_density() - 0.5 * log_determinant_;
 }
 
-/// By the level of the material. Rows of different samples have independent errors: whitening keeps the rows of each together.
+/// Whitened slope by the level of the material. Rows of different samples have independent errors: whitening keeps the rows of
+/// each together.
 Eigen::VectorXd ErrorModel::whitened_level(const Prediction& prediction) const {
     Eigen::VectorXd level = whiten(prediction.level_slope);
     for (Index row = 0; row < size(); ++row) {
@@ -139,7 +140,7 @@ struct ErrorModel::Shared {
 
     NormalEffects effects(const ErrorModel& model) const { return {model.belonging_, plain, level, others}; }
 
-    /// At the stated deviations.
+    /// Solves for the effects at the stated deviations.
     NormalEffects solved(const ErrorModel& model) const {
         NormalEffects all = effects(model);
         all.solve(model.data_.effect, scales, std::vector<double>(model.degrees_.size() + 1, 1.0));
@@ -185,8 +186,8 @@ Eigen::VectorXd ErrorModel::residual(const Prediction& prediction) const {
     return white_ - whiten(prediction.without_errors()) - directions(prediction) * effects(prediction);
 }
 
-/// At these deviations of effects and others, but for the rows' determinant. @param scales where to start, and what is most
-/// probable.
+/// Logarithm of the density at these deviations of effects and others, but for the rows' determinant. @param scales where to
+/// start; holds the most probable ones then.
 double ErrorModel::log_marginal(NormalEffects& effects, double effect, const Eigen::VectorXd& scales_of_others,
                                 Scales& scales) const {
     constexpr double converged = 1e-2;  // at the most probable variances the density does not depend on them
@@ -274,7 +275,7 @@ double ErrorModel::log_density(Shared& shared, NormalEffects& effects, double de
     return mean_density(logarithms);
 }
 
-/// Over equally probable deviations.
+/// Mean density over equally probable deviations, as a logarithm.
 double ErrorModel::mean_density(const std::vector<double>& logarithms) const {
     const double density = log_mean(logarithms) - 0.5 * log_determinant_;
     if (density > saturated_ + 1e-6 * (1 + std::abs(saturated_))) {

@@ -12,7 +12,7 @@ namespace coagula::diagnose {
 struct ModelErrors {
     Eigen::MatrixXd changes = {};                              ///< numbers x errors: slopes of the numbers by these
     double degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which their common scale is known
-    Eigen::VectorXd about = {};  ///< errors at which numbers and slopes are those of the model; empty: 0
+    Eigen::VectorXd linearised_at = {};  ///< errors at which numbers and slopes are those of the model; empty: 0
 };
 
 }  // namespace coagula::diagnose

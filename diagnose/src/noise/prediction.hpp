@@ -11,7 +11,7 @@
 namespace coagula::diagnose {
 
 struct Prediction {
-    Eigen::VectorXd values;  ///< at the errors `errors.about`
+    Eigen::VectorXd values;  ///< at the errors `errors.linearised_at`
     /// Change by the logarithm of the level of the material, which differs from sample to sample; the tool's own share stays.
     Eigen::VectorXd level_slope;
     ModelErrors errors = {};
@@ -20,17 +20,17 @@ struct Prediction {
     Prediction(Eigen::VectorXd all) : values(std::move(all)), level_slope(values) {}  // NOLINT(google-explicit-constructor)
     Prediction(Eigen::VectorXd all, Eigen::VectorXd slope, ModelErrors model_errors)
         : values(std::move(all)), level_slope(std::move(slope)), errors(std::move(model_errors)) {
-        if (errors.about.size() == 0) {
-            errors.about.setZero(errors.changes.cols());
+        if (errors.linearised_at.size() == 0) {
+            errors.linearised_at.setZero(errors.changes.cols());
         }
     }
 
     /// Prediction with these errors, along straight lines.
     Eigen::VectorXd with(const Eigen::VectorXd& some) const {
-        return errors.about.size() == 0 ? values : Eigen::VectorXd(values + errors.changes * (some - errors.about));
+        return errors.linearised_at.size() == 0 ? values : Eigen::VectorXd(values + errors.changes * (some - errors.linearised_at));
     }
     /// Where straight lines through `values` lead without any error.
-    Eigen::VectorXd without_errors() const { return with(Eigen::VectorXd::Zero(errors.about.size())); }
+    Eigen::VectorXd without_errors() const { return with(Eigen::VectorXd::Zero(errors.linearised_at.size())); }
 };
 
 }  // namespace coagula::diagnose

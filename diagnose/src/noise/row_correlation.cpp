@@ -52,7 +52,7 @@ Restricted restricted(const Chain& chain, double correlation) {
     return result;
 }
 
-/// Of torque, or of phase, one for each table that is long enough.
+/// Chains of the errors of torque, or of phase, one for each table that is long enough.
 std::vector<Chain> chains_of(const DataSet& data, Eigen::VectorXd departures, bool of_phase) {
     RowNoise independent = data.noise;
     independent.correlation.setZero();

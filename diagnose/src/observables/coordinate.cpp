@@ -6,56 +6,47 @@
 
 namespace coagula::diagnose {
 
-std::span<const Coordinate> all_coordinates() {
-    static constexpr std::array all{Coordinate::strain,
-                                    Coordinate::angular_frequency,
-                                    Coordinate::shear_rate,
-                                    Coordinate::time,
-                                    Coordinate::gap,
-                                    Coordinate::plate_radius,
-                                    Coordinate::heterogeneity,
-                                    Coordinate::coordination,
-                                    Coordinate::volume_fraction,
-                                    Coordinate::distance,
-                                    Coordinate::pore_radius};
-    return all;
-}
+namespace {
+
+struct Entry {
+    const char* name;
+    double RowConditions::*condition;  ///< null where the coordinate is not a condition of the row
+};
+
+/// The entries have the order of Coordinate.
+constexpr std::array entries{Entry{"strain", &RowConditions::set_strain},
+                             Entry{"angular_frequency", &RowConditions::angular_frequency},
+                             Entry{"shear_rate", nullptr},
+                             Entry{"time", &RowConditions::time},
+                             Entry{"gap", &RowConditions::gap},
+                             Entry{"plate_radius", &RowConditions::plate_radius},
+                             Entry{"heterogeneity", &RowConditions::heterogeneity},
+                             Entry{"coordination", &RowConditions::coordination},
+                             Entry{"volume_fraction", &RowConditions::volume_fraction},
+                             Entry{"distance", nullptr},
+                             Entry{"pore_radius", nullptr},
+                             Entry{"none", nullptr}};
+
+}  // namespace
 
 const char* name_of(Coordinate coordinate) {
-    constexpr std::array<const char*, 12> names{
-        "strain",        "angular_frequency", "shear_rate",      "time",     "gap",         "plate_radius",
-        "heterogeneity", "coordination",      "volume_fraction", "distance", "pore_radius", "none"};
-    return names.at(static_cast<std::size_t>(coordinate));
+    return entries.at(static_cast<std::size_t>(coordinate)).name;
 }
 
 double coordinate_of(const Observation& observation, Coordinate coordinate) {
+    if (double RowConditions::*condition = entries.at(static_cast<std::size_t>(coordinate)).condition) {
+        return observation.*condition;
+    }
     switch (coordinate) {
-        case Coordinate::strain:
-            return observation.set_strain;
-        case Coordinate::angular_frequency:
-            return observation.angular_frequency;
         case Coordinate::shear_rate:
             return is<Viscosity>(observation) ? as<Viscosity>(observation)->shear_rate : unset;
-        case Coordinate::time:
-            return observation.time;
-        case Coordinate::gap:
-            return observation.gap;
-        case Coordinate::plate_radius:
-            return observation.plate_radius;
-        case Coordinate::heterogeneity:
-            return observation.heterogeneity;
-        case Coordinate::coordination:
-            return observation.coordination;
-        case Coordinate::volume_fraction:
-            return observation.volume_fraction;
         case Coordinate::distance:
             return is<Neighbours>(observation) ? as<Neighbours>(observation)->distance : unset;
         case Coordinate::pore_radius:
             return is<Pore>(observation) ? as<Pore>(observation)->radius : unset;
-        case Coordinate::none:
-            break;
+        default:
+            return 0;
     }
-    return 0;
 }
 
 }  // namespace coagula::diagnose

@@ -4,7 +4,7 @@
 
 #include "observations.hpp"
 
-#include <span>
+#include <array>
 
 namespace coagula::diagnose {
 
@@ -25,7 +25,17 @@ enum class Coordinate {
 };
 
 /// All but none.
-std::span<const Coordinate> all_coordinates();
+inline constexpr std::array all_coordinates{Coordinate::strain,
+                                            Coordinate::angular_frequency,
+                                            Coordinate::shear_rate,
+                                            Coordinate::time,
+                                            Coordinate::gap,
+                                            Coordinate::plate_radius,
+                                            Coordinate::heterogeneity,
+                                            Coordinate::coordination,
+                                            Coordinate::volume_fraction,
+                                            Coordinate::distance,
+                                            Coordinate::pore_radius};
 
 /// "strain", "angular_frequency", ...
 const char* name_of(Coordinate coordinate);

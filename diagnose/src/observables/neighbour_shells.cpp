@@ -41,7 +41,7 @@ Packing turned(const Packing& packing, Index turns) {
     return other;
 }
 
-/// Of a periodic structure: the pairs within the reach, and the neighbours of every particle, shells x particles.
+/// Pairs of a periodic structure within the reach, and the neighbours of every particle, shells x particles.
 struct NearPairs {
     ContactNetwork pairs;
     Eigen::MatrixXd counts;
@@ -60,8 +60,8 @@ NearPairs neighbours_of(const Packing& packing, double diameter) {
     return all;
 }
 
-/// Of the spread over that of independent pairs, of which a share is counted from both ends, what is above `least`: as standard
-/// errors of one particle. An empty shell stays so.
+/// Standard errors of one particle from the spread over that of independent pairs, of which a share is counted from both ends,
+/// as far as it is above `least`. An empty shell stays so.
 Eigen::MatrixXd errors_above(const std::vector<double>& spread, double mutual, double least) {
     const Eigen::Map<const Eigen::MatrixXd> all(spread.data(), shell_count, 1 + 2 * shell_count);
     const Eigen::VectorXd deviation = ((1 + mutual) * all.col(0)).cwiseSqrt();

@@ -28,7 +28,7 @@ struct Shown {
     decltype(Observation::what) what;
 };
 
-/// In this order.
+/// Columns that a table may have, in the order of their observations.
 std::span<const Shown> shown_in(const Measurement& table) {
     static const std::array of_oscillations{
         Shown{"storage_modulus", Modulus{}}, Shown{"loss_modulus", Modulus{.loss = true, .of_phase = true}},
@@ -84,11 +84,10 @@ bool lacks_geometry(const Measurement& table, std::size_t row) {
 }
 
 /// Adds what a table shows of a response to shear.
-void add_sheared(std::vector<Observation>& all, const Experiment& experiment, const Runs& runs, std::size_t run) {
+void add_sheared(std::vector<Observation>& all, const Experiment& experiment, const ConditionsOfRows& conditions, std::size_t run) {
     const Measurement& table = experiment.measurements[run];
     const bool flows = is_flow(table.kind);
     const bool fluid = std::isfinite(table.fluid_viscosity);
-    const ConditionsOfRows conditions(experiment, runs, run);
     for (const Shown& shown : shown_in(table)) {
         const Column* column = find_column(table, shown.column);
         // A fluid stores nothing, loses in proportion to the frequency, and has no harmonics.
@@ -98,7 +97,7 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
                 (flows && std::isnan(cell(table, "shear_rate", row))) || lacks_geometry(table, row)) {
                 continue;
             }
-            all.push_back(observation_at(conditions.of(row), table, run, row, shown));
+            all.push_back(observation_at(conditions.of(run, row), table, run, row, shown));
         }
     }
 }
@@ -143,7 +142,7 @@ double relative_to(const Observation& observation, double level) {
 }
 
 std::vector<Observation> observations_of(const Experiment& experiment) {
-    const Runs runs = runs_of(experiment);
+    const ConditionsOfRows conditions(experiment);
     std::vector<Observation> all;
     for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
         const Measurement& table = experiment.measurements[k];
@@ -155,8 +154,8 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
             const std::vector<Observation> pores = pores_in(experiment, k);
             all.insert(all.end(), pores.begin(), pores.end());
         }
-        if (has_moduli(table.kind) || is_flow(table.kind) || table.kind == MeasurementKind::harmonics) {
-            add_sheared(all, experiment, runs, k);
+        if (shows_shear(table)) {
+            add_sheared(all, experiment, conditions, k);
         }
     }
     return all;

@@ -59,7 +59,7 @@ Matches match(const Cell& cell, const Eigen::Matrix3Xd& first, const Eigen::Matr
     return found;
 }
 
-/// Of every component.
+/// Median of every component of the displacements.
 Eigen::Vector3d median_displacement(const Matches& matches) {
     Eigen::Vector3d middle;
     for (int axis = 0; axis < 3; ++axis) {

@@ -30,13 +30,44 @@ std::size_t group_of(const Measurement& table, std::size_t row) {
     return static_cast<std::size_t>(number);
 }
 
-/// The largest strain of each run, and of those before it on the sample.
-double largest_strain_before(const Experiment& experiment, const std::vector<RunTime>& times, std::size_t run) {
+}  // namespace
+
+bool shows_shear(const Measurement& table) {
+    return has_moduli(table.kind) || is_flow(table.kind) || table.kind == MeasurementKind::harmonics;
+}
+
+ConditionsOfRows::ConditionsOfRows(const Experiment& experiment) : experiment_(experiment) {
+    const std::vector<Measurement>& tables = experiment.measurements;
+    const std::vector<RunTime> times = run_times(experiment);
+    double rows = 0;
+    std::map<std::string, std::vector<std::size_t>> samples;
+    for (std::size_t run = 0; run < tables.size(); ++run) {
+        runs_.push_back({.time = times[run]});
+        samples[tables[run].sample].push_back(run);
+        rows += static_cast<double>(tables[run].rows());
+    }
+    double next = 0;  // row, one sample after the other, its runs in their order
+    for (auto& [sample, runs] : samples) {
+        std::stable_sort(runs.begin(), runs.end(), [&](std::size_t a, std::size_t b) { return times[a].order < times[b].order; });
+        const double first = next;
+        for (const std::size_t run : runs) {
+            runs_[run].sample_place = first / rows;
+            if (shows_shear(tables[run])) {
+                follow_rows(run, next / rows, 1 / rows);
+            }
+            next += static_cast<double>(tables[run].rows());
+        }
+    }
+}
+
+/// The largest strain of the runs before this one on the sample.
+double ConditionsOfRows::largest_strain_before(std::size_t run) const {
     double largest = unset;
-    for (std::size_t k = 0; k < times.size(); ++k) {
-        const Measurement& other = experiment.measurements[k];
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+        const Measurement& other = experiment_.measurements[k];
         const Column* strain = find_column(other, "strain");
-        if (strain != nullptr && other.sample == experiment.measurements[run].sample && times[k].order < times[run].order) {
+        if (strain != nullptr && other.sample == experiment_.measurements[run].sample &&
+            runs_[k].time.order < runs_[run].time.order) {
             largest = std::accumulate(strain->values.begin(), strain->values.end(), largest,
                                       [](double a, double b) { return std::fmax(a, b); });
         }
@@ -44,81 +75,53 @@ double largest_strain_before(const Experiment& experiment, const std::vector<Run
     return largest;
 }
 
-std::vector<RunPlace> run_places(const Experiment& experiment, const std::vector<RunTime>& times) {
-    const auto& tables = experiment.measurements;
-    std::map<std::string, std::vector<std::size_t>> samples;
-    double rows = 0;
-    for (std::size_t run = 0; run < tables.size(); ++run) {
-        samples[tables[run].sample].push_back(run);
-        rows += static_cast<double>(tables[run].rows());
-    }
-    std::vector<RunPlace> places(tables.size());
-    double next = 0;
-    for (auto& [sample, runs] : samples) {
-        std::stable_sort(runs.begin(), runs.end(), [&](std::size_t a, std::size_t b) { return times[a].order < times[b].order; });
-        const double first = next;
-        for (const std::size_t run : runs) {
-            places[run] = {first / rows, next / rows, 1 / rows};
-            next += static_cast<double>(tables[run].rows());
-        }
-    }
-    return places;
-}
-
-RowsBefore rows_before(const Measurement& table, double largest_strain) {
-    RowsBefore before{std::vector<double>(table.rows()), std::vector<double>(table.rows())};
+/// Goes through the rows of a run in the order of time.
+/// @param place of its first row. @param step of the place from row to row.
+void ConditionsOfRows::follow_rows(std::size_t number, double place, double step) {
+    const Measurement& table = experiment_.measurements[number];
+    Run& run = runs_[number];
+    run.set_strains = set_strains(table);
+    run.places.resize(table.rows());
+    run.largest_strains.resize(table.rows());
+    double largest = largest_strain_before(number);
     double count = 0;
     for (const std::size_t row : rows_in_time(table)) {
-        largest_strain = std::fmax(largest_strain, cell(table, "strain", row));
-        before.count[row] = count++;
-        before.largest_strain[row] = largest_strain;
+        largest = std::fmax(largest, cell(table, "strain", row));
+        run.places[row] = place + count++ * step;
+        run.largest_strains[row] = largest;
     }
-    return before;
 }
 
-}  // namespace
-
-Runs runs_of(const Experiment& experiment) {
-    const std::vector<RunTime> times = run_times(experiment);
-    return {times, run_places(experiment, times)};
-}
-
-ConditionsOfRows::ConditionsOfRows(const Experiment& experiment, const Runs& runs, std::size_t run)
-    : experiment_(experiment),
-      table_(experiment.measurements[run]),
-      time_(runs.times[run]),
-      place_(runs.places[run]),
-      set_strains_(set_strains(table_)),
-      before_(rows_before(table_, largest_strain_before(experiment, runs.times, run))) {}
-
-RowConditions ConditionsOfRows::of(std::size_t row) const {
+RowConditions ConditionsOfRows::of(std::size_t number, std::size_t row) const {
+    const Measurement& table = experiment_.measurements[number];
+    const Run& run = runs_[number];
     const Instrument& instrument = experiment_.instrument;
-    const bool series = table_.kind == MeasurementKind::structure_series;
-    const bool under_cone = std::isfinite(table_.cone_angle);
-    const double gap = cell(table_, "gap", row);
-    const double radius = cell(table_, "plate_radius", row);
-    const double time = (series ? unset : time_in(table_, row)) + (time_.known ? time_.origin : unset);
-    return {.strain = cell(table_, "strain", row),
-            .set_strain = set_strains_[row],
-            .largest_strain = before_.largest_strain[row],
-            .angular_frequency = angular_frequency(table_, row),
+    const bool series = table.kind == MeasurementKind::structure_series;
+    const bool under_cone = std::isfinite(table.cone_angle);
+    const double gap = cell(table, "gap", row);
+    const double radius = cell(table, "plate_radius", row);
+    const double time = (series ? unset : time_in(table, row)) + (run.time.known ? run.time.origin : unset);
+    return {.strain = cell(table, "strain", row),
+            .set_strain = run.set_strains[row],
+            .largest_strain = run.largest_strains[row],
+            .angular_frequency = angular_frequency(table, row),
             .time = time,
-            .age = time - time_.sheared,
-            .place = place_.first + before_.count[row] * place_.per_row,
-            .sample_place = place_.sample,
+            .age = time - run.time.sheared,
+            .place = run.places[row],
+            .sample_place = run.sample_place,
             .gap = under_cone ? unset : (std::isnan(gap) ? instrument.gap : gap),
             .plate_radius = std::isnan(radius) ? instrument.plate_radius : radius,
-            .torque_per_modulus = tool_constants(instrument, gap, radius, table_.cone_angle).torque_per_modulus(),
-            .cone_angle = under_cone ? table_.cone_angle : instrument.cone_angle,
-            .normal_force = cell(table_, "normal_force", row),
-            .rough_plates = table_.rough_plates,
-            .solvent_trap = table_.solvent_trap,
-            .run = time_.order,
-            .fluid_viscosity = table_.fluid_viscosity,
-            .structures = series && !experiment_.structure_groups.empty() ? group_of(table_, row) : 0,
-            .heterogeneity = cell(table_, "heterogeneity", row),
-            .coordination = cell(table_, "coordination", row),
-            .volume_fraction = cell(table_, "volume_fraction", row)};
+            .torque_per_modulus = tool_constants(instrument, gap, radius, table.cone_angle).torque_per_modulus(),
+            .cone_angle = under_cone ? table.cone_angle : instrument.cone_angle,
+            .normal_force = cell(table, "normal_force", row),
+            .rough_plates = table.rough_plates,
+            .solvent_trap = table.solvent_trap,
+            .run = run.time.order,
+            .fluid_viscosity = table.fluid_viscosity,
+            .structures = series && !experiment_.structure_groups.empty() ? group_of(table, row) : 0,
+            .heterogeneity = cell(table, "heterogeneity", row),
+            .coordination = cell(table, "coordination", row),
+            .volume_fraction = cell(table, "volume_fraction", row)};
 }
 
 }  // namespace coagula::diagnose

@@ -37,42 +37,32 @@ struct RowConditions {
     double volume_fraction = unset;
 };
 
-/// Where the rows of a run are among those of all runs, 0 .. 1: one sample after the other, its runs in their order.
-struct RunPlace {
-    double sample = 0;  ///< place of the first row of the sample
-    double first = 0;   ///< place of the first row of the run
-    double per_row = 0;
-};
+/// Whether a table shows a response to shear.
+bool shows_shear(const Measurement& table);
 
-/// When and where the runs of an experiment were made.
-struct Runs {
-    std::vector<RunTime> times;
-    std::vector<RunPlace> places;
-};
-
-Runs runs_of(const Experiment& experiment);
-
-/// What came before each row of a table in the order of time.
-struct RowsBefore {
-    std::vector<double> count;           ///< number of rows of the table
-    std::vector<double> largest_strain;  ///< that of the row included
-};
-
-/// Conditions of the rows of a table.
+/// Conditions of the rows of the tables that show a response to shear.
 class ConditionsOfRows {
 public:
-    ConditionsOfRows(const Experiment& experiment, const Runs& runs, std::size_t run);
+    explicit ConditionsOfRows(const Experiment& experiment);
 
     /// Throws InputError when a structure series does not say which structures stand for the row.
-    RowConditions of(std::size_t row) const;
+    RowConditions of(std::size_t run, std::size_t row) const;
 
 private:
+    /// What the conditions of a row need besides its cells.
+    struct Run {
+        RunTime time;
+        double sample_place = 0;  ///< as in RowConditions
+        std::vector<double> places = {};
+        std::vector<double> set_strains = {};
+        std::vector<double> largest_strains = {};
+    };
+
+    double largest_strain_before(std::size_t run) const;
+    void follow_rows(std::size_t number, double place, double step);
+
     const Experiment& experiment_;
-    const Measurement& table_;
-    const RunTime& time_;
-    const RunPlace& place_;
-    std::vector<double> set_strains_;
-    RowsBefore before_;
+    std::vector<Run> runs_;
 };
 
 }  // namespace coagula::diagnose

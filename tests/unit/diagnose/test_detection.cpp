@@ -56,10 +56,10 @@ protected:
         return tables;
     }
 
-    std::vector<Failure> failures_along(Coordinate coordinate) const {
-        std::vector<Failure> failures = localise(inference_, base_, detection_);
-        std::erase_if(failures, [&](const Failure& failure) { return failure.axis != name_of(coordinate); });
-        return failures;
+    std::vector<Misfit> misfits_along(Coordinate coordinate) const {
+        std::vector<Misfit> misfits = localise(inference_, base_, detection_);
+        std::erase_if(misfits, [&](const Misfit& misfit) { return misfit.axis != name_of(coordinate); });
+        return misfits;
     }
 
 private:
@@ -79,13 +79,13 @@ TEST_F(Detected, AlongACoordinateAreTheTablesThatSweepIt) {
 
 /// Sorted by frequency, the rows of the amplitude sweep would be a dip at 10 rad/s.
 TEST_F(Detected, AFallAlongStrainIsNoneAlongFrequency) {
-    ASSERT_FALSE(failures_along(Coordinate::strain).empty());
-    const Failure fall = failures_along(Coordinate::strain).front();
+    ASSERT_FALSE(misfits_along(Coordinate::strain).empty());
+    const Misfit fall = misfits_along(Coordinate::strain).front();
     EXPECT_EQ(fall.observable, "storage_modulus");
-    EXPECT_FALSE(std::get<SmoothFailure>(fall.what).is_the_same);
-    EXPECT_LT(fall.departure, std::get<SmoothFailure>(fall.what).before);
-    for (const Failure& failure : failures_along(Coordinate::angular_frequency)) {
-        EXPECT_TRUE(std::get<SmoothFailure>(failure.what).is_the_same);
+    EXPECT_FALSE(std::get<SmoothMisfit>(fall.what).is_the_same);
+    EXPECT_LT(fall.departure, std::get<SmoothMisfit>(fall.what).before);
+    for (const Misfit& misfit : misfits_along(Coordinate::angular_frequency)) {
+        EXPECT_TRUE(std::get<SmoothMisfit>(misfit.what).is_the_same);
     }
 }
 
@@ -108,18 +108,18 @@ TEST(Localise, DeparturesAreFromTheModelAsFitted) {
     const Eigen::VectorXd fitted = inference.as_fitted(prediction);
     EXPECT_LT((errors.whiten(data.values - fitted) - errors.residual(prediction)).cwiseAbs().maxCoeff(), 1e-8);
 
-    std::vector<Failure> failures = localise(inference, base, detect(inference, base, {}, 1, 99));
-    std::erase_if(failures, [](const Failure& failure) { return failure.axis != "strain"; });
-    ASSERT_FALSE(failures.empty());
+    std::vector<Misfit> misfits = localise(inference, base, detect(inference, base, {}, 1, 99));
+    std::erase_if(misfits, [](const Misfit& misfit) { return misfit.axis != "strain"; });
+    ASSERT_FALSE(misfits.empty());
     double sum = 0;
     double count = 0;
     for (Index k = 0; k < data.size(); ++k) {
         const Observation& one = data.observations[static_cast<std::size_t>(k)];
         const double strain = experiment.measurements[one.measurement].columns[0].values[one.row];
-        sum += strain >= failures.front().from ? one.value / fitted[k] - 1 : 0;
-        count += strain >= failures.front().from ? 1 : 0;
+        sum += strain >= misfits.front().from ? one.value / fitted[k] - 1 : 0;
+        count += strain >= misfits.front().from ? 1 : 0;
     }
-    EXPECT_NEAR(failures.front().departure, sum / count, 1e-9);
+    EXPECT_NEAR(misfits.front().departure, sum / count, 1e-9);
 }
 
 }  // namespace

@@ -164,13 +164,13 @@ TEST(Diagnosis, FollowsTheScaleOfTheModuli) {
 
 TEST(Diagnosis, SaysThatADepartureIsTheSameAllAlong) {
     const Diagnosis found = diagnose_tables({frequency_sweep(std::vector<std::complex<double>>(16, {1e5, 4e3}), 3)});
-    ASSERT_FALSE(found.failures.empty());
-    const Failure& failure = found.failures.front();
-    EXPECT_EQ(failure.observable, "loss_modulus");
-    EXPECT_EQ(failure.axis, "angular_frequency");
-    const auto& course = std::get<SmoothFailure>(failure.what);
+    ASSERT_FALSE(found.misfits.empty());
+    const Misfit& misfit = found.misfits.front();
+    EXPECT_EQ(misfit.observable, "loss_modulus");
+    EXPECT_EQ(misfit.axis, "angular_frequency");
+    const auto& course = std::get<SmoothMisfit>(misfit.what);
     EXPECT_TRUE(course.is_the_same);
-    EXPECT_NEAR(0.5 * (course.before + failure.departure), 0.045, 0.0055);
+    EXPECT_NEAR(0.5 * (course.before + misfit.departure), 0.045, 0.0055);
 }
 
 /// Only an oil would tell a loss from an error of the phase that the catalogue does not have.
@@ -190,7 +190,7 @@ TEST(Diagnosis, FindsTheLossOfTheContacts) {
     const double half = 0.5 * (exponent.high - exponent.low);  // 1.6 standard deviations
     EXPECT_NEAR(0.5 * (exponent.low + exponent.high), 0.08, 2 * half);
     EXPECT_LT(half, 0.03);
-    EXPECT_FALSE(found.failures.empty());
+    EXPECT_FALSE(found.misfits.empty());
 }
 
 /// Under a cone, where the strain is the same everywhere.
@@ -216,9 +216,9 @@ TEST(Diagnosis, NamesTheStrengthOfTheBonds) {
     const EstimatedParameter& critical = found.causes.front().parameters[1];
     EXPECT_LT(critical.low, 3e-4);
     EXPECT_GT(critical.high, 3e-4);
-    ASSERT_FALSE(found.failures.empty());
-    EXPECT_TRUE(std::any_of(found.failures.begin(), found.failures.end(), [](const Failure& failure) {
-        return failure.axis == "strain" && failure.departure < std::get<SmoothFailure>(failure.what).before;
+    ASSERT_FALSE(found.misfits.empty());
+    EXPECT_TRUE(std::any_of(found.misfits.begin(), found.misfits.end(), [](const Misfit& misfit) {
+        return misfit.axis == "strain" && misfit.departure < std::get<SmoothMisfit>(misfit.what).before;
     }));
 
     // What one sample has shown foretells another.

@@ -200,10 +200,10 @@ TEST(HiddenEffects, ShearStiffnessIsInTheSetWhereTheNormalStiffnessIsKnown) {
     const Diagnosis found = diagnose(experiment, simulator(), options);
     EXPECT_TRUE(found.detected);
     EXPECT_TRUE(in_set(found, "shear-stiffness"));
-    ASSERT_FALSE(found.failures.empty());
-    EXPECT_EQ(found.failures.front().axis, "normal_stiffness");
-    EXPECT_GT(found.failures.front().from, 50);
-    const auto& level = std::get<LevelFailure>(found.failures.front().what);
+    ASSERT_FALSE(found.misfits.empty());
+    EXPECT_EQ(found.misfits.front().axis, "normal_stiffness");
+    EXPECT_GT(found.misfits.front().from, 50);
+    const auto& level = std::get<LevelMisfit>(found.misfits.front().what);
     EXPECT_EQ(level.known, 40);
     EXPECT_GT(level.score, 0);
     experiment.measurements = {frequency_sweep(springs(40), {}, 13)};
@@ -219,10 +219,10 @@ TEST(HiddenEffects, ASampleThatLiesApartIsSaidToDoSo) {
     }
     const Diagnosis found = diagnose_tables(sweeps);
     EXPECT_TRUE(found.detected);
-    ASSERT_FALSE(found.failures.empty());
-    EXPECT_EQ(found.failures.front().axis, "sample");
-    EXPECT_EQ(found.failures.front().from, 3);
-    EXPECT_EQ(std::get<SampleFailure>(found.failures.front().what).sample, "sample 3");
+    ASSERT_FALSE(found.misfits.empty());
+    EXPECT_EQ(found.misfits.front().axis, "sample");
+    EXPECT_EQ(found.misfits.front().from, 3);
+    EXPECT_EQ(std::get<SampleMisfit>(found.misfits.front().what).sample, "sample 3");
 }
 
 /// Inertia where the frequency is high, age where it is low and the sweep has lasted long.
@@ -307,8 +307,8 @@ TEST(HiddenEffects, ErrorsOfLocalisationAreNamed) {
     EXPECT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::named);
     EXPECT_EQ(found.credible_set, std::vector<std::string>{"localisation-error"});
-    ASSERT_FALSE(found.failures.empty());
-    EXPECT_EQ(found.failures.front().axis, "distance");
+    ASSERT_FALSE(found.misfits.empty());
+    EXPECT_EQ(found.misfits.front().axis, "distance");
     const Diagnosis nothing = diagnose_table(coordinates(0, 0, 0, 10));
     EXPECT_FALSE(nothing.detected);
 }

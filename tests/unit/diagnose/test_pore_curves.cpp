@@ -175,10 +175,10 @@ TEST(PoreCurves, ShowAnotherHeterogeneity) {
     options.radii = Eigen::VectorXd::Constant(300, 0.25e-6);
     const Diagnosis other = diagnose_by_recipe({pore_table(generators::expand_voids(options).packing)});
     EXPECT_TRUE(other.detected);
-    ASSERT_FALSE(other.failures.empty());
-    EXPECT_EQ(other.failures.front().axis, "pore_radius");
-    EXPECT_EQ(other.failures.front().observable, "exclusion_probability");
-    EXPECT_TRUE(std::holds_alternative<SmoothFailure>(other.failures.front().what));
+    ASSERT_FALSE(other.misfits.empty());
+    EXPECT_EQ(other.misfits.front().axis, "pore_radius");
+    EXPECT_EQ(other.misfits.front().observable, "exclusion_probability");
+    EXPECT_TRUE(std::holds_alternative<SmoothMisfit>(other.misfits.front().what));
 }
 
 }  // namespace

@@ -117,9 +117,9 @@ TEST(Polydispersity, TiesWithErrorsOfLocalisationUntilImagedTwice) {
     EXPECT_EQ(found.verdict, Verdict::tied);
     EXPECT_TRUE(in_set(found, "polydispersity"));
     EXPECT_TRUE(in_set(found, "localisation-error"));
-    for (const Failure& failure : found.failures) {
-        EXPECT_TRUE(std::isfinite(failure.departure));
-        EXPECT_FALSE(std::isnan(failure.log_bayes_factor)) << failure.axis;
+    for (const Misfit& misfit : found.misfits) {
+        EXPECT_TRUE(std::isfinite(misfit.departure));
+        EXPECT_FALSE(std::isnan(misfit.log_bayes_factor)) << misfit.axis;
     }
     ASSERT_EQ(found.proposals.size(), 1U);
     EXPECT_EQ(found.proposals.front().measurement, "images-again");

@@ -296,11 +296,11 @@ TEST(SolventDrag, IsPredictedAboutTheErrorsThatTheDataAskFor) {
     const ErrorModel noise(data);
     const Inference inference(forward, noise);
     const Prediction found = inference.prediction(model);
-    EXPECT_LT((found.errors.about - noise.effects(found)).norm(), 0.05);
+    EXPECT_LT((found.errors.linearised_at - noise.effects(found)).norm(), 0.05);
     const auto farthest = [&](const Eigen::VectorXd& predicted) {
         return ((predicted - data.values).array() / data.noise.deviation.array()).abs().maxCoeff();
     };
-    EXPECT_LT(farthest(forward.predict(model, found.errors.about)), 1);
+    EXPECT_LT(farthest(forward.predict(model, found.errors.linearised_at)), 1);
     const Eigen::VectorXd along_lines = noise.effects(forward.prediction(model));
     EXPECT_GT(farthest(forward.predict(model, along_lines)), 10);
 }

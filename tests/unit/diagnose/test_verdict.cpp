@@ -216,11 +216,11 @@ TEST(Verdict, StatesTheAngleOfAPhaseThatIsOff) {
     expect_consistent(found);
     EXPECT_EQ(kind_of(found), "tool along level");
     EXPECT_NEAR(std::abs(found.follows.largest), 0.06, 0.01);
-    ASSERT_FALSE(found.failures.empty());
-    for (const Failure& failure : found.failures) {
-        EXPECT_TRUE(std::isfinite(failure.departure)) << failure.axis;
-        if (const auto* course = std::get_if<SmoothFailure>(&failure.what)) {
-            EXPECT_TRUE(std::isfinite(course->before) && std::isfinite(failure.from)) << failure.axis;
+    ASSERT_FALSE(found.misfits.empty());
+    for (const Misfit& misfit : found.misfits) {
+        EXPECT_TRUE(std::isfinite(misfit.departure)) << misfit.axis;
+        if (const auto* course = std::get_if<SmoothMisfit>(&misfit.what)) {
+            EXPECT_TRUE(std::isfinite(course->before) && std::isfinite(misfit.from)) << misfit.axis;
         }
     }
 }

@@ -64,8 +64,8 @@ struct Cause {
 
 /// One way to fail that the test looked at.
 struct TestedStatistic {
-    std::string observable;  ///< as in Failure, or "all"
-    std::string axis;        ///< as in Failure, or "none"
+    std::string observable;  ///< as in Misfit, or "all"
+    std::string axis;        ///< as in Misfit, or "none"
     std::string measure;     ///< "chi-square", "smooth components" or "neighbours"
     double value = 0;
     double score = 0;  ///< standardised
@@ -100,8 +100,8 @@ struct Condition {
 };
 
 /// A smooth departure along a coordinate; differences of data and base model over the prediction, or as Observable::whole says.
-struct SmoothFailure {
-    double before = 0;           ///< mean difference up to Failure::from
+struct SmoothMisfit {
+    double before = 0;           ///< mean difference up to Misfit::from
     bool over_largest = false;   ///< differences are over the largest predicted modulus
     bool base_is_zero = false;   ///< the base model predicts nothing
     bool time_is_stated = true;  ///< tables state the times of these rows
@@ -109,31 +109,31 @@ struct SmoothFailure {
 };
 
 /// The level of the moduli asks for another stiffness or viscosity than the known one.
-struct LevelFailure {
+struct LevelMisfit {
     double known = 0;
     double score = 0;  ///< departure over its standard deviation
 };
 
 /// A sample departs as a whole.
-struct SampleFailure {
+struct SampleMisfit {
     std::string sample;
     double score = 0;  ///< departure over its standard deviation
 };
 
 /// Images of the same particles differ more than exact ones.
-struct ImageFailure {
+struct ImageMisfit {
     double value = 0;
     double score = 0;  ///< departure over its standard deviation
 };
 
 /// Where the base model fails.
-struct Failure {
+struct Misfit {
     std::string observable;       ///< key of the observable
     std::string axis;             ///< "strain", "angular_frequency", "time", "gap" ..., "normal_stiffness", "sample", "frame"
     double log_bayes_factor = 0;  ///< of a smooth departure along the axis against none
     double from = 0;  ///< value of the axis from which on it departs; stiffness that is asked for; number of the sample, from 1
     double departure = 0;  ///< mean relative difference of data and base model there
-    std::variant<SmoothFailure, LevelFailure, SampleFailure, ImageFailure> what = {};
+    std::variant<SmoothMisfit, LevelMisfit, SampleMisfit, ImageMisfit> what = {};
 };
 
 /// Values of a coordinate.
@@ -222,7 +222,7 @@ struct Diagnosis {
     Follows follows;                        ///< where something was detected
     std::vector<FollowedKind> kinds;        ///< of departure, most probable first
     std::vector<Condition> conditions;      ///< of the name of the best cause
-    std::vector<Failure> failures;          ///< strongest first
+    std::vector<Misfit> misfits;            ///< strongest first
     double extended_p_value = 1;            ///< of the test, applied to the best cause
     Remainder remainder;                    ///< that the best cause leaves over
     bool level_alone = false;               ///< a departure of the level of the moduli alone says as much as the best cause

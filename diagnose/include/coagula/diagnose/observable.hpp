@@ -16,7 +16,7 @@ struct Observable {
     std::string_view whole;   ///< what the number is a share of; empty: it is no share
 };
 
-/// Also |G*| and the phase, which replicates compare in place of moduli. Null when there is none of this key.
+/// Null when there is none of this key. |G*| and the phase, which replicates compare in place of moduli, have one, too.
 const Observable* find_observable(std::string_view key);
 
 /// Throws std::out_of_range when there is none of this key.
