@@ -2,6 +2,7 @@
 #include <coagula/common/cholesky_factor.hpp>
 
 #include <cholmod.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -43,6 +44,18 @@ public:
 
 private:
     cholmod_common common_{};
+};
+
+/// Keeps CHOLMOD from starting threads of its own, always four, which wait for each other by spinning; those of BLAS remain.
+class NoInnerThreads {
+public:
+    NoInnerThreads() { omp_set_max_active_levels(0); }
+    ~NoInnerThreads() { omp_set_max_active_levels(before_); }
+    NoInnerThreads(const NoInnerThreads&) = delete;
+    NoInnerThreads& operator=(const NoInnerThreads&) = delete;
+
+private:
+    int before_ = omp_get_max_active_levels();
 };
 
 struct SparseDeleter {
@@ -142,7 +155,10 @@ CholeskyFactor::CholeskyFactor(const Eigen::SparseMatrix<double>& lower, const E
     auto permutation = order.permutation();
     implementation_->factor = Factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, common), {&common});
     common.check("analysing the stiffness matrix");
-    cholmod_factorize(&matrix, implementation_->factor.get(), common);
+    {
+        const NoInnerThreads calm;
+        cholmod_factorize(&matrix, implementation_->factor.get(), common);
+    }
     common.check("factorising the stiffness matrix");
 }
 

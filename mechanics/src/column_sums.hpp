@@ -5,7 +5,10 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
 #include <type_traits>
+#include <vector>
 
 namespace coagula::mechanics {
 
@@ -50,6 +53,43 @@ void scale_and_add(SixColumns<Value>& a, const std::type_identity_t<SixValues<Va
 #pragma omp parallel for schedule(static)
     for (Eigen::Index row = 0; row < a.rows(); ++row) {
         a.row(row).array() = b.row(row).array() + a.row(row).array() * factor;
+    }
+}
+
+using SixBySix = Eigen::Matrix<double, 6, 6>;
+
+/// a^T b; in fixed pieces.
+inline SixBySix products(const SixColumns<double>& a, const SixColumns<double>& b) {
+    constexpr Eigen::Index piece = 4096;
+    const Eigen::Index pieces = (a.rows() + piece - 1) / piece;
+    std::vector<SixBySix> part(static_cast<std::size_t>(pieces));
+#pragma omp parallel for schedule(static)
+    for (Eigen::Index k = 0; k < pieces; ++k) {
+        const Eigen::Index rows = std::min(piece, a.rows() - k * piece);
+        SixBySix sum = SixBySix::Zero();
+        for (Eigen::Index row = k * piece; row < k * piece + rows; ++row) {
+            sum.noalias() += a.row(row).transpose() * b.row(row);
+        }
+        part[static_cast<std::size_t>(k)] = sum;
+    }
+    return std::accumulate(part.begin(), part.end(), SixBySix(SixBySix::Zero()));
+}
+
+/// a += b * factor.
+inline void add_product(SixColumns<double>& a, const SixColumns<double>& b, const SixBySix& factor) {
+#pragma omp parallel for schedule(static)
+    for (Eigen::Index row = 0; row < a.rows(); ++row) {
+        a.row(row).noalias() += b.row(row) * factor;
+    }
+}
+
+/// a = b * kept + a * factor.
+inline void replace_by_sum(SixColumns<double>& a, const SixBySix& factor, const SixColumns<double>& b,
+                           const SixValues<double>& kept) {
+#pragma omp parallel for schedule(static)
+    for (Eigen::Index row = 0; row < a.rows(); ++row) {
+        const SixValues<double> sum = b.row(row).array() * kept + (a.row(row) * factor).array();
+        a.row(row) = sum.matrix();
     }
 }
 

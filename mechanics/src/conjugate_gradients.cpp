@@ -2,6 +2,9 @@
 #include "conjugate_gradients.hpp"
 
 #include "column_sums.hpp"
+#include "resisted_strains.hpp"
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -14,19 +17,35 @@ namespace coagula::mechanics {
 namespace {
 
 using Row = SixValues<double>;
+using Columns = Eigen::Array<bool, 1, 6>;
 
 constexpr double rounding = 1e-13;
-constexpr std::size_t delay = 20;  // iterations whose gain estimates the error before them
+constexpr double dependent = 1e-10;  // share of energy below which a direction is a combination of the others
+constexpr std::size_t delay = 10;    // iterations whose gain estimates the error before them
 
-/// Quotient where the column is still being solved, zero where it has ended.
-Row quotient(const Row& numerator, const Row& denominator, const Eigen::Array<bool, 1, 6>& open) {
-    return (open && denominator > 0).select(numerator / denominator, 0.0);
+/// Pseudo-inverse of P^T K P. Directions that depend on each other count once; those without positive energy (of rounding errors,
+/// or where K is not positive definite) do not count.
+Block inverse_energies(const Block& energies) {
+    const Eigen::Matrix<double, 6, 1> scale =
+        energies.diagonal().unaryExpr([](double energy) { return energy > 0 ? 1 / std::sqrt(energy) : 0.0; });
+    const Eigen::SelfAdjointEigenSolver<Block> modes(scale.asDiagonal() * energies * scale.asDiagonal());
+    const Eigen::Matrix<double, 6, 1> inverse =
+        modes.eigenvalues().unaryExpr([](double value) { return value > dependent ? 1 / value : 0.0; });
+    return scale.asDiagonal() * modes.eigenvectors() * inverse.asDiagonal() * modes.eigenvectors().transpose() * scale.asDiagonal();
 }
 
-/// Gains of energy of the last iterations.
+/// `factor` with the columns that have ended set to zero.
+Block only(const Block& factor, const Columns& open) {
+    return factor * open.cast<double>().matrix().asDiagonal();
+}
+
+/// Estimates the error of the energy, per column and relative to the energy that is left, from what the last iterations gained.
 class EnergyError {
 public:
-    void add(const Row& gain) {
+    explicit EnergyError(const Row& affine_energy) : affine_energy_(affine_energy) {}
+
+    /// @param open the columns that are being solved: the others keep their estimate.
+    void add(const Row& gain, const Columns& open) {
         recent_.push_back(gain);
         sum_ += gain;
         total_ += gain;
@@ -34,19 +53,20 @@ public:
             sum_ -= recent_.front();
             recent_.pop_front();
         }
+        const Row left = (affine_energy_ - total_).max(rounding_modulus * affine_energy_).max(1e-300);
+        const Columns settled = gain > 0 && gain <= rounding * left;
+        const Row before_delay = settled.select(gain / left, std::numeric_limits<double>::infinity());
+        estimate_ = (open && gain > 0).select(recent_.size() < delay ? before_delay : sum_.max(0.0) / left, estimate_);
     }
-    /// Relative to the energy left, per column; infinite until enough iterations have passed.
-    Row estimate(const Row& affine_energy) const {
-        if (recent_.size() < delay) {
-            return Row::Constant(std::numeric_limits<double>::infinity());
-        }
-        return sum_.max(0.0) / (affine_energy - total_).max(1e-300);
-    }
+    /// Infinite until enough iterations have passed, or one has gained no more than rounding errors.
+    const Row& estimate() const { return estimate_; }
 
 private:
+    Row affine_energy_;
     std::deque<Row> recent_;
     Row sum_ = Row::Zero();
     Row total_ = Row::Zero();
+    Row estimate_ = Row::Constant(std::numeric_limits<double>::infinity());
 };
 
 }  // namespace
@@ -58,40 +78,42 @@ Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eige
     const Row plain_norm = dot(f, f).sqrt();
     // Loads that symmetry cancels down to rounding errors are no loads.
     const Row norm = (plain_norm > rounding * affine.sqrt()).select(plain_norm, 0.0);
+    Columns open = norm > 0;
     Solution solution;
     Loads& x = solution.motion;
     x = Loads::Zero(f.rows(), 6);
-    Loads r = f;
+    Loads r = f * open.cast<double>().matrix().asDiagonal();
     Loads z;
     precondition(r, z);
-    Loads d = z;
+    Loads p = z;
     Loads q;
-    Row rz = dot(r, z);
-    EnergyError error;
-    Eigen::Array<bool, 1, 6> open = norm > 0;
+    EnergyError error(affine);
     while (open.any() && solution.iterations < rule.most_iterations) {
-        multiply(full, d, q);
-        const Row alpha = quotient(rz, dot(d, q), open);
-        add_scaled(x, d, alpha);
-        add_scaled(r, q, -alpha);
+        multiply(full, p, q);
+        const Block inverse = inverse_energies(products(p, q));
+        const Block work = products(p, r);
+        const Block alpha = only(inverse * work, open);
+        add_product(x, p, alpha);
+        add_product(r, q, -alpha);
         ++solution.iterations;
-        error.add(alpha * rz);
+        const Row gain = alpha.cwiseProduct(work).colwise().sum().array();
+        error.add(gain, open);
         const Row residual = (norm > 0).select(dot(r, r).sqrt() / norm, 0.0);
-        open = open && residual > rule.residual && error.estimate(affine) > rule.energy && alpha > 0;
+        open = open && residual > rule.residual && error.estimate() > rule.energy && gain > 0;
         progress.update("solving", 0.5, "residual " + std::to_string(std::log10(residual.maxCoeff())).substr(0, 5) + " (log10)");
         if (open.any()) {
             precondition(r, z);
-            const Row next = dot(r, z);
-            scale_and_add(d, quotient(next, rz, open), z);
-            rz = next;
+            replace_by_sum(p, only(-inverse * products(q, z), open), z, open.cast<double>());
         }
     }
     multiply(full, x, q);
     q = f - q;
-    const Row residual = (norm > 0).select(dot(q, q).sqrt() / norm, 0.0);
+    const Columns loaded = norm > 0;
+    const Row residual = loaded.select(dot(q, q).sqrt() / norm, 0.0);
+    const Row energy_error = loaded.select(error.estimate(), 0.0);
     solution.residual = residual.maxCoeff();
-    solution.energy_error = error.estimate(affine).maxCoeff();
-    solution.converged = (residual <= 2 * rule.residual || error.estimate(affine) <= rule.energy).all();
+    solution.energy_error = energy_error.maxCoeff();
+    solution.converged = (residual <= 2 * rule.residual || energy_error <= rule.energy).all();
     return solution;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Preconditioned conjugate gradients for six loads at once, each with its own coefficients and its own end.
+// Preconditioned conjugate gradients for six loads at once: each load is solved in the space that all six have reached together,
+// and ends by itself.
 #pragma once
 
 #include "stiffness.hpp"
@@ -26,7 +27,8 @@ struct Solution {
     bool converged = false;
 };
 
-/// Solves K x = f.
+/// Solves K x = f by the block method (O'Leary, Linear Algebra Appl. 29, 293, 1980), which needs fewer products with K than one
+/// load after the other.
 /// The estimate of the energy error is that of Hestenes and Stiefel (1952): what the last `delay` iterations gained.
 /// @param affine_energy f-independent part of each column's energy: what is left is affine_energy - f x.
 Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,

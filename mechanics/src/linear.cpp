@@ -157,7 +157,8 @@ LinearResponse solve_linear(const Packing& packing, const ContactNetwork& bonds,
     check(packing, bonds, options);
     const Springs springs = springs_of(bonds, options);
     const bool periodic = options.held.empty();
-    const LoadBearing kept = find_load_bearing(bonds, options.held, springs.moments);
+    LoadBearing kept = find_load_bearing(bonds, options.held, springs.moments);
+    sort_along_curve(kept, bonds, packing);
     const auto held = std::count(options.held.begin(), options.held.end(), true);
 
     LinearResponse response;

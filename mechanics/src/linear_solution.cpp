@@ -15,7 +15,7 @@ namespace coagula::mechanics {
 namespace {
 
 constexpr double floppy_threshold = 1e-6;   // pivots below this, in contact stiffnesses, have no stiffness
-constexpr int direct_blas_threads = 2;      // fixed: the bits of a factor depend on it
+constexpr int direct_blas_threads = 1;      // more wait for each other by spinning, and the bits of a factor depend on it
 constexpr int most_direct_iterations = 60;  // a good shift needs fewer than ten
 constexpr int most_schwarz_iterations = 2000;
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <deque>
+#include <utility>
 
 namespace coagula::mechanics {
 
@@ -13,6 +15,9 @@ namespace {
 
 /// Sine of the angle between two links above which they certainly do not lie on one line.
 constexpr double certainly_bent = 1e-3;
+
+/// Particles whose stiffness matrix, about 1.7 kB each, does not fit the cache.
+constexpr std::size_t large_network = 6000;
 
 /// Bonds of a network while some of them are being removed.
 class Pruner {
@@ -128,12 +133,46 @@ private:
     std::deque<Index> queue_;
 };
 
+/// Place on the Morton curve through 1024^3 boxes: the bits of the three coordinates in turn.
+std::uint32_t morton_number(const Eigen::Vector3d& fraction) {
+    std::uint32_t number = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const auto box = static_cast<std::uint32_t>(std::clamp(1024 * fraction[axis], 0.0, 1023.0));
+        for (unsigned bit = 0; bit < 10; ++bit) {
+            number |= ((box >> bit) & 1U) << (3 * bit + axis);
+        }
+    }
+    return number;
+}
+
 }  // namespace
 
 LoadBearing find_load_bearing(const ContactNetwork& network, const std::vector<bool>& held, bool moments) {
     Pruner pruner(network, held, moments);
     pruner.run();
     return pruner.result();
+}
+
+void sort_along_curve(LoadBearing& kept, const ContactNetwork& network, const Packing& packing) {
+    if (kept.particle.size() < large_network) {
+        return;
+    }
+    std::vector<std::pair<std::uint32_t, Index>> order;
+    order.reserve(kept.particle.size());
+    for (const Index particle : kept.particle) {
+        order.emplace_back(morton_number(packing.cell.fraction(packing.cell.wrap(packing.positions.col(particle)))), particle);
+    }
+    std::sort(order.begin(), order.end());
+    for (std::size_t place = 0; place < order.size(); ++place) {
+        kept.particle[place] = order[place].second;
+        kept.number[static_cast<std::size_t>(order[place].second)] = static_cast<Index>(place);
+    }
+    const auto ends = [&](Index bond) {
+        const Index first = kept.number[static_cast<std::size_t>(network.ends(0, bond))];
+        const Index second = kept.number[static_cast<std::size_t>(network.ends(1, bond))];
+        return std::pair(std::min(first, second), std::max(first, second));
+    };
+    std::sort(kept.bond.begin(), kept.bond.end(), [&](Index a, Index b) { return std::pair(ends(a), a) < std::pair(ends(b), b); });
 }
 
 }  // namespace coagula::mechanics

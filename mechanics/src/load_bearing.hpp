@@ -3,6 +3,7 @@
 #pragma once
 
 #include <coagula/common/contact_network.hpp>
+#include <coagula/common/packing.hpp>
 
 #include <vector>
 
@@ -21,5 +22,10 @@ struct LoadBearing {
 /// @param moments whether bonds resist bending or twisting.
 /// @param held N flags, or empty: particles fixed to the boundary, which are never removed and get no number.
 LoadBearing find_load_bearing(const ContactNetwork& network, const std::vector<bool>& held = {}, bool moments = false);
+
+/// Numbers the particles and lists the bonds along a space-filling (Morton) curve, so that neighbours in space are near in memory:
+/// a product with the stiffness matrix of a large network waits for memory and for nothing else. Small networks fit the processor's
+/// cache and keep their order.
+void sort_along_curve(LoadBearing& kept, const ContactNetwork& network, const Packing& packing);
 
 }  // namespace coagula::mechanics

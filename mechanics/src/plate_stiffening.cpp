@@ -58,7 +58,8 @@ Eigen::Matrix<double, 6, 1> moduli(const Packing& packing, const ContactNetwork&
     between.plate_layers = plate_layers;
     const MountedSample mounted = mount(packing, bonds, between, {normal, (normal + 1) % 3});
     const std::vector<ContactTangent> tangents = repeated(periodic.bond_tangents, mounted.bond_origin);
-    const LoadBearing kept = find_load_bearing(mounted.bonds, held_in(mounted), resist_moments(tangents));
+    LoadBearing kept = find_load_bearing(mounted.bonds, held_in(mounted), resist_moments(tangents));
+    sort_along_curve(kept, mounted.bonds, mounted.packing);
     LinearNetwork network(mounted.packing, mounted.bonds, kept, tangents, periodic.contact_normal_stiffness);
     network.strain(strained_parts(mounted, normal));
     Loads motion = Loads::Zero(6 * network.particles(), 6);

@@ -22,59 +22,33 @@ SinglePrecisionFactor::SinglePrecisionFactor(const BlockMatrix& upper, double sh
     values_.shrink_to_fit();
 }
 
-void SinglePrecisionFactor::forward(std::vector<Row>& x) const {
-    for (const Supernode& node : supernodes_) {
-        const float* value = values_.data() + node.values_start;
-        Row* own = x.data() + node.first_column;
-        for (int row = 0; row < node.columns; ++row, value += node.columns) {
-            Row sum = own[row];
-            for (int column = 0; column < row; ++column) {
-                sum -= value[column] * own[column];
-            }
-            own[row] = sum * value[row];
-        }
-        for (int row = 0; row < node.rows; ++row, value += node.columns) {
-            Row sum = Row::Zero();
-            for (int column = 0; column < node.columns; ++column) {
-                sum += value[column] * own[column];
-            }
-            x[static_cast<std::size_t>(rows_[node.rows_start + static_cast<std::size_t>(row)])] -= sum;
-        }
-    }
-}
-
-void SinglePrecisionFactor::backward(std::vector<Row>& x) const {
-    for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
-        const auto columns = static_cast<std::size_t>(node->columns);
-        const float* diagonal = values_.data() + node->values_start;
-        const float* below = diagonal + columns * columns;
-        Row* own = x.data() + node->first_column;
-        for (int row = 0; row < node->rows; ++row, below += columns) {
-            const Row other = x[static_cast<std::size_t>(rows_[node->rows_start + static_cast<std::size_t>(row)])];
-            for (std::size_t column = 0; column < columns; ++column) {
-                own[column] -= below[column] * other;
-            }
-        }
-        for (std::size_t row = columns; row-- > 0;) {
-            const float* value = diagonal + row * columns;
-            own[row] *= value[row];
-            for (std::size_t column = 0; column < row; ++column) {
-                own[column] -= value[column] * own[row];
-            }
-        }
-    }
+SupernodeValues SinglePrecisionFactor::values_of(const Supernode& node) const {
+    const float* diagonal = values_.data() + node.values_start;
+    return {.diagonal = diagonal,
+            .below = diagonal + static_cast<std::size_t>(node.columns) * static_cast<std::size_t>(node.columns),
+            .columns = node.columns,
+            .rows = node.rows,
+            .row = rows_.data() + node.rows_start};
 }
 
 void SinglePrecisionFactor::solve(const Loads& b, Loads& x) const {
-    std::vector<Row> work(permutation_.size(), Row::Zero());
+    std::vector<PaddedRow> work(permutation_.size());
     for (std::size_t k = 0; k < work.size(); ++k) {
-        work[k].head<6>() = b.row(permutation_[k]).transpose().cast<float>().array();
+        for (int column = 0; column < 6; ++column) {
+            work[k].value[column] = static_cast<float>(b(permutation_[k], column));
+        }
     }
-    forward(work);
-    backward(work);
+    for (const Supernode& node : supernodes_) {
+        solve_forward(values_of(node), work.data() + node.first_column, work.data());
+    }
+    for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
+        solve_backward(values_of(*node), work.data() + node->first_column, work.data());
+    }
     x.resize(b.rows(), 6);
     for (std::size_t k = 0; k < work.size(); ++k) {
-        x.row(permutation_[k]) = work[k].head<6>().cast<double>().matrix().transpose();
+        for (int column = 0; column < 6; ++column) {
+            x(permutation_[k], column) = static_cast<double>(work[k].value[column]);
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 // would contend for OpenBLAS's buffers when many small factors are used by several threads at once.
 #pragma once
 
+#include "six_column_kernels.hpp"
 #include "stiffness.hpp"
 
 #include <coagula/common/cholesky_factor.hpp>
@@ -22,8 +23,6 @@ public:
     void solve(const Loads& b, Loads& x) const;
 
 private:
-    using Row = Eigen::Array<float, 8, 1>;  // six loads, padded to whole vector registers
-
     struct Supernode {
         int first_column;
         int columns;
@@ -32,8 +31,7 @@ private:
         std::size_t values_start;  ///< diagonal block (columns x columns), then the rows below, each row contiguous
     };
 
-    void forward(std::vector<Row>& x) const;
-    void backward(std::vector<Row>& x) const;
+    SupernodeValues values_of(const Supernode& node) const;
 
     std::vector<int> permutation_;
     std::vector<Supernode> supernodes_;

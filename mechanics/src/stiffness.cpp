@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stiffness.hpp"
 
+#include "six_column_kernels.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -290,16 +292,12 @@ BlockMatrix both_triangles(const BlockMatrix& upper) {
 }
 
 void multiply(const BlockMatrix& full, const Loads& x, Loads& y) {
-    const Index rows = full.rows();
     y.resize(x.rows(), 6);
 #pragma omp parallel for schedule(static)
-    for (Index row = 0; row < rows; ++row) {
-        Eigen::Matrix<double, 6, 6, Eigen::RowMajor> sum = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>::Zero();
-        for (Index k = full.start[static_cast<std::size_t>(row)]; k < full.start[static_cast<std::size_t>(row) + 1]; ++k) {
-            sum.noalias() +=
-                full.block[static_cast<std::size_t>(k)] * x.middleRows<6>(6 * full.column[static_cast<std::size_t>(k)]);
-        }
-        y.middleRows<6>(6 * row) = sum;
+    for (Index row = 0; row < full.rows(); ++row) {
+        const auto begin = static_cast<std::size_t>(full.start[static_cast<std::size_t>(row)]);
+        const auto end = static_cast<std::size_t>(full.start[static_cast<std::size_t>(row) + 1]);
+        multiply_row(full.block[begin].data(), full.column.data() + begin, end - begin, x.data(), y.data() + 36 * row);
     }
 }
 

@@ -87,7 +87,7 @@ TEST(Linear, IterativeAndDirectSolversAgree) {
     const auto iterative = solve_linear(packing, bonds, options);
     ASSERT_GT(direct.mean_shear_modulus(), 0);
     EXPECT_EQ(iterative.solver_used, LinearSolver::iterative);
-    EXPECT_GT(iterative.iterations, 5);
+    EXPECT_GT(iterative.iterations, 3);
     EXPECT_LT((iterative.elastic_tensor - direct.elastic_tensor).norm(), 1e-6 * direct.elastic_tensor.norm());
 }
 
