@@ -26,7 +26,7 @@ struct Frame {
 /// @param panels beside each other in the picture.
 Frame frame_of(const PictureSize& size, std::size_t panels);
 
-/// Of numbers and legends [pt].
+/// Font size of numbers and legends [pt].
 double small_font(const PictureSize& size);
 
 /// The name of a series, its middle left out where it is too long for the frame.

@@ -21,7 +21,7 @@ public:
     /// @param ages whether it varies with its age, too.
     SmoothMaterial(const std::vector<Observation>& observations, bool ages);
 
-    /// By the coefficients: nothing without them.
+    /// Moduli as the coefficients change them: without these there are none.
     UncertainModuli moduli() const;
 
     /// Where a fit begins: what meets the data best if the instrument shows the material as it is.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int phases_of_quarter = 24;
 
-/// Of the same momentary strain, up to the sign, in every quarter of an oscillation.
+/// Phases of the same momentary strain, up to the sign, in every quarter of an oscillation.
 struct Phases {
     double sine;
     std::array<std::complex<double>, 4> first;  ///< what a stress at the phase adds to G*, times the sign of the strain

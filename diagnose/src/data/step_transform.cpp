@@ -98,8 +98,7 @@ struct RelativeErrors {
     double of_conversion;         ///< size of what else may be wrong
 };
 
-/// Of the errors of two rows with each other, over their deviations: those of the conversion go together, what is not known of
-/// either row does not.
+/// Correlation of the errors of two rows: those of the conversion go together, what is not known of either row does not.
 double correlation_of(const RelativeErrors& one, const RelativeErrors& other) {
     const auto size = [](const RelativeErrors& errors) {
         return std::hypot(errors.of_scatter.norm(), errors.of_conversion, std::sqrt(2.0) * known);

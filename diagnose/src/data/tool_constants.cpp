@@ -60,7 +60,7 @@ struct PolarModulus {
     const char* divisor = "";  ///< column without which there is no size where it is 0
 };
 
-/// By torque and deflection; empty functions where something is missing.
+/// Modulus from torque and deflection; its functions are empty where something is missing.
 PolarModulus by_torque(const Measurement& table, const Instrument& instrument) {
     const char* phase = has(table, "raw_phase") ? "raw_phase" : "phase";
     if (!has(table, "torque") || !has(table, "deflection") || !has(table, phase)) {

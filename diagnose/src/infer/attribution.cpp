@@ -16,8 +16,8 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr std::size_t most_pairs = 4;
-/// p-value of the best cause from which on pairs are not tried, and few causes beside a remainder.
-constexpr double with_ease = 0.2;
+/// A best cause with a larger p-value easily passes: pairs are not tried, and few causes beside a remainder.
+constexpr double easily_passes = 0.2;
 constexpr std::size_t most_with_remainder = 6;
 constexpr std::size_t few_with_remainder = 2;
 
@@ -28,8 +28,8 @@ std::size_t heaviest_cause(const std::vector<Compared>& all, const Weight& weigh
     return static_cast<std::size_t>(best - all.begin());
 }
 
-/// Of the base model, and of those causes that explain most, alone or beside the remainder that the base model has: a cause may
-/// hide behind one that makes a part of what is left over. @param most of each kind.
+/// Finds the remainder of the base model, and of the causes that explain most, alone or beside the remainder that the base
+/// model has: a cause may hide behind one that makes a part of what is left over. @param most of each kind.
 void find_remainders(const Inference& inference, std::size_t most, std::vector<Compared>& all) {
     const SmoothDepartures departures = smooth_departures(inference.errors().data().observations);
     all.front().remainder = find_remainder(inference, all.front().fit, departures);
@@ -51,7 +51,7 @@ void find_remainders(const Inference& inference, std::size_t most, std::vector<C
     }
 }
 
-/// Those towards which the data depart from a cause most.
+/// Causes towards which the data depart most from the best one.
 Hypothesis partners_of(const Detection& left, const Hypothesis& possible, std::size_t most) {
     Hypothesis partners;
     for (const MisfitStatistic& statistic : left.statistics) {
@@ -157,7 +157,7 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
         progress.update("attributing", 0.8, "pairs");
         all.push_back({inference.fit({one, other}), priors.pair});
     };
-    if (rest.p_value < with_ease) {
+    if (rest.p_value < easily_passes) {
         for (const Mechanism* partner : partners_of(rest, possible, effort == Effort::whole ? most_pairs : 1)) {
             add_pair(all[best].fit.hypothesis.front(), partner);
         }
@@ -179,7 +179,7 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
         }
     }
     if (effort == Effort::whole) {
-        find_remainders(inference, rest.p_value < with_ease ? most_with_remainder : few_with_remainder, all);
+        find_remainders(inference, rest.p_value < easily_passes ? most_with_remainder : few_with_remainder, all);
         comparison.forms = free_forms(inference, base);
     }
     comparison.winner = heaviest_cause(all, [&](const Compared& one) { return one.log_total(priors); });

@@ -5,7 +5,7 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-/// Of what fills R + e where R is stated, the torque is that of another radius.
+/// Where the sample fills R + e and R is stated, the torque is that of another radius.
 std::complex<double> filled(std::complex<double> modulus, const Observation& row, Values values) {
     const double power = std::isfinite(row.cone_angle) ? 3 : 4;
     return std::isfinite(row.plate_radius) ? modulus * std::pow(1 + values[0] / row.plate_radius, power) : modulus;

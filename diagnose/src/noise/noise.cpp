@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/noise.hpp>
 
-#include "minimum.hpp"
+#include "quasi_newton.hpp"
 #include "restricted_likelihood.hpp"
 
 #include <algorithm>
@@ -202,7 +202,7 @@ std::vector<Eigen::VectorXd> standardised_residuals(const Replicates& replicates
     return rows;
 }
 
-/// Of residuals that follow each other within a table.
+/// Correlation of residuals that follow each other within a table.
 double lag_one(const std::vector<Eigen::VectorXd>& rows) {
     double product = 0;
     double square = 0;
@@ -247,7 +247,7 @@ std::string count_text(std::size_t count, const std::string& noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-/// Those of the conditions that have replicates.
+/// Selects the values of the conditions that have replicates.
 Eigen::VectorXd where_replicated(const Replicates& replicates, const Eigen::VectorXd& all) {
     std::vector<double> chosen;
     for (Eigen::Index row = 0; row < replicates.values.rows(); ++row) {

@@ -143,7 +143,7 @@ struct Sizes {
         }
     }
 
-    /// Of a single size about the middle of its neighbours; NaN where there are too few.
+    /// Deviation of a single size about the middle of its neighbours; NaN where there are too few.
     double deviation() const {
         std::vector<double> bends;
         for (std::size_t k = 1; k + 1 < values.size(); ++k) {

@@ -85,7 +85,7 @@ RowErrors errors_by(const NoiseModel* model, const std::vector<NoiseModel>& nois
     return errors;
 }
 
-/// Of one modulus from those of torque and phase, by the phase of each row.
+/// Errors of one modulus from those of torque and phase, by the phase of each row.
 std::vector<double> errors_of_part(const Measurement& table, const Column& column, const RowErrors& torque,
                                    const RowErrors& phase) {
     std::vector<double> errors;

@@ -37,7 +37,8 @@ struct NeighbourShells {
     double mutual = 0;  ///< share of the neighbours that are centres, too
 };
 
-/// Of measured coordinates: particles farther than the reach of the shells from the faces of the box around all are the centres.
+/// Neighbours in measured coordinates: the centres are particles farther than the reach of the shells from the faces of the box
+/// around all.
 /// @param positions 3 x N [m].
 NeighbourShells shells_of_points(const Eigen::Matrix3Xd& positions, double diameter);
 
@@ -55,9 +56,10 @@ std::vector<ShellGroup> groups_of_shells(const std::vector<double>& variances);
 /// J. 303 (1986) 336, eq. 7), since a count of none tells little about its mean.
 double error_of_count(double variance);
 
-/// Of a periodic structure whose particles are found with errors: independent normal ones with these standard deviations in the
-/// plane and along z [m], drawn from a fixed seed, several times where the structure is small. Each of its axes is z in turn: no
-/// direction of a structure is another than the others. Packings too small for the reach are refused by std::invalid_argument.
+/// Mean numbers of neighbours in a periodic structure whose particles are found with errors: independent normal ones with these
+/// standard deviations in the plane and along z [m], drawn from a fixed seed, several times where the structure is small. Each of
+/// its axes is z in turn: no direction of a structure is another than the others. Packings too small for the reach are refused by
+/// std::invalid_argument.
 std::vector<double> shells_of_structure(const Packing& packing, double sigma_plane, double sigma_axis);
 
 /// How the neighbours of the particles of a periodic structure vary, mean of its three axes: their mean number in each shell, then,

@@ -24,10 +24,12 @@ using Complex = std::complex<double>;
 
 /// Nodes of the strength curve: amplitude over critical strain.
 const std::vector<double> loads{1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 16, 32};
-/// Of freedom, for the scale of the errors, that one more structure adds: what breaks at once is so uneven that a curve counts for
-/// no more (sets of 2, 4 and 8 of 32 structures of 400 particles against the others, with errors independent from node to node).
+/// Degrees of freedom, for the scale of the errors, that one more structure adds: what breaks at once is so uneven that a curve
+/// counts for no more (sets of 2, 4 and 8 of 32 structures of 400 particles against the others, with errors independent from node
+/// to node).
 constexpr double degrees_of_structure = 3;
-/// Of the explicit runs: what a run of this rate loses without breaking is taken off, but it must not shake bonds apart.
+/// Settings of the explicit runs: what a run of this rate loses without breaking is taken off, but it must not shake bonds
+/// apart.
 constexpr int steps_per_oscillation = 6000;
 constexpr double damping = 0.7;
 ContactModel breaking_model(double ratio, double strength) {

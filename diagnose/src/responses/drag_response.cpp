@@ -116,7 +116,7 @@ struct DragExcess {
     double degrees;
 };
 
-/// By how much the logarithm of the drag exceeds that of the mean over a group, at the nodes.
+/// How much the logarithm of the drag exceeds that of the mean over a group, at the nodes.
 const DragExcess& drag_excess_of(Simulator& simulator, std::size_t group) {
     return simulator.remembered({"scatter of drag", group}, [&]() -> DragExcess {
         Eigen::MatrixXd logarithms = Eigen::MatrixXd::Zero(drag_axis.count, static_cast<Eigen::Index>(simulator.structures()));

@@ -6,8 +6,8 @@
 
 namespace coagula::diagnose {
 
-/// By how much the logarithm of the reduced viscosity (G* / G - 1 over i times the reduced drag) of a large sample exceeds that of
-/// the mean of a few structures, normal.
+/// How much the logarithm of the reduced viscosity (G* / G - 1 over i times the reduced drag) of a large sample exceeds that of
+/// the mean of a few structures; a normal number.
 struct DragScatter {
     Eigen::VectorXd excess;  ///< expected at the nodes
     Eigen::MatrixXd errors;  ///< nodes x independent standard errors

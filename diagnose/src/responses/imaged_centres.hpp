@@ -18,7 +18,7 @@ namespace coagula::diagnose {
 double neighbours(Simulator& simulator, const Settings& settings, std::size_t shell, bool exact = false);
 /// Errors of these that so few structures leave open, as independent standard errors: shells x errors.
 Eigen::MatrixXd neighbour_errors_of_structures(Simulator& simulator);
-/// Those that dense and thin places give an image of so many centres, beside those of independent pairs, likewise.
+/// Errors that dense and thin places give an image of so many centres, beside those of independent pairs, likewise.
 /// @param mutual share of the neighbours that are centres, too.
 Eigen::MatrixXd neighbour_errors_of_image(Simulator& simulator, double centres, double mutual);
 

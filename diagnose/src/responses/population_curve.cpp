@@ -20,8 +20,8 @@ using Eigen::Index;
 
 /// Nodes on either side over which the scatter of the curves is pooled.
 constexpr Index pooled_neighbours = 4;
-/// Of the Gaussian processes, in the logarithm of the load. Of 16 structures of 400 particles the marginal likelihood of the rate
-/// of loss is largest at 1.2 and less by 1.2, 5.5 and 12 at 0.8, 0.5 and 0.3; the shorter length leaves more open.
+/// Length of the Gaussian processes, in the logarithm of the load. For 16 structures of 400 particles the marginal likelihood
+/// of the rate of loss is largest at 1.2 and less by 1.2, 5.5 and 12 at 0.8, 0.5 and 0.3; the shorter length leaves more open.
 constexpr double length = 0.8;
 constexpr double rate_amplitude = 1;
 constexpr double ratio_amplitude = 0.3;

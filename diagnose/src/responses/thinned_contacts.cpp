@@ -20,7 +20,7 @@ namespace {
 constexpr LinearAxis missing_axis{0, 0.4, 21};
 /// Over the whole modulus: what bears nothing still has a modulus, that of what it is swollen with.
 constexpr double least_response = 1e-3;
-/// Of all structures and random orders together: what one order takes from a small structure is chance.
+/// Particles of all structures and random orders together: what one order takes from a small structure is chance.
 constexpr double enough_particles = 1000;
 
 /// 0 where the network is too close to losing its stiffness for the solver.

@@ -18,7 +18,7 @@ constexpr int strains_of_quarter = 4;
 /// contacts close again and push (eight structures of 200 particles: waveforms in steps of 1.5 critical strains).
 constexpr double missing = 0.8;
 
-/// Of two changes that have the same sign, the part of the first in their sum.
+/// Part of the first of two changes, which have the same sign, in their sum.
 double part_of(double first, double second) {
     const double sum = first + second;
     return sum == 0 ? 0.5 : std::clamp(first / sum, 0.0, 1.0);

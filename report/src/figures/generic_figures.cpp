@@ -19,7 +19,7 @@ Series key_of(const std::string& name, Mark mark) {
     return {.name = name, .mark = mark, .colour = -1, .key_only = true};
 }
 
-/// As many numbers as the curve has abscissae.
+/// Reads as many numbers as the curve has abscissae.
 std::vector<double> numbers_beside(const FigureSource& source, const CurveFigure& figure, const std::string& path) {
     std::vector<double> numbers = source.numbers(path);
     if (const std::size_t x = source.numbers(figure.x).size(); x != numbers.size()) {

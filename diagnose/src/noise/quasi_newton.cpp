@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "minimum.hpp"
+#include "quasi_newton.hpp"
 
 #include "quiet_log.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Minimum of a smooth function of three deviations by a quasi-Newton method.
 #pragma once
 
 #include "restricted_likelihood.hpp"
@@ -7,7 +8,7 @@
 
 namespace coagula::diagnose {
 
-/// Place of a minimum of a smooth function of three deviations by a quasi-Newton method from `start` on.
+/// Place of the minimum that the method finds from `start` on.
 /// @param units of about the steps that count.
 Deviations minimum_of(const std::function<double(const Deviations&)>& function, const Deviations& start, const Deviations& units);
 
