@@ -39,6 +39,11 @@ Block only(const Block& factor, const Columns& open) {
     return factor * open.cast<double>().matrix().asDiagonal();
 }
 
+/// Quotient where the column is still being solved, zero where it has ended.
+Row quotient(const Row& numerator, const Row& denominator, const Columns& open) {
+    return (open && denominator > 0).select(numerator / denominator, 0.0);
+}
+
 /// Estimates the error of the energy, per column and relative to the energy that is left, from what the last iterations gained.
 class EnergyError {
 public:
@@ -69,15 +74,70 @@ private:
     Row estimate_ = Row::Constant(std::numeric_limits<double>::infinity());
 };
 
+/// What came of it: the residual from K and the motion, the error of the energy, and whether every load has met one of the rules.
+void assess(const BlockMatrix& full, const Loads& f, const Row& norm, const EnergyError& error, const StopRule& rule,
+            Solution& solution) {
+    Loads q;
+    multiply(full, solution.motion, q);
+    q = f - q;
+    const Columns loaded = norm > 0;
+    const Row residual = loaded.select(dot(q, q).sqrt() / norm, 0.0);
+    const Row energy_error = loaded.select(error.estimate(), 0.0);
+    solution.residual = residual.maxCoeff();
+    solution.energy_error = energy_error.maxCoeff();
+    solution.converged = (residual <= 2 * rule.residual || energy_error <= rule.energy).all();
+}
+
+/// Norms of the loads. Loads that symmetry cancels down to rounding errors are no loads.
+Row norms_of(const Loads& f, const Row& affine) {
+    const Row plain = dot(f, f).sqrt();
+    return (plain > rounding * affine.sqrt()).select(plain, 0.0);
+}
+
 }  // namespace
 
 Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
                              const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
                              const Progress& progress) {
     const Row affine = affine_energy.transpose().array();
-    const Row plain_norm = dot(f, f).sqrt();
-    // Loads that symmetry cancels down to rounding errors are no loads.
-    const Row norm = (plain_norm > rounding * affine.sqrt()).select(plain_norm, 0.0);
+    const Row norm = norms_of(f, affine);
+    Solution solution;
+    Loads& x = solution.motion;
+    x = Loads::Zero(f.rows(), 6);
+    Loads r = f;
+    Loads z;
+    precondition(r, z);
+    Loads d = z;
+    Loads q;
+    Row rz = dot(r, z);
+    EnergyError error(affine);
+    Columns open = norm > 0;
+    while (open.any() && solution.iterations < rule.most_iterations) {
+        multiply(full, d, q);
+        const Row alpha = quotient(rz, dot(d, q), open);
+        add_scaled(x, d, alpha);
+        add_scaled(r, q, -alpha);
+        ++solution.iterations;
+        error.add(alpha * rz, open);
+        const Row residual = (norm > 0).select(dot(r, r).sqrt() / norm, 0.0);
+        open = open && residual > rule.residual && error.estimate() > rule.energy && alpha > 0;
+        progress.update("solving", 0.5, "residual " + std::to_string(std::log10(residual.maxCoeff())).substr(0, 5) + " (log10)");
+        if (open.any()) {
+            precondition(r, z);
+            const Row next = dot(r, z);
+            scale_and_add(d, quotient(next, rz, open), z);
+            rz = next;
+        }
+    }
+    assess(full, f, norm, error, rule, solution);
+    return solution;
+}
+
+Solution block_conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
+                                   const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
+                                   const Progress& progress) {
+    const Row affine = affine_energy.transpose().array();
+    const Row norm = norms_of(f, affine);
     Columns open = norm > 0;
     Solution solution;
     Loads& x = solution.motion;
@@ -106,14 +166,7 @@ Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eige
             replace_by_sum(p, only(-inverse * products(q, z), open), z, open.cast<double>());
         }
     }
-    multiply(full, x, q);
-    q = f - q;
-    const Columns loaded = norm > 0;
-    const Row residual = loaded.select(dot(q, q).sqrt() / norm, 0.0);
-    const Row energy_error = loaded.select(error.estimate(), 0.0);
-    solution.residual = residual.maxCoeff();
-    solution.energy_error = energy_error.maxCoeff();
-    solution.converged = (residual <= 2 * rule.residual || energy_error <= rule.energy).all();
+    assess(full, f, norm, error, rule, solution);
     return solution;
 }
 

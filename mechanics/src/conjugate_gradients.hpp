@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Preconditioned conjugate gradients for six loads at once: each load is solved in the space that all six have reached together,
-// and ends by itself.
+// Preconditioned conjugate gradients for six loads, each of which ends by itself.
 #pragma once
 
 #include "stiffness.hpp"
@@ -27,12 +26,17 @@ struct Solution {
     bool converged = false;
 };
 
-/// Solves K x = f by the block method (O'Leary, Linear Algebra Appl. 29, 293, 1980), which needs fewer products with K than one
-/// load after the other.
+/// Solves K x = f for each load by itself.
 /// The estimate of the energy error is that of Hestenes and Stiefel (1952): what the last `delay` iterations gained.
 /// @param affine_energy f-independent part of each column's energy: what is left is affine_energy - f x.
 Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
                              const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
                              const Progress& progress);
+
+/// The same in the space that all six loads have reached together (O'Leary, Linear Algebra Appl. 29, 293, 1980). It needs fewer
+/// products with K; but where K has modes of hardly any stiffness it does not come as close to the solution.
+Solution block_conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
+                                   const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
+                                   const Progress& progress);
 
 }  // namespace coagula::mechanics

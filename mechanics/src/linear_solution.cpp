@@ -72,9 +72,12 @@ Solution solve_iteratively(const Problem& problem, const Packing& packing, const
                                         progress);
     const StopRule rule{
         .residual = options.tolerance, .energy = options.modulus_tolerance, .most_iterations = most_schwarz_iterations};
-    Solution solution = conjugate_gradients(
-        problem.full, problem.loads, problem.affine.diagonal(), [&](const Loads& r, Loads& z) { schwarz.solve(r, z); }, rule,
-        progress);
+    const auto precondition = [&](const Loads& r, Loads& z) { schwarz.solve(r, z); };
+    const Eigen::Matrix<double, 6, 1> affine = problem.affine.diagonal();
+    Solution solution = block_conjugate_gradients(problem.full, problem.loads, affine, precondition, rule, progress);
+    if (!solution.converged) {
+        solution = conjugate_gradients(problem.full, problem.loads, affine, precondition, rule, progress);
+    }
     if (!solution.converged) {
         throw std::runtime_error("the iterative solver did not converge in " + std::to_string(solution.iterations) +
                                  " iterations; the network is too close to losing its stiffness");

@@ -15,6 +15,10 @@ namespace coagula::mechanics {
 
 namespace {
 
+/// The six numbers of a PaddedRow.
+using SixFloats = Eigen::Map<Eigen::Matrix<float, 1, 6>>;
+using SixFloatsRead = Eigen::Map<const Eigen::Matrix<float, 1, 6>>;
+
 /// Regular division of the cell into boxes of about equal edge.
 struct Grid {
     std::array<int, 3> count{};
@@ -111,9 +115,9 @@ Weights trilinear(const Grid& grid, const Eigen::Vector3d& fraction) {
 }  // namespace
 
 struct SchwarzPreconditioner::Box {
-    std::vector<Index> particles;
+    std::vector<Index> particles;  ///< in the order of elimination, once there is a factor
     std::unique_ptr<SinglePrecisionFactor> factor;
-    mutable Loads solution;
+    mutable std::vector<PaddedRow> motion;  ///< of the last solution, in that order
 };
 
 struct SchwarzPreconditioner::Coarse {
@@ -175,8 +179,8 @@ SchwarzPreconditioner::SchwarzPreconditioner(const BlockMatrix& upper, const Blo
         boxes_.push_back(std::make_unique<Box>());
         boxes_.back()->particles = std::move(particles);
     }
-    list_copies(fraction.cols());
     factorise_boxes(upper, options, progress);
+    list_copies(fraction.cols());
 
     coarse_ = std::make_unique<Coarse>();
     coarse_->nodes = grid.size();
@@ -213,9 +217,16 @@ void SchwarzPreconditioner::factorise_boxes(const BlockMatrix& upper, const Schw
         const std::size_t end = std::min(begin + batch, boxes_.size());
         run_together(end - begin, [&](std::size_t place) {
             const std::size_t b = begin + place;
-            const BlockMatrix local = restrict_to(upper, boxes_[b]->particles);
+            Box& box = *boxes_[b];
+            const BlockMatrix local = restrict_to(upper, box.particles);
             const EliminationOrder order = elimination_order(local, Ordering::minimum_degree);
-            boxes_[b]->factor = std::make_unique<SinglePrecisionFactor>(local, options.shift, order);
+            box.factor = std::make_unique<SinglePrecisionFactor>(local, options.shift, order);
+            std::vector<Index> eliminated = box.factor->order();
+            for (Index& particle : eliminated) {
+                particle = box.particles[static_cast<std::size_t>(particle)];
+            }
+            box.particles = std::move(eliminated);
+            box.motion.resize(6 * box.particles.size());
         });
     }
 }
@@ -234,13 +245,12 @@ void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
     Loads coarse_motion;
     coarse_motion = coarse_->factor->solve(coarse_load);
 #pragma omp parallel for schedule(dynamic)
-    for (const auto& each : boxes_) {
-        const Box& box = *each;
-        Loads right_side(6 * static_cast<Index>(box.particles.size()), 6);
-        for (std::size_t place = 0; place < box.particles.size(); ++place) {
-            right_side.middleRows<6>(6 * static_cast<Index>(place)) = r.middleRows<6>(6 * box.particles[place]);
+    for (const auto& box : boxes_) {
+        for (std::size_t row = 0; row < box->motion.size(); ++row) {
+            const Index source = 6 * box->particles[row / 6] + static_cast<Index>(row % 6);
+            SixFloats(box->motion[row].value) = r.row(source).cast<float>();
         }
-        box.factor->solve(right_side, box.solution);
+        box->factor->solve(box->motion);
     }
     z.resize(r.rows(), 6);
 #pragma omp parallel for schedule(static)
@@ -249,7 +259,10 @@ void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
         for (Index copy = copy_start_[static_cast<std::size_t>(particle)];
              copy < copy_start_[static_cast<std::size_t>(particle) + 1]; ++copy) {
             const auto [box, place] = copy_[static_cast<std::size_t>(copy)];
-            sum += boxes_[static_cast<std::size_t>(box)]->solution.middleRows<6>(6 * place);
+            const PaddedRow* row = boxes_[static_cast<std::size_t>(box)]->motion.data() + 6 * place;
+            for (Index component = 0; component < 6; ++component, ++row) {
+                sum.row(component) += SixFloatsRead(row->value).cast<double>();
+            }
         }
         const Weights& weights = coarse_->weights[static_cast<std::size_t>(particle)];
         for (std::size_t corner = 0; corner < 8; ++corner) {

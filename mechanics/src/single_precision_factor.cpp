@@ -31,24 +31,20 @@ SupernodeValues SinglePrecisionFactor::values_of(const Supernode& node) const {
             .row = rows_.data() + node.rows_start};
 }
 
-void SinglePrecisionFactor::solve(const Loads& b, Loads& x) const {
-    std::vector<PaddedRow> work(permutation_.size());
-    for (std::size_t k = 0; k < work.size(); ++k) {
-        for (int column = 0; column < 6; ++column) {
-            work[k].value[column] = static_cast<float>(b(permutation_[k], column));
-        }
+std::vector<Index> SinglePrecisionFactor::order() const {
+    std::vector<Index> particles;
+    for (std::size_t row = 0; row < permutation_.size(); row += 6) {
+        particles.push_back(permutation_[row] / 6);  // the six rows of a particle stay together
     }
+    return particles;
+}
+
+void SinglePrecisionFactor::solve(std::vector<PaddedRow>& b) const {
     for (const Supernode& node : supernodes_) {
-        solve_forward(values_of(node), work.data() + node.first_column, work.data());
+        solve_forward(values_of(node), b.data() + node.first_column, b.data());
     }
     for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
-        solve_backward(values_of(*node), work.data() + node->first_column, work.data());
-    }
-    x.resize(b.rows(), 6);
-    for (std::size_t k = 0; k < work.size(); ++k) {
-        for (int column = 0; column < 6; ++column) {
-            x(permutation_[k], column) = static_cast<double>(work[k].value[column]);
-        }
+        solve_backward(values_of(*node), b.data() + node->first_column, b.data());
     }
 }
 

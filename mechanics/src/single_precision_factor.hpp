@@ -19,8 +19,11 @@ public:
     /// Factorises in double precision and keeps a rounded copy.
     SinglePrecisionFactor(const BlockMatrix& upper, double shift, const EliminationOrder& order);
 
-    /// x = (K + shift I)^-1 b to single precision.
-    void solve(const Loads& b, Loads& x) const;
+    /// Place, among the particles of the matrix, of each in the order of elimination, in which solve() takes their rows.
+    std::vector<Index> order() const;
+
+    /// Replaces b by (K + shift I)^-1 b to single precision; six rows for each particle.
+    void solve(std::vector<PaddedRow>& b) const;
 
 private:
     struct Supernode {

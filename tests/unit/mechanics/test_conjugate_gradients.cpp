@@ -32,7 +32,7 @@ struct Network {
                 z.middleRows<6>(6 * row) = r.middleRows<6>(6 * row) / diagonal(row);
             }
         };
-        return conjugate_gradients(full, f, energy, by_diagonal, rule, {});
+        return block_conjugate_gradients(full, f, energy, by_diagonal, rule, {});
     }
     double diagonal(Index row) const {
         for (Index k = full.start[static_cast<std::size_t>(row)]; k < full.start[static_cast<std::size_t>(row) + 1]; ++k) {
