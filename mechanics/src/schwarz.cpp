@@ -248,7 +248,7 @@ void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
     for (const auto& box : boxes_) {
         for (std::size_t row = 0; row < box->motion.size(); ++row) {
             const Index source = 6 * box->particles[row / 6] + static_cast<Index>(row % 6);
-            SixFloats(box->motion[row].value) = r.row(source).cast<float>();
+            SixFloats(box->motion[row].value.data()) = r.row(source).cast<float>();
         }
         box->factor->solve(box->motion);
     }
@@ -261,7 +261,7 @@ void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
             const auto [box, place] = copy_[static_cast<std::size_t>(copy)];
             const PaddedRow* row = boxes_[static_cast<std::size_t>(box)]->motion.data() + 6 * place;
             for (Index component = 0; component < 6; ++component, ++row) {
-                sum.row(component) += SixFloatsRead(row->value).cast<double>();
+                sum.row(component) += SixFloatsRead(row->value.data()).cast<double>();
             }
         }
         const Weights& weights = coarse_->weights[static_cast<std::size_t>(particle)];

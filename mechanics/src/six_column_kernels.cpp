@@ -7,17 +7,20 @@ namespace coagula::mechanics {
 
 namespace {
 
+// std::array would drop the attributes of these vectors.
+// NOLINTBEGIN(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)
+
 // Vectors of the compiler, which it splits where the processor has shorter ones; they may stand anywhere and alias plain numbers.
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
 using Two = double __attribute__((vector_size(16), aligned(8), may_alias));
 using Eight = float __attribute__((vector_size(32), aligned(32), may_alias));
 
 COAGULA_INLINE Eight& as_vector(PaddedRow& row) {
-    return *reinterpret_cast<Eight*>(row.value);  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
+    return *reinterpret_cast<Eight*>(row.value.data());  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
 }
 
 COAGULA_INLINE const Eight& as_vector(const PaddedRow& row) {
-    return *reinterpret_cast<const Eight*>(row.value);  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
+    return *reinterpret_cast<const Eight*>(row.value.data());  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
 }
 
 /// Takes `Count` rows below the diagonal block at once, so that no sum waits for another.
@@ -70,7 +73,7 @@ COAGULA_VARIANTS void multiply_row(const double* block, const std::ptrdiff_t* co
             }
         }
     }
-    for (int r = 0; r < 6; ++r) {
+    for (std::ptrdiff_t r = 0; r < 6; ++r) {
         *reinterpret_cast<Four*>(sum + 6 * r) = left[r];      // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
         *reinterpret_cast<Two*>(sum + 6 * r + 4) = right[r];  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
     }
@@ -110,5 +113,7 @@ COAGULA_VARIANTS void solve_backward(const SupernodeValues& node, PaddedRow* own
         }
     }
 }
+
+// NOLINTEND(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)
 
 }  // namespace coagula::mechanics

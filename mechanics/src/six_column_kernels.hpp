@@ -2,13 +2,14 @@
 // The inner loops of the linear solver on six columns at once, compiled for several kinds of processor with the same bits.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace coagula::mechanics {
 
 /// A row of six numbers in single precision, padded to whole vector registers.
 struct alignas(32) PaddedRow {
-    float value[8];
+    std::array<float, 8> value;
 };
 
 /// One supernode of a Cholesky factor in single precision.

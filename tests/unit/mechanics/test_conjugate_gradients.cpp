@@ -139,11 +139,11 @@ TEST(SixColumnKernels, ASupernodeSolvesWithItsRowsOfTheFactor) {
         const Eigen::MatrixXf start = Eigen::MatrixXf::Random(static_cast<Index>(all.size()), 8);
         const auto reset = [&] {
             for (std::size_t k = 0; k < all.size(); ++k) {
-                Eigen::Map<Eigen::Matrix<float, 8, 1>>(all[k].value) = start.row(static_cast<Index>(k)).transpose();
+                Eigen::Map<Eigen::Matrix<float, 8, 1>>(all[k].value.data()) = start.row(static_cast<Index>(k)).transpose();
             }
         };
         const auto at = [&](Index k) {
-            return Eigen::Map<const Eigen::Matrix<float, 8, 1>>(all[static_cast<std::size_t>(k)].value);
+            return Eigen::Map<const Eigen::Matrix<float, 8, 1>>(all[static_cast<std::size_t>(k)].value.data());
         };
 
         const Eigen::MatrixXf square = lower.topRows(columns).triangularView<Eigen::Lower>();
