@@ -131,7 +131,7 @@ TEST(SixColumnKernels, ASupernodeSolvesWithItsRowsOfTheFactor) {
             row[static_cast<std::size_t>(k)] = columns + 2 * k;
         }
         const SupernodeValues node{.diagonal = stored.data(),
-                                   .below = stored.data() + columns * columns,
+                                   .below = stored.data() + stored.cols() * columns,
                                    .columns = columns,
                                    .rows = rows,
                                    .row = row.data()};
