@@ -74,33 +74,73 @@ private:
     Row estimate_ = Row::Constant(std::numeric_limits<double>::infinity());
 };
 
-/// What came of it: the residual from K and the motion, the error of the energy, and whether every load has met one of the rules.
-void assess(const BlockMatrix& full, const Loads& f, const Row& norm, const EnergyError& error, const StopRule& rule,
+/// Checks the motion: its residual by K, the error of the energy, and whether every load has met one of the rules.
+void assess(const BlockMatrix& full, const Loads& f, const Row& norm, const Row& energy_error, const StopRule& rule,
             Solution& solution) {
     Loads q;
     multiply(full, solution.motion, q);
     q = f - q;
     const Columns loaded = norm > 0;
     const Row residual = loaded.select(dot(q, q).sqrt() / norm, 0.0);
-    const Row energy_error = loaded.select(error.estimate(), 0.0);
+    const Row error = loaded.select(energy_error, 0.0);
     solution.residual = residual.maxCoeff();
-    solution.energy_error = energy_error.maxCoeff();
-    solution.converged = (residual <= 2 * rule.residual || energy_error <= rule.energy).all();
+    solution.energy_error = error.maxCoeff();
+    solution.converged = (residual <= 2 * rule.residual || error <= rule.energy).all();
 }
 
-/// Norms of the loads. Loads that symmetry cancels down to rounding errors are no loads.
-Row norms_of(const Loads& f, const Row& affine) {
-    const Row plain = dot(f, f).sqrt();
-    return (plain > rounding * affine.sqrt()).select(plain, 0.0);
-}
+/// Each load looks along its own direction.
+class OwnDirections {
+public:
+    void begin(const Loads& r, Loads& d, const Columns& /*open*/) { rz_ = dot(r, d); }
 
-}  // namespace
+    /// Moves x along the directions d to the least energy, q = K d. Returns what each load gains.
+    Row advance(Loads& x, Loads& r, const Loads& d, const Loads& q, const Columns& open) {
+        const Row alpha = quotient(rz_, dot(d, q), open);
+        add_scaled(x, d, alpha);
+        add_scaled(r, q, -alpha);
+        return (alpha > 0).select(alpha * rz_, 0.0);
+    }
+    /// Next directions from z, the residual as the preconditioner solves it.
+    void turn(Loads& d, const Loads& /*q*/, const Loads& r, const Loads& z, const Columns& open) {
+        const Row next = dot(r, z);
+        scale_and_add(d, quotient(next, rz_, open), z);
+        rz_ = next;
+    }
 
-Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
-                             const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
-                             const Progress& progress) {
+private:
+    Row rz_;
+};
+
+/// Each load looks along the directions of all.
+class SharedDirections {
+public:
+    void begin(const Loads& /*r*/, Loads& d, const Columns& open) { d = d * open.cast<double>().matrix().asDiagonal(); }
+
+    /// As in OwnDirections.
+    Row advance(Loads& x, Loads& r, const Loads& d, const Loads& q, const Columns& open) {
+        inverse_ = inverse_energies(products(d, q));
+        const Block work = products(d, r);
+        const Block alpha = only(inverse_ * work, open);
+        add_product(x, d, alpha);
+        add_product(r, q, -alpha);
+        return alpha.cwiseProduct(work).colwise().sum().array();
+    }
+    void turn(Loads& d, const Loads& q, const Loads& /*r*/, const Loads& z, const Columns& open) {
+        replace_by_sum(d, only(-inverse_ * products(q, z), open), z, open.cast<double>());
+    }
+
+private:
+    Block inverse_;
+};
+
+template <class Directions>
+Solution solve(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
+               const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule, const Progress& progress) {
     const Row affine = affine_energy.transpose().array();
-    const Row norm = norms_of(f, affine);
+    const Row plain_norm = dot(f, f).sqrt();
+    // Loads that symmetry cancels down to rounding errors are no loads.
+    const Row norm = (plain_norm > rounding * affine.sqrt()).select(plain_norm, 0.0);
+    Columns open = norm > 0;
     Solution solution;
     Loads& x = solution.motion;
     x = Loads::Zero(f.rows(), 6);
@@ -109,65 +149,38 @@ Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eige
     precondition(r, z);
     Loads d = z;
     Loads q;
-    Row rz = dot(r, z);
+    Directions directions;
+    directions.begin(r, d, open);
     EnergyError error(affine);
-    Columns open = norm > 0;
     while (open.any() && solution.iterations < rule.most_iterations) {
         multiply(full, d, q);
-        const Row alpha = quotient(rz, dot(d, q), open);
-        add_scaled(x, d, alpha);
-        add_scaled(r, q, -alpha);
+        const Row gain = directions.advance(x, r, d, q, open);
         ++solution.iterations;
-        error.add(alpha * rz, open);
-        const Row residual = (norm > 0).select(dot(r, r).sqrt() / norm, 0.0);
-        open = open && residual > rule.residual && error.estimate() > rule.energy && alpha > 0;
-        progress.update("solving", 0.5, "residual " + std::to_string(std::log10(residual.maxCoeff())).substr(0, 5) + " (log10)");
-        if (open.any()) {
-            precondition(r, z);
-            const Row next = dot(r, z);
-            scale_and_add(d, quotient(next, rz, open), z);
-            rz = next;
-        }
-    }
-    assess(full, f, norm, error, rule, solution);
-    return solution;
-}
-
-Solution block_conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
-                                   const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
-                                   const Progress& progress) {
-    const Row affine = affine_energy.transpose().array();
-    const Row norm = norms_of(f, affine);
-    Columns open = norm > 0;
-    Solution solution;
-    Loads& x = solution.motion;
-    x = Loads::Zero(f.rows(), 6);
-    Loads r = f * open.cast<double>().matrix().asDiagonal();
-    Loads z;
-    precondition(r, z);
-    Loads p = z;
-    Loads q;
-    EnergyError error(affine);
-    while (open.any() && solution.iterations < rule.most_iterations) {
-        multiply(full, p, q);
-        const Block inverse = inverse_energies(products(p, q));
-        const Block work = products(p, r);
-        const Block alpha = only(inverse * work, open);
-        add_product(x, p, alpha);
-        add_product(r, q, -alpha);
-        ++solution.iterations;
-        const Row gain = alpha.cwiseProduct(work).colwise().sum().array();
         error.add(gain, open);
         const Row residual = (norm > 0).select(dot(r, r).sqrt() / norm, 0.0);
         open = open && residual > rule.residual && error.estimate() > rule.energy && gain > 0;
         progress.update("solving", 0.5, "residual " + std::to_string(std::log10(residual.maxCoeff())).substr(0, 5) + " (log10)");
         if (open.any()) {
             precondition(r, z);
-            replace_by_sum(p, only(-inverse * products(q, z), open), z, open.cast<double>());
+            directions.turn(d, q, r, z, open);
         }
     }
-    assess(full, f, norm, error, rule, solution);
+    assess(full, f, norm, error.estimate(), rule, solution);
     return solution;
+}
+
+}  // namespace
+
+Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
+                             const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
+                             const Progress& progress) {
+    return solve<OwnDirections>(full, f, affine_energy, precondition, rule, progress);
+}
+
+Solution block_conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
+                                   const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
+                                   const Progress& progress) {
+    return solve<SharedDirections>(full, f, affine_energy, precondition, rule, progress);
 }
 
 }  // namespace coagula::mechanics

@@ -15,7 +15,7 @@ namespace coagula::mechanics {
 namespace {
 
 constexpr double floppy_threshold = 1e-6;   // pivots below this, in contact stiffnesses, have no stiffness
-constexpr int direct_blas_threads = 1;      // more wait for each other by spinning, and the bits of a factor depend on it
+constexpr double large_factor = 3e8;        // bytes; the threads of BLAS only wait for each other in smaller ones
 constexpr int most_direct_iterations = 60;  // a good shift needs fewer than ten
 constexpr int most_schwarz_iterations = 2000;
 
@@ -41,7 +41,7 @@ Problem build_problem(const LinearNetwork& network) {
 /// Conjugate gradients preconditioned by the factor of K + shift I. A larger shift where rounding errors win.
 Solution solve_directly(const Problem& problem, const EliminationOrder& order, const LinearOptions& options,
                         const Progress& progress, Index& floppy_modes) {
-    const BlasThreads threads(direct_blas_threads);
+    const BlasThreads threads(order.predicted_memory() > large_factor ? 2 : 1);  // the bits of the factor depend on their number
     const StopRule rule{.residual = options.tolerance, .energy = 0, .most_iterations = most_direct_iterations};
     for (double shift = options.shift; shift <= 1e-5; shift *= 100) {
         progress.update("factorising", 0.1);

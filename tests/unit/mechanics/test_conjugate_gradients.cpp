@@ -104,6 +104,17 @@ TEST(ConjugateGradients, AnIndefiniteMatrixIsNotSolved) {
     EXPECT_FALSE(solution.converged && solution.residual > 1e-3) << "taken for solved with a residual of " << solution.residual;
 }
 
+TEST(ConjugateGradients, ANegativeMatrixHasNoLeastEnergy) {
+    Network network;
+    for (Block& block : network.full.block) {
+        block = -block;
+    }
+    const Solution solution =
+        network.solve(network.loads, network.affine, {.residual = 1e-8, .energy = 1e-6, .most_iterations = 500});
+    EXPECT_FALSE(solution.converged) << "after " << solution.iterations << " iterations, residual " << solution.residual;
+    EXPECT_EQ(solution.motion.norm(), 0);
+}
+
 TEST(SixColumnKernels, ARowOfBlocksTimesColumnsOfSix) {
     const Eigen::MatrixXd blocks = Eigen::MatrixXd::Random(6, 18);
     const Loads x = Loads::Random(6 * 5, 6);
