@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the base model fails, what a cause leaves over and what to measure next, in words.
+// Sentences say where the base model fails, what a cause leaves over and what to measure next.
 #pragma once
 
 #include <coagula/diagnose/diagnosis.hpp>

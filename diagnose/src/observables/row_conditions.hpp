@@ -49,7 +49,7 @@ public:
     RowConditions of(std::size_t run, std::size_t row) const;
 
 private:
-    /// What the conditions of a row need besides its cells.
+    /// A run holds what the conditions of its rows need besides the cells.
     struct Run {
         RunTime time;
         double sample_place = 0;  ///< as in RowConditions

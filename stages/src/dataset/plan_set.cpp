@@ -45,7 +45,7 @@ SetRow small_row(const SetRow& row) {
     return small;
 }
 
-/// What a particle costs; the times are those of one processor.
+/// Costs of one particle; the times are those of one processor.
 struct Cost {
     double generating = 0;  ///< [s]
     double stages = 0;      ///< measuring and shearing [s]

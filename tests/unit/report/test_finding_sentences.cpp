@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What misfits, remainders and proposals say in words.
+// Misfits, remainders and proposals are written as sentences.
 #include "finding_sentences.hpp"
 
 #include <gtest/gtest.h>
