@@ -3,12 +3,13 @@
 
 #include "lammps_process.hpp"
 
+#include <utility>
+
 namespace coagula::stages {
 
-std::vector<Option> engine_options() {
+std::vector<Option> engine_options(std::vector<std::string> choices, std::string meaning) {
     std::vector<Option> options = {
-        choice("engine", {"builtin", "lammps"}, "what moves the particles: coagula itself, or LAMMPS, which must be installed",
-               "builtin"),
+        choice("engine", std::move(choices), std::move(meaning), "builtin"),
         text("engine-command", "TEXT", "command that runs LAMMPS, such as 'mpirun -n 4 lmp'; lmp when not given")};
     read_only_with(options, {"engine-command"}, "engine", {"lammps"});
     return options;

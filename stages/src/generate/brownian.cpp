@@ -382,7 +382,8 @@ Verb generate_brownian_verb() {
         output("HDF5 file to write"),
         flag("force", "replace an existing file")};
     options.insert(options.end(), rest.begin(), rest.end());
-    const std::vector<Option> engine = engine_options();
+    const std::vector<Option> engine =
+        engine_options({"builtin", "lammps"}, "what moves the particles: coagula itself, or LAMMPS, which must be installed");
     options.insert(options.end() - 3, engine.begin(), engine.end());
     add_conditions(options);
     return {.name = "generate brownian",

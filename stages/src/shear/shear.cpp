@@ -20,6 +20,7 @@
 #include <cmath>
 #include <complex>
 #include <iterator>
+#include <map>
 #include <optional>
 
 namespace coagula::stages {
@@ -200,6 +201,16 @@ ShearMethod method_of(const Arguments& arguments, const std::vector<double>& fre
     return name == "quasistatic" ? ShearMethod::quasistatic : frequencies.empty() ? ShearMethod::linear : ShearMethod::frequency;
 }
 
+/// An engine computes by the methods that it knows.
+void check_engine(const Arguments& arguments) {
+    const std::map<std::string, std::string> method_of_engine = {{"lammps", "dem"}};
+    const auto needed = method_of_engine.find(arguments.text("engine"));
+    if (needed != method_of_engine.end() && arguments.text("method") != needed->second) {
+        throw InputError(arguments.spelled("engine", needed->first) + " computes by " +
+                         arguments.spelled("method", needed->second) + " only");
+    }
+}
+
 }  // namespace
 
 std::string ShearRun::group() const {
@@ -218,6 +229,8 @@ std::string ShearRun::group() const {
 
 ShearRun shear_run(const Arguments& arguments) {
     ShearRun run;
+    check_engine(arguments);
+    run.lammps = engine_of(arguments);
     run.frequencies = frequencies_of(arguments);
     check_frequencies(arguments, run.frequencies);
     run.method = method_of(arguments, run.frequencies);
@@ -334,7 +347,9 @@ Verb shear_verb() {
     verb.notes.emplace_back(
         "Each of several files gets its own results; the mean of G' and its standard error over the structures are printed.");
     verb.many_inputs = true;
-    for (const std::vector<Option>& own : {rheometer_options(), quasistatic_options()}) {
+    const std::vector<Option> engine = engine_options(
+        {"builtin", "lammps"}, "what computes the response: coagula itself, or, dem: LAMMPS, which must be installed");
+    for (const std::vector<Option>& own : {rheometer_options(), quasistatic_options(), engine}) {
         verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
     }
     const std::vector<std::string> of_solver = {"solver", "memory-limit", "modulus-tolerance"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which program moves the particles: this one or LAMMPS.
+// Which program does the work: this one or another.
 #pragma once
 
 #include <coagula/stages/arguments.hpp>
@@ -16,10 +16,10 @@ struct LammpsEngine {
     std::vector<std::string> command = {"lmp"};  ///< words
 };
 
-/// The options `engine` and `engine-command`.
-std::vector<Option> engine_options();
+/// The options `engine` and `engine-command`. @param choices of engines, "builtin" among them. @param meaning of `engine`.
+std::vector<Option> engine_options(std::vector<std::string> choices, std::string meaning);
 
-/// None where coagula itself does the work. Throws InputError where the program is missing.
+/// None where another engine than LAMMPS does the work. Throws InputError where the program is missing.
 std::optional<LammpsEngine> engine_of(const Arguments& arguments);
 
 }  // namespace coagula::stages

@@ -16,6 +16,7 @@
 #include <coagula/stages/arguments.hpp>
 #include <coagula/stages/bond_potential.hpp>
 #include <coagula/stages/checkpointing.hpp>
+#include <coagula/stages/engine.hpp>
 #include <coagula/stages/findings.hpp>
 
 #include <Eigen/Core>
@@ -51,6 +52,7 @@ struct ShearRun {
     mechanics::RheometerOptions rheometer = {};
     QuasistaticPath quasistatic = {};
     std::vector<mechanics::ShearOrientation> orientations = {};
+    std::optional<LammpsEngine> lammps = {};  ///< which moves the particles instead
     Checkpointing checkpoint = {};
     Results conditions = {};  ///< under which the results are found, as they stand beside them in the file
 
