@@ -62,7 +62,8 @@ Found find(const SetRow& row, const Packing& packing, const std::optional<BondPo
     }
     if (row.shear) {
         Sheared sheared = shear(shear_run(*row.shear, {"the structure", bonds}), packing, {});
-        found.additions.push_back(addition_of(sheared.findings, sheared.bonds, timeless_call(*row.shear, &packing)));
+        found.additions.push_back(
+            addition_of(sheared.findings, sheared.bonds, timeless_call(*row.shear, &packing, sheared.findings.engine)));
         found.findings.push_back(std::move(sheared.findings));
     }
     return found;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lammps_brownian.hpp"
 
+#include "lammps_process.hpp"
+
 #include <coagula/common/checks.hpp>
 
 #include <algorithm>
@@ -13,10 +15,6 @@ namespace {
 constexpr double first_distance = 1.5;  // LAMMPS stops where particles come nearer
 constexpr double spacing = 2.5e-5;      // contacts fluctuate by some 1e-3
 constexpr std::uint64_t most_seed = 900'000'000;
-
-std::string quoted(const std::filesystem::path& path) {
-    return '"' + path.string() + '"';
-}
 
 /// LAMMPS takes seeds from 1 to 9e8. @param purpose tells the seeds of a run apart.
 std::string seed_text(std::uint64_t seed, std::uint64_t purpose) {

@@ -104,6 +104,18 @@ bool is_program(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::string quoted(const std::filesystem::path& path) {
+    return '"' + path.string() + '"';
+}
+
+void write_for_lammps(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream file(path);
+    file << text << std::flush;
+    if (!file) {
+        throw std::runtime_error("cannot write " + path.string() + ", which LAMMPS is to read");
+    }
+}
+
 void check_installed(const std::vector<std::string>& command) {
     const std::string& program = command.front();
     if (program.find('/') != std::string::npos) {

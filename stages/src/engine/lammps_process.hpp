@@ -11,6 +11,12 @@
 
 namespace coagula::stages {
 
+/// A path as a word of a command.
+std::string quoted(const std::filesystem::path& path);
+
+/// A file that LAMMPS reads. Throws std::runtime_error where it cannot be written.
+void write_for_lammps(const std::filesystem::path& path, const std::string& text);
+
 /// Throws InputError, naming the Debian package, where the first word of the command is no program.
 void check_installed(const std::vector<std::string>& command);
 

@@ -9,7 +9,6 @@
 #include <coagula/stages/scratch_folder.hpp>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 namespace coagula::stages {
@@ -21,14 +20,6 @@ using generators::PairPotential;
 
 constexpr double longest_cutoff = 10;                                 // mean radii; the table would become coarse
 constexpr std::int64_t most_steps = std::numeric_limits<int>::max();  // of one command
-
-void write(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream file(path);
-    file << text << std::flush;
-    if (!file) {
-        throw std::runtime_error("cannot write " + path.string() + ", which LAMMPS is to read");
-    }
-}
 
 /// The particles of a run that goes on from command to command.
 class LammpsParticles {
@@ -45,9 +36,10 @@ public:
                 .time_step = step.time_step.time_step / time,
                 .seed = options.seed,
                 .rows = lammps_table_rows(last)};
-        write(run_.folder / "start.data", lammps_start(start, length_));
-        write(run_.folder / "force.table",
-              lammps_force_table([&](double distance) { return force((distance - 2) * length_) * length_ / energy; }, last));
+        write_for_lammps(run_.folder / "start.data", lammps_start(start, length_));
+        write_for_lammps(
+            run_.folder / "force.table",
+            lammps_force_table([&](double distance) { return force((distance - 2) * length_) * length_ / energy; }, last));
         process_.send(lammps_setup(run_));
     }
 

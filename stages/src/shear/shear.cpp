@@ -7,6 +7,7 @@
 #include "orientation_list.hpp"
 #include "quasistatic_run.hpp"
 #include "rheometer_run.hpp"
+#include "shear_by_lammps.hpp"
 #include "shear_conditions.hpp"
 #include "shear_results.hpp"
 
@@ -242,7 +243,9 @@ ShearRun shear_run(const Arguments& arguments) {
     run.bond_tolerance = arguments.quantity("bond-tolerance");
     run.relax = relaxation_scheme(arguments, run.model);
     run.linear = linear_options(arguments, run.model);
-    if (run.method == ShearMethod::dem) {
+    if (run.lammps) {
+        check_lammps_can_shear(arguments, run.model);
+    } else if (run.method == ShearMethod::dem) {
         run.rheometer = rheometer_options_of(arguments, run.model, run.frequencies);
     }
     if (run.method == ShearMethod::quasistatic) {
@@ -289,7 +292,8 @@ Sheared shear(const ShearRun& run, const Packing& packing, const Progress& progr
     const auto rest = relaxed(run, packing, bonds, progress);
     const Packing& sheared = rest ? rest->packing : packing;
     const ContactNetwork& network = rest ? rest->bonds : bonds;
-    Findings found = run.method == ShearMethod::dem           ? rheometer_response(run, sheared, network, progress)
+    Findings found = run.lammps                               ? shear_by_lammps(run, sheared, network, progress)
+                     : run.method == ShearMethod::dem         ? rheometer_response(run, sheared, network, progress)
                      : run.method == ShearMethod::quasistatic ? quasistatic_response(run, sheared, network, progress)
                      : run.method == ShearMethod::linear      ? linear_response(run, packing, sheared, network, progress)
                                                               : frequency_response(run, sheared, network, progress);
@@ -343,7 +347,8 @@ Verb shear_verb() {
             ("Bond strengths, friction and ageing have no effect at vanishing strain; linear and --frequency results list those "
              "given."),
             "--relax moves the particles for the calculation only; relaxation_displacement in the file says how far.",
-            "--method quasistatic without --amplitudes and --ramp computes secant moduli at a strain of 1e-6."}};
+            "--method quasistatic without --amplitudes and --ramp computes secant moduli at a strain of 1e-6.",
+            "--engine lammps strains the periodic cell by 1e-8, without plates, and brings it to rest: it finds G', but no G''."}};
     verb.notes.emplace_back(
         "Each of several files gets its own results; the mean of G' and its standard error over the structures are printed.");
     verb.many_inputs = true;
@@ -357,6 +362,10 @@ Verb shear_verb() {
     read_only_with(verb.options, {"solver", "memory-limit", "modulus-tolerance", "tolerance"}, "method", {"linear"});
     not_read_with(verb.options, of_solver, "frequency");
     not_read_with(verb.options, of_solver, "frequency-sweep");
+    not_read_with(verb.options,
+                  {"amplitude", "constant-amplitude", "oscillations", "steps-per-oscillation", "damping", "density", "checkpoint",
+                   "frequency", "frequency-sweep"},
+                  "engine", {"lammps"});
     read_only_with(verb.options, {"memory-limit"}, "solver", {"auto"});
     read_only_with(verb.options, {"modulus-tolerance"}, "solver", {"auto", "iterative"});
     return verb;

@@ -34,6 +34,12 @@ const std::map<std::string, std::vector<std::string>>& conditions_by_group() {
     return names;
 }
 
+/// LAMMPS brings a strained network to rest, whatever the oscillation of the builtin engine is.
+const std::vector<std::string>& conditions_of(const ShearRun& run) {
+    static const std::vector<std::string> with_lammps = {"engine", "rest-length", "orientation"};
+    return run.lammps ? with_lammps : conditions_by_group().at(run.group());
+}
+
 /// A list with its quantities as SI numbers, so that "1e-3,1kHz" and "0.001,1000" are the same condition.
 std::string with_plain_numbers(const std::string& list, const std::string& unit) {
     std::string text;
@@ -71,7 +77,7 @@ io::Dataset condition(const Arguments& arguments, const Option& option, const st
 Results shear_conditions(const Arguments& arguments, const ShearRun& run) {
     const std::string group = run.group();
     std::vector<std::string> names = conditions_of_all();
-    const std::vector<std::string>& own = conditions_by_group().at(group);
+    const std::vector<std::string>& own = conditions_of(run);
     names.insert(names.end(), own.begin(), own.end());
     Results conditions;
     for (const Option& option : shear_verb().options) {
