@@ -78,6 +78,9 @@ std::string how_to_have_it_faster(const Arguments& arguments) {
     if (method == "linear") {
         return {};
     }
+    if (arguments.text("engine") != "builtin") {
+        return arguments.text("orientation") == "all" ? "--orientation xy takes a third of it" : "";
+    }
     const std::string shorter = method == "dem"               ? "--oscillations and --steps-per-oscillation"
                                 : arguments.has("amplitudes") ? "amplitudes, of which the largest take most, and --steps-per-cycle"
                                                               : "--ramp-steps";

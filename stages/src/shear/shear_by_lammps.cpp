@@ -62,12 +62,14 @@ ContactRatios ratios_of(const ContactModel& model, double length) {
 
 void check_packing(const Packing& packing, const ContactNetwork& bonds) {
     if (!packing.cell.is_periodic()) {
-        throw InputError("LAMMPS shears a packing in a periodic cell only, but this one has a free surface: take the linear method");
+        throw InputError(
+            "LAMMPS shears a packing in a periodic cell only, but this one has a free surface: take the linear method");
     }
     const double longest = bonds.size() > 0 ? bonds.branch.colwise().norm().maxCoeff() : 0;
     if (longest >= packing.cell.half_period()) {
-        throw InputError("the cell is so small that particles meet images of each other, between which LAMMPS cannot tell: take "
-                         "the builtin engine");
+        throw InputError(
+            "the cell is so small that particles meet images of each other, between which LAMMPS cannot tell: take "
+            "the builtin engine");
     }
 }
 
@@ -152,7 +154,8 @@ void check_affine(const LammpsShear& found, const mechanics::LinearResponse& lin
 }  // namespace
 
 const LammpsShear& LammpsShears::of(const mechanics::ShearOrientation& orientation) const {
-    return *std::find_if(planes.begin(), planes.end(), [&](const LammpsShear& shear) { return is_same_plane(shear.plane, orientation); });
+    return *std::find_if(planes.begin(), planes.end(),
+                         [&](const LammpsShear& shear) { return is_same_plane(shear.plane, orientation); });
 }
 
 void check_lammps_can_shear(const Arguments& arguments, const ContactModel& model) {

@@ -35,14 +35,14 @@ std::int64_t all_steps(const LammpsShears& found) {
 
 void append_network(Results& results, const ShearRun& run, const ContactNetwork& bonds) {
     const std::string in_series = "stiffness of a contact: two particles in series";
-    results.push_back(io::text(lammps_group + "/method", "dem", "explicit discrete elements, a strain at which the network comes to rest"));
+    results.push_back(
+        io::text(lammps_group + "/method", "dem", "explicit discrete elements, a strain at which the network comes to rest"));
     results.push_back(io::text(lammps_group + "/boundary", "periodic", "the periodic cell is sheared"));
     results.push_back(io::integer(lammps_group + "/contacts", bonds.size(), "number of bonds"));
     results.push_back(io::scalar(lammps_group + "/bond_tolerance", run.bond_tolerance, "1",
                                  "pairs nearer than (1 + tolerance) (r_i + r_j) are bonded"));
     results.push_back(io::text(lammps_group + "/model", io::contact_model_text(run.model), "the contact as a TOML file"));
-    results.push_back(
-        io::scalar(lammps_group + "/contact_stiffness/normal", 0.5 * run.model.normal_stiffness, "N/m", in_series));
+    results.push_back(io::scalar(lammps_group + "/contact_stiffness/normal", 0.5 * run.model.normal_stiffness, "N/m", in_series));
     results.push_back(io::scalar(lammps_group + "/contact_stiffness/shear", 0.5 * run.model.shear_stiffness, "N/m", in_series));
 }
 
@@ -58,17 +58,18 @@ void append_moduli(Results& results, const ShearRun& run, const Eigen::VectorXd&
         add(name, moduli[static_cast<Index>(k)], "shear modulus at rest in the plane of " + name);
         names += (names.empty() ? "" : ",") + name;
     }
-    results.push_back(
-        io::text(lammps_group + "/orientations", names, "plate normal and shear direction, the order of all arrays"));
+    results.push_back(io::text(lammps_group + "/orientations", names, "plate normal and shear direction, the order of all arrays"));
 }
 
 void append_settling(Results& results, const ShearRun& run, const LammpsShears& found) {
-    results.push_back(io::scalar(lammps_group + "/settling/strain", found.strain, "1", "shear strain at which the network came to rest"));
+    results.push_back(
+        io::scalar(lammps_group + "/settling/strain", found.strain, "1", "shear strain at which the network came to rest"));
     results.push_back(io::integer(lammps_group + "/settling/steps", all_steps(found), "time steps of all planes together"));
     results.push_back(io::vector(lammps_group + "/settling/change", over_orientations(run, found, &LammpsShear::change), "1",
                                  "per orientation: relative change of the modulus while the drag was last halved"));
-    results.push_back(io::vector(lammps_group + "/settling/stress_modulus", over_orientations(run, found, &LammpsShear::stress_modulus),
-                                 "Pa", "per orientation: shear modulus from the stress at the end; storage_modulus is from the energy"));
+    results.push_back(io::vector(lammps_group + "/settling/stress_modulus",
+                                 over_orientations(run, found, &LammpsShear::stress_modulus), "Pa",
+                                 "per orientation: shear modulus from the stress at the end; storage_modulus is from the energy"));
 }
 
 }  // namespace
@@ -76,7 +77,8 @@ void append_settling(Results& results, const ShearRun& run, const LammpsShears& 
 Findings lammps_findings(const ShearRun& run, const ContactNetwork& bonds, const LammpsShears& found) {
     Findings findings{.group = lammps_group, .results = {}};
     findings.engine = "LAMMPS " + found.version;
-    findings.results.push_back(io::text(lammps_group + "/engine/name", findings.engine, "program that moved the particles, with its version"));
+    findings.results.push_back(
+        io::text(lammps_group + "/engine/name", findings.engine, "program that moved the particles, with its version"));
     append_network(findings.results, run, bonds);
     const Eigen::VectorXd moduli = over_orientations(run, found, &LammpsShear::modulus);
     append_moduli(findings.results, run, moduli);
@@ -86,15 +88,14 @@ Findings lammps_findings(const ShearRun& run, const ContactNetwork& bonds, const
         each += (k == 0 ? "" : ", ") + name_of(run.orientations[k]) + " " + with_unit(moduli[static_cast<Index>(k)], "Pa");
     }
     const double change = over_orientations(run, found, &LammpsShear::change).maxCoeff();
-    findings.table = {
-        {"bonds", std::to_string(bonds.size())},
-        {"set-up", "periodic cell at a strain of " + with_unit(found.strain, "1") + ", brought to rest"},
-        {"storage modulus G'", with_unit(moduli.mean(), "Pa") + " +- " + with_unit(deviation(moduli), "Pa") +
-                                   "   (+- is the standard deviation over the orientations)"},
-        {"  each", each},
-        {"settling", std::to_string(all_steps(found)) + " time steps; G' changed by " + with_unit(100 * change, "1") +
-                         " % at most while the drag was last halved"},
-        {"moved by", findings.engine}};
+    findings.table = {{"bonds", std::to_string(bonds.size())},
+                      {"set-up", "periodic cell at a strain of " + with_unit(found.strain, "1") + ", brought to rest"},
+                      {"storage modulus G'", with_unit(moduli.mean(), "Pa") + " +- " + with_unit(deviation(moduli), "Pa") +
+                                                 "   (+- is the standard deviation over the orientations)"},
+                      {"  each", each},
+                      {"settling", std::to_string(all_steps(found)) + " time steps; G' changed by " + with_unit(100 * change, "1") +
+                                       " % at most while the drag was last halved"},
+                      {"moved by", findings.engine}};
     return findings;
 }
 
