@@ -26,7 +26,7 @@ set(coagula_slow_tests
   "StructureError[.].*"
   "StructureSeries[.].*"
   "Sedimentation[.].*"
-  "SolventDrag[.](IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
+  "SolventDrag[.](IsFound|IsNamed|TheStructuresLeaveAnErrorThatHolds).*"
   "StructureCauses[.].*"
   "StructureChanges[.](Between|Contacts|Pores).*"
   "SurfacePotential[.].*"

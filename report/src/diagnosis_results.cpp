@@ -105,8 +105,11 @@ Json conditions_json(const std::vector<diagnose::Condition>& conditions) {
 std::string describe(const Cause& cause) {
     std::string text = "probability " + probability_text(cause.posterior);
     for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
-        text += "; " + parameter.name + " " + with_unit(parameter.value, parameter.unit) + " (" +
-                with_unit(parameter.low, parameter.unit) + " to " + with_unit(parameter.high, parameter.unit) + ")" +
+        const std::string low = with_unit(parameter.low, parameter.unit);
+        const std::string high = with_unit(parameter.high, parameter.unit);
+        text += "; " + parameter.name +
+                (leaves_open(parameter) ? " between " + low + " and " + high
+                                        : " " + with_unit(parameter.value, parameter.unit) + " (" + low + " to " + high + ")") +
                 (parameter.at_end ? ", the end of its range" : "");
     }
     return text;

@@ -285,4 +285,8 @@ std::vector<std::string> verdict_sentences(const Diagnosis& found) {
     return sentences;
 }
 
+bool leaves_open(const diagnose::EstimatedParameter& parameter) {
+    return parameter.low > 0 && parameter.high >= 10 * parameter.low;
+}
+
 }  // namespace coagula::report

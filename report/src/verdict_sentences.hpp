@@ -18,6 +18,9 @@ std::string joined(const std::vector<std::string>& names, const std::string& las
 /// "the time since the sample was loaded", "the sample 'B'".
 std::string axis_in_words(const diagnose::Follows& follows);
 
+/// Whether the data leave a parameter open by a factor of ten or more: its most probable value then hangs on rounding errors.
+bool leaves_open(const diagnose::EstimatedParameter& parameter);
+
 /// Says what the deviation follows, whatever its cause, and which causes are of that kind.
 std::string follows_sentence(const diagnose::Diagnosis& found);
 

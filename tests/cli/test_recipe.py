@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """coagula diagnose with structures by a recipe: causes that change the structures, coordinates, pore curves, what cannot be made."""
 
+import hashlib
 import unittest
 
 from support import ProgramTest
@@ -23,6 +24,14 @@ sample = "{name}"
 """
 
 
+def marked(line):
+    """A line of the cache whose first number differs in the last digits from what a simulation gives."""
+    key, numbers, _ = line.split("\t")
+    first, *rest = numbers.split(" ")
+    text = key + "\t" + " ".join([repr(float(first) * (1 + 1e-13)), *rest])
+    return text + "\t" + hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
 class Recipe(ProgramTest):
     def experiment(self, structures, kind, *tables, radius=0.25, particles=200):
         self.write("experiment.toml", EXPERIMENT.format(structures=structures, radius=radius, particles=particles) +
@@ -43,11 +52,16 @@ class Recipe(ProgramTest):
         self.assertGreater(size["high"], 0.14)
         self.assertGreater(found["gain"]["rmse_ratio"], 2)
         # What was simulated is known by the recipe, and serves again to the same result.
-        cache = (self.folder / "results" / "simulations.txt").read_text()
-        self.assertIn("--size-distribution lognormal:0.4 --target-coordination 4.69 --seed 2", cache)
+        cache = self.folder / "results" / "simulations.txt"
+        lines = cache.read_text().splitlines()
+        place = next(n for n, line in enumerate(lines) if "--size-distribution lognormal:0.4 --target-coordination 4.69 --seed 2" in line)
+        lines[place] = marked(lines[place])
+        cache.write_text("\n".join(lines) + "\n")
         again = self.succeed_json(*words)
-        self.assertEqual(again["causes"], found["causes"])
-        self.assertLess(again["seconds"], 0.5 * found["seconds"])
+        self.assertEqual(cache.read_text().splitlines()[place], lines[place], "was simulated again")
+        self.assertEqual([cause["name"] for cause in again["causes"]], [cause["name"] for cause in found["causes"]])
+        for one, other in zip(again["causes"], found["causes"]):
+            self.assertAlmostEqual(one["posterior"], other["posterior"], delta=1e-6)
 
     def test_a_pore_curve_of_coagulated_structures(self):
         """Small particles, whose barrier at 15 mV is low. The sample coagulated as the recipe says."""
