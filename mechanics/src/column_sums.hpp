@@ -2,6 +2,8 @@
 // Operations on six columns at once that both gradient solvers need; the same bits for any number of threads.
 #pragma once
 
+#include <coagula/common/parallel.hpp>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -23,7 +25,7 @@ SixValues<Value> sum_of_pieces(Eigen::Index rows, const Term& term) {
     constexpr Eigen::Index piece = 4096;
     const Eigen::Index pieces = (rows + piece - 1) / piece;
     Eigen::Array<Value, Eigen::Dynamic, 6, Eigen::RowMajor> part(pieces, 6);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(rows, 5))
     for (Eigen::Index k = 0; k < pieces; ++k) {
         part.row(k) = term(k * piece, std::min(piece, rows - k * piece));
     }
@@ -41,7 +43,7 @@ SixValues<Value> dot(const SixColumns<Value>& a, const SixColumns<Value>& b) {
 /// a += b * factor, column by column.
 template <class Value>
 void add_scaled(SixColumns<Value>& a, const SixColumns<Value>& b, const std::type_identity_t<SixValues<Value>>& factor) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(a.rows(), 5))
     for (Eigen::Index row = 0; row < a.rows(); ++row) {
         a.row(row).array() += b.row(row).array() * factor;
     }
@@ -50,7 +52,7 @@ void add_scaled(SixColumns<Value>& a, const SixColumns<Value>& b, const std::typ
 /// a = b + a * factor, column by column.
 template <class Value>
 void scale_and_add(SixColumns<Value>& a, const std::type_identity_t<SixValues<Value>>& factor, const SixColumns<Value>& b) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(a.rows(), 5))
     for (Eigen::Index row = 0; row < a.rows(); ++row) {
         a.row(row).array() = b.row(row).array() + a.row(row).array() * factor;
     }
@@ -63,7 +65,7 @@ inline SixBySix products(const SixColumns<double>& a, const SixColumns<double>& 
     constexpr Eigen::Index piece = 4096;
     const Eigen::Index pieces = (a.rows() + piece - 1) / piece;
     std::vector<SixBySix> part(static_cast<std::size_t>(pieces));
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(a.rows(), 20))
     for (Eigen::Index k = 0; k < pieces; ++k) {
         const Eigen::Index rows = std::min(piece, a.rows() - k * piece);
         SixBySix sum = SixBySix::Zero();
@@ -77,7 +79,7 @@ inline SixBySix products(const SixColumns<double>& a, const SixColumns<double>& 
 
 /// a += b * factor.
 inline void add_product(SixColumns<double>& a, const SixColumns<double>& b, const SixBySix& factor) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(a.rows(), 20))
     for (Eigen::Index row = 0; row < a.rows(); ++row) {
         a.row(row).noalias() += b.row(row) * factor;
     }
@@ -86,7 +88,7 @@ inline void add_product(SixColumns<double>& a, const SixColumns<double>& b, cons
 /// a = b * kept + a * factor.
 inline void replace_by_sum(SixColumns<double>& a, const SixBySix& factor, const SixColumns<double>& b,
                            const SixValues<double>& kept) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(a.rows(), 20))
     for (Eigen::Index row = 0; row < a.rows(); ++row) {
         const SixValues<double> sum = b.row(row).array() * kept + (a.row(row) * factor).array();
         a.row(row) = sum.matrix();

@@ -2,6 +2,7 @@
 #include "frequency_network.hpp"
 
 #include <coagula/common/contact_model.hpp>
+#include <coagula/common/parallel.hpp>
 
 #include <algorithm>
 
@@ -123,7 +124,7 @@ ComplexLoads FrequencyNetwork::loads(const Ratios& ratios) const {
 
 void FrequencyNetwork::multiply(const ComplexBlocks& matrix, const ComplexLoads& x, ComplexLoads& y) const {
     y.resize(x.rows(), 6);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(particles(), 1000))
     for (Index row = 0; row < particles(); ++row) {
         Eigen::Matrix<Complex, 6, 6, Eigen::RowMajor> sum = Eigen::Matrix<Complex, 6, 6, Eigen::RowMajor>::Zero();
         for (auto k = static_cast<std::size_t>(spring_matrix_.start[static_cast<std::size_t>(row)]);

@@ -6,6 +6,8 @@
 #include "resisted_strains.hpp"
 #include "stiffness.hpp"
 
+#include <coagula/common/parallel.hpp>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -206,7 +208,7 @@ private:
         const double per_length = response_.contact_normal_stiffness * r0_;
         Eigen::VectorXd normal_energy = Eigen::VectorXd::Zero(bonds_.size());
         Eigen::VectorXd shear_energy = normal_energy;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(count, 200))
         for (Index k = 0; k < count; ++k) {
             const LinearBond& bond = geometry_[static_cast<std::size_t>(k)];
             if (bond.first < 0 && bond.second < 0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sheared_network.hpp"
 
+#include <coagula/common/parallel.hpp>
 #include <coagula/common/percolation.hpp>
 
 #include <Eigen/Geometry>
@@ -82,7 +83,7 @@ void ShearedNetwork::evaluate(double strain_increment, const Motion& motion, Tri
     trial.memory.resize(contacts_.size());
     trial.wrench.resize(contacts_.size());
     Eigen::VectorXd dissipated(count);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(count, 200))
     for (Index k = 0; k < count; ++k) {
         const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
         ContactMemory& memory = trial.memory[static_cast<std::size_t>(k)];
@@ -97,7 +98,7 @@ void ShearedNetwork::evaluate(double strain_increment, const Motion& motion, Tri
 
 void ShearedNetwork::gather(Trial& trial) const {
     trial.residual.resize(6 * particles());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(particles(), 100))
     for (Index particle = 0; particle < particles(); ++particle) {
         Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
         const auto row = static_cast<std::size_t>(particle);
@@ -277,7 +278,7 @@ void ShearedNetwork::break_bond(Index contact) {
 
 double ShearedNetwork::energy(const std::vector<ContactMemory>& memory) const {
     Eigen::VectorXd each(static_cast<Index>(memory.size()));
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(each.size(), 30))
     for (Index k = 0; k < each.size(); ++k) {
         const ShearedContact& contact = contacts_[static_cast<std::size_t>(k)];
         each[k] = law_.energy(memory[static_cast<std::size_t>(k)], radii_[contact.first], radii_[contact.second]);

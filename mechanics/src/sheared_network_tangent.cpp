@@ -2,6 +2,8 @@
 // How the forces of the contacts of a network change with the motion of their particles.
 #include "sheared_network.hpp"
 
+#include <coagula/common/parallel.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +36,7 @@ double ShearedNetwork::difference_step(const ContactMemory& memory) const {
 std::vector<Slope> ShearedNetwork::linearise(const Trial& trial) const {
     std::vector<Slope> slopes(contacts_.size());
     const auto count = static_cast<Index>(contacts_.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(count, 1000))
     for (Index k = 0; k < count; ++k) {
         slopes[static_cast<std::size_t>(k)] = slope_of(k, trial);
     }

@@ -3,6 +3,8 @@
 
 #include "six_column_kernels.hpp"
 
+#include <coagula/common/parallel.hpp>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -293,7 +295,7 @@ BlockMatrix both_triangles(const BlockMatrix& upper) {
 
 void multiply(const BlockMatrix& full, const Loads& x, Loads& y) {
     y.resize(x.rows(), 6);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(full.rows(), 500))
     for (Index row = 0; row < full.rows(); ++row) {
         const auto begin = static_cast<std::size_t>(full.start[static_cast<std::size_t>(row)]);
         const auto end = static_cast<std::size_t>(full.start[static_cast<std::size_t>(row) + 1]);

@@ -2,6 +2,7 @@
 #include "stiffness_of_contacts.hpp"
 
 #include <coagula/common/dense.hpp>
+#include <coagula/common/parallel.hpp>
 
 #include <algorithm>
 
@@ -78,12 +79,12 @@ template <class Change>
 Motion StiffnessOfContacts::gather(const Change& change_of) const {
     std::vector<Wrench> change(links_.size());
     const auto count = static_cast<Index>(links_.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(count, 50))
     for (Index k = 0; k < count; ++k) {
         change[static_cast<std::size_t>(k)] = change_of(links_[static_cast<std::size_t>(k)]);
     }
     Motion sum(6 * particles_);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(particles_, 100))
     for (Index particle = 0; particle < particles_; ++particle) {
         Eigen::Matrix<double, 6, 1> all = Eigen::Matrix<double, 6, 1>::Zero();
         const auto row = static_cast<std::size_t>(particle);
@@ -120,7 +121,7 @@ BlockMatrix StiffnessOfContacts::symmetric_part(Convex convex) const {
     static const Ends second = second_end();
     std::vector<Slope> parts(links_.size());
     const auto count = static_cast<Index>(links_.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(count, 1000))
     for (Index k = 0; k < count; ++k) {
         parts[static_cast<std::size_t>(k)] = part_of(links_[static_cast<std::size_t>(k)], convex);
     }

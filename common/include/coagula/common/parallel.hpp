@@ -13,6 +13,13 @@ namespace coagula {
 void run_together(std::size_t count, const std::function<void(std::size_t)>& work,
                   std::size_t at_once = std::numeric_limits<std::size_t>::max());
 
+/// Whether a loop takes long enough for several threads. In a shorter one they wait for each other by spinning, most of all where
+/// other work has the processors. @param nanoseconds that a turn takes.
+constexpr bool worth_threads(std::ptrdiff_t turns, double nanoseconds) {
+    constexpr double shortest = 2e5;
+    return static_cast<double>(turns) * nanoseconds >= shortest;
+}
+
 /// How many of `wanted` threads, the calling one among them, can be had at once within the limits of the process (threads, address
 /// space), each with what the libraries below take for a thread. 0: not even the calling one has room for that.
 int threads_within_limits(int wanted);
