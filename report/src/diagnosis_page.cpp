@@ -181,8 +181,8 @@ std::string parameters(const Diagnosis& found) {
     const auto add = [&](const Cause& cause) {
         for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
             rows.push_back({"<span class=\"name\">" + escaped(cause.name) + "</span>", readable(parameter.name),
-                            "<span class=\"number\">" + (leaves_open(parameter) ? "open" : printed(parameter.value, parameter.unit)) +
-                                "</span>",
+                            "<span class=\"number\">" +
+                                (leaves_open(parameter) ? "open" : printed(parameter.value, parameter.unit)) + "</span>",
                             printed(parameter.low, parameter.unit) + " to " + printed(parameter.high, parameter.unit) +
                                 (parameter.at_end ? " <b>(the end of its range)</b>" : "")});
         }

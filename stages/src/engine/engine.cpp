@@ -1,35 +1,66 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/stages/engine.hpp>
 
-#include "lammps_process.hpp"
+#include "engine_process.hpp"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace coagula::stages {
 
+namespace {
+
+const std::string petsc_program = "coagula-petsc";
+
+/// The program for PETSc beside this one, where it is installed; otherwise it is looked for as any other.
+std::string petsc_beside_this() {
+    std::error_code none;
+    const std::filesystem::path beside = std::filesystem::read_symlink("/proc/self/exe", none).replace_filename(petsc_program);
+    return !none && std::filesystem::exists(beside, none) ? beside.string() : petsc_program;
+}
+
+Engine described(const std::string& choice) {
+    if (choice == "petsc") {
+        return {.name = "PETSc",
+                .source = "it is built with coagula where PETSc is found (Debian: apt-get install libpetsc-real-dev)",
+                .command = {petsc_program}};
+    }
+    return {.name = "LAMMPS", .source = "Debian: apt-get install lammps", .command = {"lmp"}};
+}
+
+}  // namespace
+
 std::vector<Option> engine_options(std::vector<std::string> choices, std::string meaning) {
+    const std::vector<std::string> others(choices.begin() + 1, choices.end());
     std::vector<Option> options = {
         choice("engine", std::move(choices), std::move(meaning), "builtin"),
-        text("engine-command", "TEXT", "command that runs LAMMPS, such as 'mpirun -n 4 lmp'; lmp when not given")};
-    read_only_with(options, {"engine-command"}, "engine", {"lammps"});
+        text("engine-command", "TEXT",
+             "command that runs the engine, such as 'mpirun -n 4 lmp'; its program alone when not given")};
+    read_only_with(options, {"engine-command"}, "engine", others);
     return options;
 }
 
-std::optional<LammpsEngine> engine_of(const Arguments& arguments) {
-    if (arguments.text("engine") != "lammps") {
+std::optional<Engine> engine_of(const Arguments& arguments, const std::string& choice) {
+    if (arguments.text("engine") != choice) {
         return std::nullopt;
     }
-    LammpsEngine engine;
-    engine.command.clear();
-    for (const std::string& word : split(arguments.text("engine-command", "lmp"), ' ')) {
-        if (!word.empty()) {
-            engine.command.push_back(word);
+    Engine engine = described(choice);
+    if (arguments.has("engine-command")) {
+        engine.command.clear();
+        for (const std::string& word : split(arguments.text("engine-command"), ' ')) {
+            if (!word.empty()) {
+                engine.command.push_back(word);
+            }
+        }
+        if (engine.command.empty()) {
+            throw InputError(arguments.spelled("engine-command") + " names no program");
         }
     }
-    if (engine.command.empty()) {
-        throw InputError(arguments.spelled("engine-command") + " names no program");
+    for (std::string& word : engine.command) {
+        word = word == petsc_program ? petsc_beside_this() : word;
     }
-    check_installed(engine.command);
+    check_installed(engine);
     return engine;
 }
 

@@ -2,12 +2,12 @@
 // LAMMPS as a process that takes its commands one after the other.
 #pragma once
 
-#include <sys/types.h>
+#include "engine_process.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace coagula::stages {
 
@@ -17,15 +17,11 @@ std::string quoted(const std::filesystem::path& path);
 /// A file that LAMMPS reads. Throws std::runtime_error where it cannot be written.
 void write_for_lammps(const std::filesystem::path& path, const std::string& text);
 
-/// Throws InputError, naming the Debian package, where the first word of the command is no program.
-void check_installed(const std::vector<std::string>& command);
-
 /// One run of LAMMPS. The end of this object ends the process.
 class LammpsProcess {
 public:
-    /// @param command words, such as {"mpirun", "-n", "4", "lmp"}. @param folder for its log and what it prints.
-    /// Throws InputError where there is no such program.
-    LammpsProcess(const std::vector<std::string>& command, std::filesystem::path folder);
+    /// @param folder for its log and what it prints. Throws InputError where there is no such program.
+    LammpsProcess(const Engine& engine, std::filesystem::path folder);
     LammpsProcess(const LammpsProcess&) = delete;
     LammpsProcess& operator=(const LammpsProcess&) = delete;
     ~LammpsProcess();
@@ -41,14 +37,9 @@ public:
     std::string version() const;
 
 private:
-    bool ended();
-    static void pause(const std::function<void()>& meanwhile);
-    [[noreturn]] void fail() const;
-
     std::filesystem::path folder_;
     int commands_ = -1;  ///< descriptor of its standard input
-    pid_t process_ = 0;  ///< 0: it has ended
-    bool failed_ = false;
+    std::optional<EngineProcess> process_;
 };
 
 }  // namespace coagula::stages

@@ -267,7 +267,7 @@ BrownianRun brownian_run(const Arguments& arguments, const Packing* start, const
     if (run.forces.depletion) {
         take_ranges(arguments, run, start != nullptr ? mean_radius(*start) : run.suspension->placed.radii.mean());
     }
-    run.lammps = engine_of(arguments);
+    run.lammps = engine_of(arguments, "lammps");
     check_motion(run, start, radius);
     run.heterogeneity = arguments.flag("heterogeneity");
     run.checkpoint = {arguments.text("checkpoint", ""), fingerprint(arguments)};

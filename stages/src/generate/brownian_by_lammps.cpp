@@ -24,9 +24,9 @@ constexpr std::int64_t most_steps = std::numeric_limits<int>::max();  // of one 
 /// The particles of a run that goes on from command to command.
 class LammpsParticles {
 public:
-    LammpsParticles(const LammpsEngine& engine, const Packing& start, const PairPotential& potential,
-                    const BrownianOptions& options, const generators::InertialStep& step)
-        : start_(start), length_(mean_radius(start)), process_(engine.command, scratch_.path()) {
+    LammpsParticles(const Engine& engine, const Packing& start, const PairPotential& potential, const BrownianOptions& options,
+                    const generators::InertialStep& step)
+        : start_(start), length_(mean_radius(start)), process_(engine, scratch_.path()) {
         const double energy = generators::boltzmann_constant * options.temperature;
         const auto force = generators::force_within_cutoff(potential, options, length_);
         const double last = 2 + generators::cutoff_gap(options, length_) / length_;
@@ -99,7 +99,7 @@ void check_for_lammps(const Eigen::VectorXd& radii, const Cell* cell, double cut
     }
 }
 
-LammpsBrownianRun brownian_by_lammps(const LammpsEngine& engine, const Packing& start, const PairPotential& potential,
+LammpsBrownianRun brownian_by_lammps(const Engine& engine, const Packing& start, const PairPotential& potential,
                                      const BrownianOptions& options, const Progress& progress) {
     check_for_lammps(start.radii, &start.cell, options.cutoff_gap);
     const generators::InertialStep step =

@@ -20,7 +20,7 @@ struct LammpsBrownianRun {
 void check_for_lammps(const Eigen::VectorXd& radii, const Cell* cell, double cutoff_gap);
 
 /// Throws as simulate_brownian does, and std::runtime_error with the last error of LAMMPS when it fails.
-LammpsBrownianRun brownian_by_lammps(const LammpsEngine& engine, const Packing& start, const generators::PairPotential& potential,
+LammpsBrownianRun brownian_by_lammps(const Engine& engine, const Packing& start, const generators::PairPotential& potential,
                                      const generators::BrownianOptions& options, const Progress& progress);
 
 }  // namespace coagula::stages

@@ -69,7 +69,8 @@ struct Held {
                                  Eigen::Vector3d(numbers.at(3), numbers.at(4), numbers.at(5)) + edges * image});
             } else if (section == "Bonds") {
                 const auto [stiffness, rest] = coefficients.at(static_cast<int>(numbers.at(1)));
-                springs.push_back({stiffness, rest, static_cast<std::size_t>(numbers.at(2)) - 1, static_cast<std::size_t>(numbers.at(3)) - 1});
+                springs.push_back(
+                    {stiffness, rest, static_cast<std::size_t>(numbers.at(2)) - 1, static_cast<std::size_t>(numbers.at(3)) - 1});
             }
         }
     }

@@ -11,15 +11,17 @@
 
 namespace coagula::stages {
 
-/// LAMMPS, as a command.
-struct LammpsEngine {
-    std::vector<std::string> command = {"lmp"};  ///< words
+/// Another program that does the work.
+struct Engine {
+    std::string name;                  ///< in messages
+    std::string source;                ///< how to get it
+    std::vector<std::string> command;  ///< words, such as {"mpirun", "-n", "4", "lmp"}
 };
 
 /// The options `engine` and `engine-command`. @param choices of engines, "builtin" among them. @param meaning of `engine`.
 std::vector<Option> engine_options(std::vector<std::string> choices, std::string meaning);
 
-/// None where another engine than LAMMPS does the work. Throws InputError where the program is missing.
-std::optional<LammpsEngine> engine_of(const Arguments& arguments);
+/// The engine `choice`, "lammps" or "petsc"; none where another is chosen. Throws InputError where the program is missing.
+std::optional<Engine> engine_of(const Arguments& arguments, const std::string& choice);
 
 }  // namespace coagula::stages

@@ -85,8 +85,8 @@ struct BrownianRun {
     std::optional<Suspension> suspension;  ///< none: the run goes on from a packing
     bool heterogeneity = false;            ///< is measured at the start, at the snapshots and at the end
     Checkpointing checkpoint;
-    double checkpoint_interval = 60;          ///< wall-clock time [s]
-    std::optional<LammpsEngine> lammps = {};  ///< moves the particles; the suspension before it coagulates is made without it
+    double checkpoint_interval = 60;    ///< wall-clock time [s]
+    std::optional<Engine> lammps = {};  ///< moves the particles; the suspension before it coagulates is made without it
 };
 
 Verb generate_brownian_verb();
