@@ -45,6 +45,14 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The module coagula generates, measures, shears and diagnoses random
 sphere packings and colloidal gels, with numpy arrays in and out.")
 
+# Only where PETSc was found: coagula-petsc runs on many processors.
+set(CPACK_DEBIAN_PETSC_PACKAGE_NAME coagula-petsc)
+set(CPACK_DEBIAN_PETSC_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PETSC_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PETSC_PACKAGE_DEPENDS "coagula (= ${PROJECT_VERSION}), openmpi-bin")
+set(CPACK_COMPONENT_PETSC_DESCRIPTION "The solver of coagula shear --engine petsc, for packings that one machine
+takes long for.")
+
 # Each package has its copyright and its changes beside it.
 set(coagula_changes "${PROJECT_BINARY_DIR}/changelog")
 string(TIMESTAMP coagula_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
@@ -57,6 +65,10 @@ file(WRITE "${coagula_changes}" "coagula (${PROJECT_VERSION}) unstable; urgency=
 execute_process(COMMAND gzip -9nf "${coagula_changes}" COMMAND_ERROR_IS_FATAL ANY)
 set(coagula_packages coagula libcoagula-dev python3-coagula)
 set(coagula_components tools common python)
+if(TARGET coagula-petsc)
+  list(APPEND coagula_packages coagula-petsc)
+  list(APPEND coagula_components petsc)
+endif()
 foreach(package component IN ZIP_LISTS coagula_packages coagula_components)
   install(FILES packaging/copyright "${coagula_changes}.gz" DESTINATION share/doc/${package} COMPONENT ${component})
 endforeach()
@@ -67,6 +79,10 @@ cpack_add_component_group(libraries)
 cpack_add_component_group(python)
 cpack_add_component(tools GROUP program)
 cpack_add_component(python GROUP python)
+if(TARGET coagula-petsc)
+  cpack_add_component_group(petsc)
+  cpack_add_component(petsc GROUP petsc)
+endif()
 foreach(component IN LISTS COAGULA_COMPONENTS)
   cpack_add_component(${component} GROUP libraries)
 endforeach()

@@ -75,6 +75,7 @@ set(coagula_slow_tests
   "cli[.]bad_packings[.].*"
   "cli[.]brownian[.]Restart[.].*"
   "cli[.]lammps_engine[.](Runs|Statistics)[.].*"
+  "cli[.]petsc[.].*"
   "cli[.]lammps_shear[.](Gels|Moduli[.](of_bonds|of_springs|of_unequal)).*"
   "cli[.]calibrate[.]Calibrate[.]methods_agree"
   "cli[.]determinism[.].*"

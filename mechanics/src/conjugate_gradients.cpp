@@ -2,26 +2,22 @@
 #include "conjugate_gradients.hpp"
 
 #include "column_sums.hpp"
-#include "resisted_strains.hpp"
+#include "energy_error.hpp"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <limits>
 #include <string>
 
 namespace coagula::mechanics {
 
 namespace {
 
-using Row = SixValues<double>;
-using Columns = Eigen::Array<bool, 1, 6>;
+using Row = EnergyError::Row;
+using Columns = EnergyError::Columns;
 
-constexpr double rounding = 1e-13;
 constexpr double dependent = 1e-10;  // share of energy below which a direction is a combination of the others
-constexpr std::size_t delay = 10;    // iterations whose gain estimates the error before them
 
 /// Pseudo-inverse of P^T K P. Directions that depend on each other count once; those without positive energy (of rounding errors,
 /// or where K is not positive definite) do not count.
@@ -43,36 +39,6 @@ Block only(const Block& factor, const Columns& open) {
 Row quotient(const Row& numerator, const Row& denominator, const Columns& open) {
     return (open && denominator > 0).select(numerator / denominator, 0.0);
 }
-
-/// Estimates the error of the energy, per column and relative to the energy that is left, from what the last iterations gained.
-class EnergyError {
-public:
-    explicit EnergyError(const Row& affine_energy) : affine_energy_(affine_energy) {}
-
-    /// @param open the columns that are being solved: the others keep their estimate.
-    void add(const Row& gain, const Columns& open) {
-        recent_.push_back(gain);
-        sum_ += gain;
-        total_ += gain;
-        if (recent_.size() > delay) {
-            sum_ -= recent_.front();
-            recent_.pop_front();
-        }
-        const Row left = (affine_energy_ - total_).max(rounding_modulus * affine_energy_).max(1e-300);
-        const Columns settled = gain > 0 && gain <= rounding * left;
-        const Row before_delay = settled.select(gain / left, std::numeric_limits<double>::infinity());
-        estimate_ = (open && gain > 0).select(recent_.size() < delay ? before_delay : sum_.max(0.0) / left, estimate_);
-    }
-    /// Infinite until enough iterations have passed, or one has gained no more than rounding errors.
-    const Row& estimate() const { return estimate_; }
-
-private:
-    Row affine_energy_;
-    std::deque<Row> recent_;
-    Row sum_ = Row::Zero();
-    Row total_ = Row::Zero();
-    Row estimate_ = Row::Constant(std::numeric_limits<double>::infinity());
-};
 
 /// Checks the motion: its residual by K, the error of the energy, and whether every load has met one of the rules.
 void assess(const BlockMatrix& full, const Loads& f, const Row& norm, const Row& energy_error, const StopRule& rule,
@@ -139,7 +105,7 @@ Solution solve(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<doub
     const Row affine = affine_energy.transpose().array();
     const Row plain_norm = dot(f, f).sqrt();
     // Loads that symmetry cancels down to rounding errors are no loads.
-    const Row norm = (plain_norm > rounding * affine.sqrt()).select(plain_norm, 0.0);
+    const Row norm = (plain_norm > EnergyError::rounding * affine.sqrt()).select(plain_norm, 0.0);
     Columns open = norm > 0;
     Solution solution;
     Loads& x = solution.motion;

@@ -3,6 +3,7 @@
 
 #include "block_factor.hpp"
 #include "conjugate_gradients.hpp"
+#include "linear_problem_file.hpp"
 #include "schwarz.hpp"
 
 #include <coagula/common/blas_threads.hpp>
@@ -60,14 +61,20 @@ Solution solve_directly(const Problem& problem, const EliminationOrder& order, c
                              "; the network is too close to losing its stiffness, or the tolerance is too small");
 }
 
-Solution solve_iteratively(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
-                           const Progress& progress) {
-    const BlasThreads threads(1);  // the boxes run in parallel, not the kernels
+/// Positions of the load-bearing particles in the cell, each coordinate in [0, 1).
+Eigen::Matrix3Xd fractions(const Packing& packing, const LoadBearing& kept) {
     Eigen::Matrix3Xd fraction(3, static_cast<Index>(kept.particle.size()));
     for (Index place = 0; place < fraction.cols(); ++place) {
         const Eigen::Vector3d position = packing.cell.wrap(packing.positions.col(kept.particle[static_cast<std::size_t>(place)]));
         fraction.col(place) = packing.cell.fraction(position);
     }
+    return fraction;
+}
+
+Solution solve_iteratively(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
+                           const Progress& progress) {
+    const BlasThreads threads(1);  // the boxes run in parallel, not the kernels
+    const Eigen::Matrix3Xd fraction = fractions(packing, kept);
     const SchwarzPreconditioner schwarz(problem.upper, problem.full, fraction, packing.cell.edge_lengths(), SchwarzOptions{},
                                         progress);
     const StopRule rule{
@@ -85,10 +92,29 @@ Solution solve_iteratively(const Problem& problem, const Packing& packing, const
     return solution;
 }
 
+/// The same by another program.
+SolvedNetwork solve_elsewhere(const LinearNetwork& network, const Packing& packing, const LoadBearing& kept,
+                              const LinearOptions& options) {
+    const std::filesystem::path problem = options.folder / "problem";
+    const std::filesystem::path solution = options.folder / "solution";
+    write_problem(problem,
+                  {.fraction = fractions(packing, kept),
+                   .lengths = packing.cell.edge_lengths(),
+                   .affine_energy = network.affine_energy().diagonal(),
+                   .modulus_tolerance = options.modulus_tolerance,
+                   .most_iterations = most_schwarz_iterations},
+                  network.bonds());
+    options.call(problem, solution);
+    return read_solution(solution, network.particles());
+}
+
 }  // namespace
 
 SolvedNetwork solve_network(const LinearNetwork& network, const Packing& packing, const LoadBearing& kept,
                             const LinearOptions& options, const Progress& progress) {
+    if (options.call) {
+        return solve_elsewhere(network, packing, kept, options);
+    }
     const Problem problem = build_problem(network);
     const EliminationOrder order = elimination_order(problem.upper, Ordering::nested_dissection);
     SolvedNetwork solved;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -40,13 +41,42 @@ struct Grid {
         }
         return number(box);
     }
+    std::array<int, 3> place_of(Index box) const {
+        return {static_cast<int>(box % count[0]), static_cast<int>(box / count[0] % count[1]),
+                static_cast<int>(box / count[0] / count[1])};
+    }
+    /// How many boxes two of them lie apart, along the axis where that is most.
+    int distance(Index one, Index other) const {
+        int most = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int apart = std::abs(place_of(one)[axis] - place_of(other)[axis]);
+            most = std::max(most, std::min(apart, count[axis] - apart));
+        }
+        return most;
+    }
+    /// Boxes at most so far away whose number is not smaller, ascending.
+    std::vector<Index> from_here_on(Index box, int reach) const {
+        const std::array<int, 3> here = place_of(box);
+        std::vector<Index> found;
+        for (int z = -std::min(reach, count[2] / 2); z <= std::min(reach, count[2] / 2); ++z) {
+            for (int y = -std::min(reach, count[1] / 2); y <= std::min(reach, count[1] / 2); ++y) {
+                for (int x = -std::min(reach, count[0] / 2); x <= std::min(reach, count[0] / 2); ++x) {
+                    found.push_back(number({here[0] + x + count[0], here[1] + y + count[1], here[2] + z + count[2]}));
+                }
+            }
+        }
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        found.erase(found.begin(), std::lower_bound(found.begin(), found.end(), box));
+        return found;
+    }
 };
 
-/// Particles of every box with `overlap` layers of neighbours, each list sorted.
+/// The first `own` particles in boxes with `overlap` layers of neighbours, each list sorted.
 std::vector<std::vector<Index>> overlapping_boxes(const Grid& grid, const BlockMatrix& full, const Eigen::Matrix3Xd& fraction,
-                                                  int overlap) {
+                                                  Index own, int overlap) {
     std::vector<std::vector<Index>> boxes(static_cast<std::size_t>(grid.size()));
-    for (Index particle = 0; particle < fraction.cols(); ++particle) {
+    for (Index particle = 0; particle < own; ++particle) {
         boxes[static_cast<std::size_t>(grid.box_of(fraction.col(particle)))].push_back(particle);
     }
     std::erase_if(boxes, [](const auto& box) { return box.empty(); });
@@ -128,8 +158,8 @@ struct SchwarzPreconditioner::Coarse {
 
 namespace {
 
-/// Z^T K Z for the trilinear coarse motion: blocks between nodes.
-BlockMatrix coarse_matrix(const BlockMatrix& full, const std::vector<Weights>& weights, Index nodes) {
+/// Z^T K Z for the trilinear coarse motion: blocks between nodes, from the first `own` rows of K.
+BlockMatrix coarse_matrix(const BlockMatrix& full, const std::vector<Weights>& weights, Index own, Index nodes) {
     std::vector<std::vector<std::pair<Index, Block>>> rows(static_cast<std::size_t>(nodes));
     for (Index node = 0; node < nodes; ++node) {
         rows[static_cast<std::size_t>(node)].emplace_back(node, Block::Zero());
@@ -143,7 +173,7 @@ BlockMatrix coarse_matrix(const BlockMatrix& full, const std::vector<Weights>& w
         }
         place->second += block;
     };
-    for (Index row = 0; row < full.rows(); ++row) {
+    for (Index row = 0; row < own; ++row) {
         const Weights& left = weights[static_cast<std::size_t>(row)];
         for (auto k = static_cast<std::size_t>(full.start[static_cast<std::size_t>(row)]);
              k < static_cast<std::size_t>(full.start[static_cast<std::size_t>(row) + 1]); ++k) {
@@ -169,13 +199,56 @@ BlockMatrix coarse_matrix(const BlockMatrix& full, const std::vector<Weights>& w
     return matrix;
 }
 
+/// How far apart two nodes with a block lie at most, in any of the processes.
+int reach_of(const BlockMatrix& matrix, const Grid& grid, const SharedPart& part) {
+    std::vector<double> seen(1 + static_cast<std::size_t>(*std::max_element(grid.count.begin(), grid.count.end())) / 2, 0.0);
+    for (Index node = 0; node < matrix.rows(); ++node) {
+        for (auto k = static_cast<std::size_t>(matrix.start[static_cast<std::size_t>(node)]);
+             k < static_cast<std::size_t>(matrix.start[static_cast<std::size_t>(node) + 1]); ++k) {
+            seen[static_cast<std::size_t>(grid.distance(node, matrix.column[k]))] = 1;
+        }
+    }
+    part.sum(seen.data(), static_cast<Index>(seen.size()));
+    return static_cast<int>(std::find_if(seen.rbegin(), seen.rend(), [](double count) { return count > 0; }).base() -
+                            seen.begin()) -
+           1;
+}
+
+/// The sum of the matrices of all processes.
+BlockMatrix summed(const BlockMatrix& matrix, const Grid& grid, const SharedPart& part) {
+    const int reach = reach_of(matrix, grid, part);
+    BlockMatrix all;
+    all.start.push_back(0);
+    for (Index node = 0; node < grid.size(); ++node) {
+        const std::vector<Index> near = grid.from_here_on(node, reach);
+        const std::size_t begin = all.column.size();
+        all.column.insert(all.column.end(), near.begin(), near.end());
+        all.block.resize(all.column.size(), Block::Zero());
+        for (auto k = static_cast<std::size_t>(matrix.start[static_cast<std::size_t>(node)]);
+             k < static_cast<std::size_t>(matrix.start[static_cast<std::size_t>(node) + 1]); ++k) {
+            const auto place = std::lower_bound(near.begin(), near.end(), matrix.column[k]);
+            all.block[begin + static_cast<std::size_t>(place - near.begin())] = matrix.block[k];
+        }
+        all.start.push_back(static_cast<Index>(all.column.size()));
+    }
+    part.sum(all.block.front().data(), 36 * static_cast<Index>(all.block.size()));
+    return all;
+}
+
 }  // namespace
 
 SchwarzPreconditioner::SchwarzPreconditioner(const BlockMatrix& upper, const BlockMatrix& full, const Eigen::Matrix3Xd& fraction,
                                              const Eigen::Vector3d& lengths, const SchwarzOptions& options,
-                                             const Progress& progress) {
-    const Grid grid(lengths, static_cast<double>(fraction.cols()) / options.particles_per_box);
-    for (auto& particles : overlapping_boxes(grid, full, fraction, options.overlap)) {
+                                             const Progress& progress)
+    : SchwarzPreconditioner(upper, full, fraction, lengths, options, progress,
+                            {.own = fraction.cols(), .all = fraction.cols(), .sum = {}}) {}
+
+SchwarzPreconditioner::SchwarzPreconditioner(const BlockMatrix& upper, const BlockMatrix& full, const Eigen::Matrix3Xd& fraction,
+                                             const Eigen::Vector3d& lengths, const SchwarzOptions& options,
+                                             const Progress& progress, SharedPart part)
+    : part_(std::move(part)) {
+    const Grid grid(lengths, static_cast<double>(part_.all) / options.particles_per_box);
+    for (auto& particles : overlapping_boxes(grid, full, fraction, part_.own, options.overlap)) {
         boxes_.push_back(std::make_unique<Box>());
         boxes_.back()->particles = std::move(particles);
     }
@@ -187,7 +260,10 @@ SchwarzPreconditioner::SchwarzPreconditioner(const BlockMatrix& upper, const Blo
     for (Index particle = 0; particle < fraction.cols(); ++particle) {
         coarse_->weights.push_back(trilinear(grid, fraction.col(particle)));
     }
-    const BlockMatrix coarse = coarse_matrix(full, coarse_->weights, coarse_->nodes);
+    BlockMatrix coarse = coarse_matrix(full, coarse_->weights, part_.own, coarse_->nodes);
+    if (part_.sum) {
+        coarse = summed(coarse, grid, part_);
+    }
     coarse_->factor = std::make_unique<CholeskyFactor>(shifted(coarse, options.shift * options.particles_per_box),
                                                        elimination_order(coarse, Ordering::nested_dissection));
 }
@@ -236,11 +312,14 @@ SchwarzPreconditioner::~SchwarzPreconditioner() = default;
 void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
     const auto particles = static_cast<Index>(copy_start_.size()) - 1;
     Loads coarse_load = Loads::Zero(6 * coarse_->nodes, 6);
-    for (Index particle = 0; particle < particles; ++particle) {
+    for (Index particle = 0; particle < part_.own; ++particle) {
         const Weights& weights = coarse_->weights[static_cast<std::size_t>(particle)];
         for (std::size_t corner = 0; corner < 8; ++corner) {
             coarse_load.middleRows<6>(6 * weights.node[corner]) += weights.weight[corner] * r.middleRows<6>(6 * particle);
         }
+    }
+    if (part_.sum) {
+        part_.sum(coarse_load.data(), coarse_load.size());
     }
     Loads coarse_motion;
     coarse_motion = coarse_->factor->solve(coarse_load);
@@ -265,7 +344,7 @@ void SchwarzPreconditioner::solve(const Loads& r, Loads& z) const {
             }
         }
         const Weights& weights = coarse_->weights[static_cast<std::size_t>(particle)];
-        for (std::size_t corner = 0; corner < 8; ++corner) {
+        for (std::size_t corner = 0; corner < 8 && particle < part_.own; ++corner) {
             sum += weights.weight[corner] * coarse_motion.middleRows<6>(6 * weights.node[corner]);
         }
         z.middleRows<6>(6 * particle) = sum;

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace coagula::mechanics {
@@ -69,6 +70,8 @@ public:
     /// @param tangents of all bonds of `network`. @param reference the stiffness that counts as 1 [N/m].
     LinearNetwork(const Packing& packing, const ContactNetwork& network, const LoadBearing& kept,
                   std::span<const ContactTangent> tangents, double reference);
+    /// @param bonds of so many particles, in reduced units.
+    LinearNetwork(Index particles, std::vector<LinearBond> bonds) : particles_(particles), bonds_(std::move(bonds)) {}
 
     /// Lets the strain act on `strained` (3 x bonds of the network given to the constructor [m]) instead of on the branch vectors:
     /// where held particles do not follow it.
@@ -110,7 +113,7 @@ private:
     static Block coupling(const LinearBond& bond);
 
     Index particles_ = 0;
-    double length_;  ///< the mean radius [m]
+    double length_ = 1;  ///< the mean radius [m]
     std::vector<Index> kept_bond_;
     std::vector<LinearBond> bonds_;
 };

@@ -38,11 +38,11 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
-    def succeed_json(self, *words):
+    def succeed_json(self, *words, **options):
         def refuse(constant):
             self.fail(f"{constant} is not JSON")
 
-        return json.loads(self.succeed(*words, "--json"), parse_constant=refuse)
+        return json.loads(self.succeed(*words, "--json", **options), parse_constant=refuse)
 
     def fail_with(self, code, *words, says=(), may_say_nan=False, **options):
         """Expects this exit code, one sentence with the given parts on standard error, and no new file in the folder."""

@@ -8,6 +8,7 @@
 #include "quasistatic_run.hpp"
 #include "rheometer_run.hpp"
 #include "shear_by_lammps.hpp"
+#include "shear_by_petsc.hpp"
 #include "shear_conditions.hpp"
 #include "shear_results.hpp"
 
@@ -156,11 +157,16 @@ Findings linear_response(const ShearRun& run, const Packing& before, const Packi
         options.held = surface.outer;
         options.volume = surface.inner_volume;
     }
+    std::optional<PetscSolver> petsc;
+    if (run.petsc) {
+        petsc.emplace(*run.petsc, progress).serve(options);
+    }
     const mechanics::LinearResponse response = mechanics::solve_linear(packing, bonds, options, progress);
     Findings found{.group = "/mechanics/linear",
                    .results = datasets_of(response, run.bond_tolerance, options),
                    .fields = fields_of(response),
-                   .table = table_of(response)};
+                   .table = table_of(response),
+                   .engine = petsc ? "PETSc " + petsc->version() : ""};
     append_load_structure(found, mechanics::find_load_structure(packing, bonds, response, {.held = options.held}),
                           packing.cell.is_periodic());
     return found;
@@ -204,7 +210,7 @@ ShearMethod method_of(const Arguments& arguments, const std::vector<double>& fre
 
 /// An engine computes by the methods that it knows.
 void check_engine(const Arguments& arguments) {
-    const std::map<std::string, std::string> method_of_engine = {{"lammps", "dem"}};
+    const std::map<std::string, std::string> method_of_engine = {{"lammps", "dem"}, {"petsc", "linear"}};
     const auto needed = method_of_engine.find(arguments.text("engine"));
     if (needed != method_of_engine.end() && arguments.text("method") != needed->second) {
         throw InputError(arguments.spelled("engine", needed->first) + " computes by " +
@@ -231,7 +237,8 @@ std::string ShearRun::group() const {
 ShearRun shear_run(const Arguments& arguments) {
     ShearRun run;
     check_engine(arguments);
-    run.lammps = engine_of(arguments);
+    run.lammps = engine_of(arguments, "lammps");
+    run.petsc = engine_of(arguments, "petsc");
     run.frequencies = frequencies_of(arguments);
     check_frequencies(arguments, run.frequencies);
     run.method = method_of(arguments, run.frequencies);
@@ -353,7 +360,8 @@ Verb shear_verb() {
         "Each of several files gets its own results; the mean of G' and its standard error over the structures are printed.");
     verb.many_inputs = true;
     const std::vector<Option> engine = engine_options(
-        {"builtin", "lammps"}, "what computes the response: coagula itself, or, dem: LAMMPS, which must be installed");
+        {"builtin", "petsc", "lammps"},
+        "what computes the response: coagula itself; linear: PETSc on many processors; dem: LAMMPS, which must be installed");
     for (const std::vector<Option>& own : {rheometer_options(), quasistatic_options(), engine}) {
         verb.options.insert(verb.options.end() - 2, own.begin(), own.end());
     }
@@ -366,6 +374,7 @@ Verb shear_verb() {
                   {"amplitude", "constant-amplitude", "oscillations", "steps-per-oscillation", "damping", "density", "checkpoint",
                    "frequency", "frequency-sweep"},
                   "engine", {"lammps"});
+    not_read_with(verb.options, {"solver", "memory-limit", "tolerance", "frequency", "frequency-sweep"}, "engine", {"petsc"});
     read_only_with(verb.options, {"memory-limit"}, "solver", {"auto"});
     read_only_with(verb.options, {"modulus-tolerance"}, "solver", {"auto", "iterative"});
     return verb;

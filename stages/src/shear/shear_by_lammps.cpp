@@ -75,13 +75,13 @@ void check_packing(const Packing& packing, const ContactNetwork& bonds) {
 
 class Settling {
 public:
-    Settling(const LammpsEngine& engine, const ContactModel& model, const Packing& packing, const ContactNetwork& bonds)
+    Settling(const Engine& engine, const ContactModel& model, const Packing& packing, const ContactNetwork& bonds)
         : packing_(packing),
           bonds_(bonds),
           length_(mean_radius(packing)),
           ratios_(ratios_of(model, length_)),
           pressure_(0.5 * model.normal_stiffness / length_),
-          process_(engine.command, scratch_.path()) {}
+          process_(engine, scratch_.path()) {}
 
     LammpsShear shear(const mechanics::ShearOrientation& plane, const Progress& progress) {
         const LammpsBodies bodies = lammps_bodies(packing_, bonds_, ratios_, deformation_of(plane));

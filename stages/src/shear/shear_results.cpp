@@ -31,7 +31,9 @@ struct Shear {
 const std::array<Shear, 3> shears = {{{"yz", 3}, {"xz", 4}, {"xy", 5}}};
 
 std::string solver_name(mechanics::LinearSolver solver) {
-    return solver == mechanics::LinearSolver::iterative ? "iterative" : "direct";
+    return solver == mechanics::LinearSolver::iterative  ? "iterative"
+           : solver == mechanics::LinearSolver::external ? "petsc"
+                                                         : "direct";
 }
 
 void append_network(Results& results, const LinearResponse& response, double bond_tolerance,

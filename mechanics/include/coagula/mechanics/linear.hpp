@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace coagula::mechanics {
@@ -18,6 +20,7 @@ enum class LinearSolver {
     automatic,  ///< direct where the predicted memory fits, else iterative
     direct,     ///< supernodal sparse Cholesky
     iterative,  ///< preconditioned conjugate gradients
+    external,   ///< those of another program, see LinearOptions::call
 };
 
 struct LinearOptions {
@@ -33,6 +36,10 @@ struct LinearOptions {
     std::vector<bool> held;  ///< N flags for a sample with a free surface: these particles follow the strain without rotating;
                              ///< empty for a periodic cell
     double volume = unset;   ///< with `held`: volume of the particles that are not held [m^3]
+    /// Calls coagula-petsc, or a program alike, with the problem that lies in the first file; it writes the solution to the second.
+    /// Not set: solved here.
+    std::function<void(const std::filesystem::path&, const std::filesystem::path&)> call;
+    std::filesystem::path folder;  ///< with `call`: for those files
 };
 
 /// Response to the six unit strains, Voigt order xx yy zz yz xz xy; shear components are engineering strains.

@@ -52,7 +52,8 @@ struct ShearRun {
     mechanics::RheometerOptions rheometer = {};
     QuasistaticPath quasistatic = {};
     std::vector<mechanics::ShearOrientation> orientations = {};
-    std::optional<LammpsEngine> lammps = {};  ///< which moves the particles instead
+    std::optional<Engine> lammps = {};  ///< which moves the particles instead
+    std::optional<Engine> petsc = {};   ///< which solves the linear problem instead
     Checkpointing checkpoint = {};
     Results conditions = {};  ///< under which the results are found, as they stand beside them in the file
 
