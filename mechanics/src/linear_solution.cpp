@@ -71,12 +71,14 @@ Eigen::Matrix3Xd fractions(const Packing& packing, const LoadBearing& kept) {
     return fraction;
 }
 
-Solution solve_iteratively(const Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
+/// Gives the memory of `upper` back, which is not needed any more once the boxes are factorised.
+Solution solve_iteratively(Problem& problem, const Packing& packing, const LoadBearing& kept, const LinearOptions& options,
                            const Progress& progress) {
     const BlasThreads threads(1);  // the boxes run in parallel, not the kernels
     const Eigen::Matrix3Xd fraction = fractions(packing, kept);
     const SchwarzPreconditioner schwarz(problem.upper, problem.full, fraction, packing.cell.edge_lengths(), SchwarzOptions{},
                                         progress);
+    problem.upper = {};
     const StopRule rule{
         .residual = options.tolerance, .energy = options.modulus_tolerance, .most_iterations = most_schwarz_iterations};
     const auto precondition = [&](const Loads& r, Loads& z) { schwarz.solve(r, z); };
@@ -115,7 +117,7 @@ SolvedNetwork solve_network(const LinearNetwork& network, const Packing& packing
     if (options.call) {
         return solve_elsewhere(network, packing, kept, options);
     }
-    const Problem problem = build_problem(network);
+    Problem problem = build_problem(network);
     const EliminationOrder order = elimination_order(problem.upper, Ordering::nested_dissection);
     SolvedNetwork solved;
     solved.predicted_memory = order.predicted_memory();
