@@ -10,6 +10,7 @@
 
 namespace coagula::stages {
 
+/// Has the equations of linear responses solved by PETSc.
 class PetscSolver {
 public:
     PetscSolver(const Engine& engine, const Progress& progress) : engine_(engine), progress_(progress) {}
