@@ -30,8 +30,7 @@ html_last_updated_fmt = None
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 
-breathe_projects = {"coagula": str(SOURCE.parent / "doxygen/xml")}
-breathe_default_project = "coagula"
+breathe_projects = {library.name: str(library / "xml") for library in (SOURCE.parent / "doxygen").iterdir()}
 breathe_default_members = ("members",)
 
 autodoc_member_order = "bysource"
