@@ -7,8 +7,10 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <deque>
 #include <limits>
+#include <numeric>
 
 namespace coagula::mechanics {
 
@@ -24,17 +26,15 @@ public:
 
     /// @param open the columns that are being solved: the others keep their estimate.
     void add(const Row& gain, const Columns& open) {
-        recent_.push_back(gain);
-        sum_ += gain;
+        gains_.push_back(gain);
         total_ += gain;
-        if (recent_.size() > delay) {
-            sum_ -= recent_.front();
-            recent_.pop_front();
+        if (gains_.size() > 2 * delay) {
+            gains_.pop_front();
         }
         const Row left = (affine_energy_ - total_).max(rounding_modulus * affine_energy_).max(1e-300);
         const Columns settled = gain > 0 && gain <= rounding * left;
         const Row before_delay = settled.select(gain / left, std::numeric_limits<double>::infinity());
-        estimate_ = (open && gain > 0).select(recent_.size() < delay ? before_delay : sum_.max(0.0) / left, estimate_);
+        estimate_ = (open && gain > 0).select(gains_.size() < delay ? before_delay : to_come() / left, estimate_);
     }
     /// Infinite until enough iterations have passed, or one has gained no more than rounding errors.
     const Row& estimate() const { return estimate_; }
@@ -42,9 +42,21 @@ public:
 private:
     static constexpr std::size_t delay = 10;  ///< iterations whose gain estimates the error before them
 
+    /// What the last iterations gained; or more, where they gained nearly as much as as many before: what a geometric series still
+    /// gains. Infinite where they gained no less.
+    Row to_come() const {
+        const auto middle = gains_.end() - static_cast<std::ptrdiff_t>(delay);
+        const Row recent = std::accumulate(middle, gains_.end(), Row(Row::Zero())).max(0.0);
+        const Row before = std::accumulate(gains_.begin(), middle, Row(Row::Zero()));
+        if (gains_.size() < 2 * delay) {
+            return recent;
+        }
+        const Row rest = (recent < before).select(recent / (before - recent), std::numeric_limits<double>::infinity());
+        return recent * rest.max(1.0);
+    }
+
     Row affine_energy_;
-    std::deque<Row> recent_;
-    Row sum_ = Row::Zero();
+    std::deque<Row> gains_;
     Row total_ = Row::Zero();
     Row estimate_ = Row::Constant(std::numeric_limits<double>::infinity());
 };

@@ -342,7 +342,7 @@ Verb shear_verb() {
                     "bring the bonded packing to rest first: by minimisation, or by steps with velocities set to zero", "none"),
              choice("solver", {"auto", "direct", "iterative"}, "solver of the linear equations", "auto"),
              quantity("memory-limit", "byte", "memory for the direct solver; auto takes the iterative one where this is not enough",
-                      "1GB", within(1, 1e18)),
+                      "500MB", within(1, 1e18)),
              quantity("tolerance", "1", "direct solver: relative residual of every strain", "1e-10", within(1e-14, 1e-2)),
              quantity("modulus-tolerance", "1", "iterative solver: estimated relative error of the moduli", "1e-5",
                       within(1e-12, 1e-2)),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "conjugate_gradients.hpp"
+#include "energy_error.hpp"
 #include "six_column_kernels.hpp"
 #include "stiffness.hpp"
 
@@ -7,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace coagula::mechanics {
 namespace {
@@ -113,6 +116,30 @@ TEST(ConjugateGradients, ANegativeMatrixHasNoLeastEnergy) {
         network.solve(network.loads, network.affine, {.residual = 1e-8, .energy = 1e-6, .most_iterations = 500});
     EXPECT_FALSE(solution.converged) << "after " << solution.iterations << " iterations, residual " << solution.residual;
     EXPECT_EQ(solution.motion.norm(), 0);
+}
+
+/// The largest quotient of the true error over its estimate while the gains of a column fall by a factor each time.
+double most_underestimated(double factor) {
+    const double all = 1 / (1 - factor);
+    EnergyError error(EnergyError::Row::Constant(all + 1));  // one is left at the end
+    double worst = 0;
+    double gained = 0;
+    for (int iteration = 0; iteration < 200; ++iteration) {
+        const double gain = std::pow(factor, iteration);
+        gained += gain;
+        error.add(EnergyError::Row::Constant(gain), EnergyError::Columns::Constant(true));
+        if (std::isfinite(error.estimate()[0]) && iteration > 20) {
+            worst = std::max(worst, (all - gained) / (all - gained + 1) / error.estimate()[0]);
+        }
+    }
+    return worst;
+}
+
+TEST(EnergyError, IsNotUnderestimatedWhereGainsFallSlowly) {
+    EXPECT_LT(most_underestimated(0.5), 0.01) << "the estimate is that of ten iterations ago";
+    EXPECT_LE(most_underestimated(0.9), 1.0);
+    EXPECT_LE(most_underestimated(0.97), 1 + 1e-9);
+    EXPECT_LE(most_underestimated(0.99), 1 + 1e-9);
 }
 
 TEST(SixColumnKernels, ARowOfBlocksTimesColumnsOfSix) {

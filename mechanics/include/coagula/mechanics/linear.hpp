@@ -28,7 +28,7 @@ struct LinearOptions {
     double shear_stiffness = 10;                ///< of a particle [N/m], >= 0
     std::vector<ContactTangent> bond_tangents;  ///< M: stiffness of every bond instead of those two, see bond_tangents(); or empty
     LinearSolver solver = LinearSolver::automatic;
-    double memory_limit = 1.0e9;      ///< for the factor [bytes]; decides under `automatic`
+    double memory_limit = 5e8;        ///< for the factor [bytes]; decides under `automatic`
     double tolerance = 1e-10;         ///< direct solver: relative residual |f - K u| / |f| of every strain
     double modulus_tolerance = 1e-5;  ///< iterative solver: estimated relative error of the moduli
     double shift =
