@@ -51,7 +51,7 @@ class Refusals(ProgramTest):
         for method in ("linear", "quasistatic"):
             self.fail_with(2, "shear", "packing.h5", "--method", method, "--engine", "lammps",
                            says="--engine lammps computes by --method dem only", env=self.environment())
-        self.fail_with(2, *DEM, "--engine-command", "lmp", says="read only with --engine lammps")
+        self.fail_with(2, *DEM, "--engine-command", "lmp", says="--engine-command is read only with --engine petsc or lammps")
 
     def test_cells_that_it_cannot_hold(self):
         self.write("points.csv", "x,y,z\n0,0,0\n1.99,0,0\n")
