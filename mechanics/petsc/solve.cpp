@@ -7,8 +7,10 @@
 
 #include <petscksp.h>
 
+#include <cmath>
+#include <memory>
+#include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace coagula::mechanics {
 
@@ -27,20 +29,17 @@ Row dot_over_processes(const Loads& a, const Loads& b, Index own) {
 class Equations {
 public:
     Equations(const ProblemFile& problem, const Part& part)
-        : own_(part.own),
-          vectors_(part),
-          network_(static_cast<Index>(part.particle.size()), part.bonds),
-          affine_(problem.affine_energy().transpose()),
-          error_(affine_) {
-        BlockMatrix upper = network_.stiffness();
+        : own_(part.own), vectors_(part), affine_(problem.affine_energy().transpose()), error_(affine_) {
+        const LinearNetwork network(static_cast<Index>(part.particle.size()), part.bonds);
+        BlockMatrix upper = network.stiffness();
         rows_ = both_triangles(upper);
-        network_.stiffen_spins(upper);
+        network.stiffen_spins(upper);
         const SchwarzOptions options;
         schwarz_ =
             std::make_unique<SchwarzPreconditioner>(upper, rows_, part.fraction, problem.lengths(), options, Progress{},
                                                     SharedPart{.own = own_, .all = problem.particles(), .sum = sum_over_processes});
         keep_own_rows();
-        loads_ = network_.loads().topRows(6 * own_);
+        loads_ = network.loads().topRows(6 * own_);
         norm_ = dot_over_processes(loads_, loads_, own_).sqrt();
         modulus_tolerance_ = problem.modulus_tolerance();
         // Loads that symmetry cancels down to rounding errors are no loads.
@@ -99,7 +98,6 @@ private:
 
     Index own_;
     SharedVector vectors_;
-    LinearNetwork network_;
     BlockMatrix rows_;
     std::unique_ptr<SchwarzPreconditioner> schwarz_;
     Loads loads_;
@@ -127,7 +125,7 @@ PetscErrorCode precondition_shell(PC preconditioner, Vec r, Vec z) {
     return 0;
 }
 
-PetscErrorCode test_convergence(KSP solver, PetscInt iteration, PetscReal, KSPConvergedReason* reason, void* context) {
+PetscErrorCode test_convergence(KSP solver, PetscInt iteration, PetscReal /*norm*/, KSPConvergedReason* reason, void* context) {
     Vec x = nullptr;
     check(KSPGetSolution(solver, &x));
     *reason = static_cast<Equations*>(context)->has_converged(static_cast<int>(iteration), x) ? KSP_CONVERGED_RTOL
@@ -142,6 +140,7 @@ public:
         const Index numbers = equations.loads().size();
         check(MatCreateShell(PETSC_COMM_WORLD, static_cast<PetscInt>(numbers), static_cast<PetscInt>(numbers), PETSC_DETERMINE,
                              PETSC_DETERMINE, &equations, &matrix_));
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): PETSc takes all operations as functions of nothing
         check(MatShellSetOperation(matrix_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)));
         check(KSPCreate(PETSC_COMM_WORLD, &solver_));
         check(KSPSetOperators(solver_, matrix_, matrix_));

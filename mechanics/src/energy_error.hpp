@@ -11,6 +11,7 @@
 #include <deque>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace coagula::mechanics {
 
@@ -22,7 +23,7 @@ public:
 
     static constexpr double rounding = 1e-13;
 
-    explicit EnergyError(const Row& affine_energy) : affine_energy_(affine_energy) {}
+    explicit EnergyError(Row affine_energy) : affine_energy_(std::move(affine_energy)) {}
 
     /// @param open the columns that are being solved: the others keep their estimate.
     void add(const Row& gain, const Columns& open) {
@@ -42,11 +43,11 @@ public:
 private:
     static constexpr std::size_t delay = 10;  ///< iterations whose gain estimates the error before them
 
-    /// What the last iterations gained; or more, where they gained nearly as much as as many before: what a geometric series still
-    /// gains. Infinite where they gained no less.
+    /// What the last iterations gained. Where they gained nearly as much as the same number before them, it is what a geometric
+    /// series has still to gain, which is more; infinite where they gained no less.
     Row to_come() const {
         const auto middle = gains_.end() - static_cast<std::ptrdiff_t>(delay);
-        const Row recent = std::accumulate(middle, gains_.end(), Row(Row::Zero())).max(0.0);
+        Row recent = std::accumulate(middle, gains_.end(), Row(Row::Zero())).max(0.0);
         const Row before = std::accumulate(gains_.begin(), middle, Row(Row::Zero()));
         if (gains_.size() < 2 * delay) {
             return recent;

@@ -38,7 +38,21 @@ struct SolutionHead {
 
 template <class Value>
 void put(std::ostream& file, const Value* values, std::size_t count) {
-    file.write(reinterpret_cast<const char*>(values), static_cast<std::streamsize>(count * sizeof(Value)));
+    const void* const bytes = values;
+    file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count * sizeof(Value)));
+}
+
+template <class Value>
+void get(std::istream& file, Value* values, std::size_t count) {
+    void* const bytes = values;
+    file.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count * sizeof(Value)));
+}
+
+/// Values that lie in memory from this byte on.
+template <class Value>
+const Value* values_at(const char* byte) {
+    const void* const bytes = byte;
+    return static_cast<const Value*>(bytes);
 }
 
 void require_written(std::ostream& file, const std::filesystem::path& path) {
@@ -104,14 +118,15 @@ ProblemFile::ProblemFile(const std::filesystem::path& path) : fraction_(nullptr,
     const auto particles = static_cast<std::size_t>(head.particles);
     const auto bonds = static_cast<std::size_t>(head.bonds);
     if (head.mark != problem_mark ||
-        size != sizeof head + 24 * particles + (sizeof(Ends) + numbers_of_spring * sizeof(double)) * bonds) {
+        size != sizeof head + 3 * sizeof(double) * particles + (sizeof(Ends) + numbers_of_spring * sizeof(double)) * bonds) {
         throw std::runtime_error(path.string() + " is no problem that coagula has written");
     }
-    const auto* const fractions = reinterpret_cast<const double*>(begin + sizeof head);
-    const auto* const ends = reinterpret_cast<const Ends*>(fractions + 3 * particles);
+    const char* const first_end = begin + sizeof head + 3 * sizeof(double) * particles;
+    const auto* const fractions = values_at<double>(begin + sizeof head);
+    const auto* const ends = values_at<Ends>(first_end);
     new (&fraction_) Eigen::Map<const Eigen::Matrix3Xd>(fractions, 3, head.particles);
     ends_ = {ends, bonds};
-    springs_ = reinterpret_cast<const double*>(ends + bonds);
+    springs_ = values_at<double>(first_end + sizeof(Ends) * bonds);
     lengths_ = Eigen::Vector3d(head.lengths.data());
     affine_energy_ = Eigen::Matrix<double, 6, 1>(head.affine_energy.data());
     modulus_tolerance_ = head.modulus_tolerance;
@@ -169,9 +184,9 @@ void write_summary(const std::filesystem::path& path, const SolutionSummary& sum
 SolvedNetwork read_solution(const std::filesystem::path& path, Index particles) {
     std::ifstream file(path, std::ios::binary);
     SolutionHead head;
-    file.read(reinterpret_cast<char*>(&head), sizeof head);
+    get(file, &head, 1);
     SolvedNetwork solved{.motion = Loads(6 * particles, 6), .solver = LinearSolver::external};
-    file.read(reinterpret_cast<char*>(solved.motion.data()), static_cast<std::streamsize>(particles * Index{motion_of_particle}));
+    get(file, solved.motion.data(), static_cast<std::size_t>(solved.motion.size()));
     if (!file || head.mark != solution_mark) {
         throw std::runtime_error("the solver left no complete solution");
     }
