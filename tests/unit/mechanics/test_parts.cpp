@@ -132,7 +132,7 @@ TEST(ProblemFile, IsReadAsItWasWritten) {
 
 TEST(SolutionFile, IsPutTogetherFromRowsOfAllProcesses) {
     const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "parts.solution";
-    const Loads motion = Loads::Random(6 * 5, 6);
+    const Loads motion = Loads::Random(30, 6);
     create_solution(path, 5);
     const std::vector<std::vector<Index>> rows = {{1, 2, 4}, {0, 3}};
     for (const std::vector<Index>& own : rows) {
