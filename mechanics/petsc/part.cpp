@@ -3,6 +3,7 @@
 
 #include "bricks.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace coagula::mechanics {

@@ -4,6 +4,7 @@
 #include <petscsys.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -28,8 +29,12 @@ void check(PetscErrorCode code) {
     if (code != 0) {
         const char* text = nullptr;
         PetscErrorMessage(code, &text, nullptr);
-        throw std::runtime_error(std::string("PETSc failed: ") + (text != nullptr ? text : "error " + std::to_string(code)));
+        throw std::runtime_error(text != nullptr ? text : "error " + std::to_string(code));
     }
+}
+
+void check_count(Index particles) {
+    to_petsc(numbers_of_particle * particles);
 }
 
 SharedVector::SharedVector(const Part& part) : own_(part.own), all_(static_cast<Index>(part.particle.size())) {

@@ -11,6 +11,9 @@ namespace coagula::mechanics {
 /// Ends the work of all processes with PETSc's own words where it has failed.
 void check(PetscErrorCode code);
 
+/// Throws std::runtime_error where PETSc cannot number the unknowns of so many particles.
+void check_count(Index particles);
+
 /// Moves numbers between the particles of a process and its neighbours, which other processes own.
 class SharedVector {
 public:

@@ -178,6 +178,7 @@ private:
 }  // namespace
 
 SharedSolution solve_together(const ProblemFile& problem, const Part& part) {
+    check_count(problem.particles());
     Equations equations(problem, part);
     Vec f = equations.vectors().make();
     Vec x = equations.vectors().make();

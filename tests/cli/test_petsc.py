@@ -49,6 +49,12 @@ class Refusals(PetscTest):
         self.assertEqual((self.folder / "p.h5").read_bytes(), before)
 
 
+    def test_a_coagula_that_mpirun_has_started_twice(self):
+        self.packing()
+        for variable in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"):
+            self.fail_with(2, "shear", "p.h5", *BY_PETSC, says=["was started 2 times at once", variable], env={**os.environ, variable: "2"})
+
+
 @needs_petsc
 class Response(PetscTest):
     def moduli(self, *words, processes=0):

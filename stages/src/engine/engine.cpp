@@ -3,6 +3,7 @@
 
 #include "engine_process.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -29,6 +30,18 @@ Engine described(const std::string& choice) {
     return {.name = "LAMMPS", .source = "Debian: apt-get install lammps", .command = {"lmp"}};
 }
 
+/// Throws InputError where mpirun or srun has started coagula itself several times: each would do the whole work, for one file.
+void check_started_once(const Engine& engine) {
+    for (const char* const variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
+        const char* const size = std::getenv(variable);
+        if (size != nullptr && std::atoi(size) > 1) {
+            throw InputError(std::string("coagula was started ") + size + " times at once (" + variable +
+                             "): start it once, and give the command that starts " + engine.name +
+                             " so often as the engine command");
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<Option> engine_options(std::vector<std::string> choices, std::string meaning) {
@@ -46,6 +59,7 @@ std::optional<Engine> engine_of(const Arguments& arguments, const std::string& c
         return std::nullopt;
     }
     Engine engine = described(choice);
+    check_started_once(engine);
     if (arguments.has("engine-command")) {
         engine.command.clear();
         for (const std::string& word : split(arguments.text("engine-command"), ' ')) {
