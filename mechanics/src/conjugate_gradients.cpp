@@ -82,7 +82,7 @@ class SharedDirections {
 public:
     void begin(const Loads& /*r*/, Loads& d, const Columns& open) { d = d * open.cast<double>().matrix().asDiagonal(); }
 
-    /// As in OwnDirections.
+    /// Moves x to the least energy in the space of all directions d, q = K d. Returns what each load gains.
     Row advance(Loads& x, Loads& r, const Loads& d, const Loads& q, const Columns& open) {
         inverse_ = inverse_energies(products(d, q));
         const Block work = products(d, r);

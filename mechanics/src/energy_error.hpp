@@ -43,8 +43,8 @@ public:
 private:
     static constexpr std::size_t delay = 10;  ///< iterations whose gain estimates the error before them
 
-    /// What the last iterations gained. Where they gained nearly as much as the same number before them, it is what a geometric
-    /// series has still to gain, which is more; infinite where they gained no less.
+    /// Returns what the last iterations gained. Where they gained nearly as much as the same number before them, it returns what a
+    /// geometric series has still to gain, which is more; infinity where they gained no less.
     Row to_come() const {
         const auto middle = gains_.end() - static_cast<std::ptrdiff_t>(delay);
         Row recent = std::accumulate(middle, gains_.end(), Row(Row::Zero())).max(0.0);

@@ -16,7 +16,7 @@
 
 namespace coagula::mechanics {
 
-/// What the solver needs to know besides the bonds.
+/// A problem has bonds, and besides them what the solver needs to know.
 struct LinearProblem {
     Eigen::Matrix3Xd fraction;                  ///< 3 x n, positions of the load-bearing particles in the cell, each in [0, 1)
     Eigen::Vector3d lengths;                    ///< edge lengths of the cell, any unit
@@ -60,7 +60,7 @@ private:
     const double* springs_ = nullptr;
 };
 
-/// What is known of a solution besides the motion.
+/// A solution has a motion, and besides it these numbers.
 struct SolutionSummary {
     int iterations = 0;
     double residual = 0;

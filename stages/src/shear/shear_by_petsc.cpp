@@ -9,7 +9,7 @@ namespace coagula::stages {
 
 namespace {
 
-/// What follows "PETSc " at the start of a line of what the program prints.
+/// The program prints a line "PETSc 3.18.5, 4 processes": returns what follows the name.
 std::string version_in(const std::filesystem::path& output) {
     const std::string name = "PETSc ";
     std::ifstream file(output);
