@@ -80,7 +80,7 @@ private:
 /// Each load looks along the directions of all.
 class SharedDirections {
 public:
-    void begin(const Loads& /*r*/, Loads& d, const Columns& open) { d = d * open.cast<double>().matrix().asDiagonal(); }
+    static void begin(const Loads& /*r*/, Loads& d, const Columns& open) { d = d * open.cast<double>().matrix().asDiagonal(); }
 
     /// Moves x to the least energy in the space of all directions d, q = K d. Returns what each load gains.
     Row advance(Loads& x, Loads& r, const Loads& d, const Loads& q, const Columns& open) {
