@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of measures: what can be measured of a packing, with the options, results and words of each. The program, its help
-// text, the file and the JSON object follow from it. CONTRIBUTING.md says how a measure is added.
+// text, the file and the JSON object follow from it. docs/development/architecture.md says how a measure is added.
 #pragma once
 
 #include <coagula/characterize/measure_input.hpp>
